@@ -1,0 +1,2 @@
+//! The `mesoscope` program.
+fn main() {}

@@ -1,0 +1,66 @@
+//! Pair forces of dissipative particle dynamics, doi:10.1063/1.474784.
+
+use super::Species;
+use crate::scene::DpdInteraction;
+
+/// Soft repulsion, friction and noise between all pairs of species.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairForce {
+    /// Range of the force.
+    pub cutoff: f64,
+    /// Exponent of the friction weight ω = (1 - r/rc)^exponent.
+    pub weight_exponent: f64,
+    species: usize,
+    repulsion: Vec<f64>,
+    friction: Vec<f64>,
+}
+
+impl PairForce {
+    pub(super) fn new(interaction: &DpdInteraction, species: &[Species]) -> Self {
+        let count = species.len();
+        let mut force = Self {
+            cutoff: interaction.cutoff,
+            weight_exponent: interaction.weight_exponent,
+            species: count,
+            repulsion: vec![interaction.repulsion; count * count],
+            friction: vec![interaction.friction; count * count],
+        };
+        for pair in &interaction.pairs {
+            let index = |name: &str| species.iter().position(|species| species.name == name);
+            let (Some(a), Some(b)) = (index(&pair.between[0]), index(&pair.between[1])) else { continue };
+            for entry in [a * count + b, b * count + a] {
+                if let Some(repulsion) = pair.repulsion {
+                    force.repulsion[entry] = repulsion;
+                }
+                if let Some(friction) = pair.friction {
+                    force.friction[entry] = friction;
+                }
+            }
+        }
+        force
+    }
+
+    /// Repulsion a between two species.
+    #[must_use]
+    pub fn repulsion(&self, a: usize, b: usize) -> f64 {
+        self.repulsion[a * self.species + b]
+    }
+
+    /// Friction γ between two species.
+    #[must_use]
+    pub fn friction(&self, a: usize, b: usize) -> f64 {
+        self.friction[a * self.species + b]
+    }
+
+    /// The largest magnitude of any repulsion.
+    #[must_use]
+    pub fn largest_repulsion(&self) -> f64 {
+        self.repulsion.iter().fold(0.0, |most: f64, a| most.max(a.abs()))
+    }
+
+    /// The largest friction.
+    #[must_use]
+    pub fn largest_friction(&self) -> f64 {
+        self.friction.iter().fold(0.0, |most: f64, a| most.max(*a))
+    }
+}

@@ -1,0 +1,103 @@
+//! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
+
+mod dpd;
+
+pub use dpd::PairForce;
+
+use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
+use crate::state::Units;
+
+/// A species of particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Species {
+    /// The name in the scene.
+    pub name: String,
+    /// Mass of one particle.
+    pub mass: f64,
+    /// Number of particles.
+    pub count: u64,
+}
+
+/// Everything the equations of motion need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// Scales of the integer state.
+    pub units: Units,
+    /// Species in order of first appearance in the scene.
+    pub species: Vec<Species>,
+    /// Heat bath temperature kT.
+    pub temperature: f64,
+    /// Time step.
+    pub time_step: f64,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Random number generator.
+    pub generator: Generator,
+    /// Distribution of the pair noise.
+    pub distribution: Distribution,
+    /// Integrator.
+    pub integrator: Integrator,
+    /// The pair force, if the scene has one.
+    pub pair_force: Option<PairForce>,
+}
+
+impl Model {
+    /// The model of a checked scene.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let mut species: Vec<Species> = Vec::new();
+        for group in &scene.particles {
+            let count = group.resolved_count(scene.space.volume());
+            match species.iter_mut().find(|known| known.name == group.species) {
+                Some(known) => known.count += count,
+                None => species.push(Species { name: group.species.clone(), mass: group.mass, count }),
+            }
+        }
+        let pair_force = scene.interactions.iter().map(|interaction| match interaction {
+            Interaction::Dpd(dpd) => PairForce::new(dpd, &species),
+        });
+        let pair_force = pair_force.last();
+        let mut lengths = [1.0; 3];
+        lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
+        let momentum = momentum_unit(scene, &species, pair_force.as_ref());
+        Self {
+            units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
+            species,
+            temperature: scene.temperature,
+            time_step: scene.time.step,
+            seed: scene.seed,
+            generator: scene.noise.generator,
+            distribution: scene.noise.distribution,
+            integrator: scene.integrator.clone(),
+            pair_force,
+        }
+    }
+
+    /// Number of particles.
+    #[must_use]
+    pub fn particle_count(&self) -> u64 {
+        self.species.iter().map(|species| species.count).sum()
+    }
+}
+
+/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, or, in a scene without heat,
+/// that of its fastest listed particle or of a particle that has rolled down the repulsion.
+fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>) -> f64 {
+    let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
+    let mut scale = (heaviest * scene.temperature).sqrt();
+    for group in &scene.particles {
+        if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
+            let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+            scale = scale.max(group.mass * fastest / 8.0);
+        }
+    }
+    if scale == 0.0
+        && let Some(force) = pair_force
+    {
+        scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
+    }
+    if scale == 0.0 {
+        scale = 1.0;
+    }
+    (scale.log2().ceil() - 24.0).exp2()
+}

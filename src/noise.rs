@@ -1,0 +1,99 @@
+//! Counter-based random words: the same words on the host as in the shaders.
+//!
+//! A word depends on (seed, stream, step, two counters) and on nothing else, so it does not matter who draws it, when,
+//! or how often. The counters of a pair are its smaller and its larger particle id.
+
+/// One stream number per use of random numbers; two uses never share one.
+pub mod stream {
+    /// Noise of a pair in DPD.
+    pub const PAIR: u32 = 1;
+    /// Initial positions.
+    pub const POSITION: u32 = 2;
+    /// Initial velocities.
+    pub const VELOCITY: u32 = 3;
+}
+
+/// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.
+#[must_use]
+pub fn pcg4d(words: [u32; 4]) -> [u32; 4] {
+    let [mut x, mut y, mut z, mut w] = words.map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    x = x.wrapping_add(y.wrapping_mul(w));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    w = w.wrapping_add(y.wrapping_mul(z));
+    [x, y, z, w] = [x, y, z, w].map(|word| word ^ (word >> 16));
+    x = x.wrapping_add(y.wrapping_mul(w));
+    y = y.wrapping_add(z.wrapping_mul(x));
+    z = z.wrapping_add(x.wrapping_mul(y));
+    w = w.wrapping_add(y.wrapping_mul(z));
+    [x, y, z, w]
+}
+
+/// Threefry2x32 with 20 rounds: Salmon et al. 2011, doi:10.1145/2063384.2063405.
+#[must_use]
+pub fn threefry2x32(counter: [u32; 2], key: [u32; 2]) -> [u32; 2] {
+    const ROTATIONS: [u32; 8] = [13, 15, 26, 6, 17, 29, 16, 24];
+    let keys = [key[0], key[1], 0x1BD1_1BDA ^ key[0] ^ key[1]];
+    let mut x = [counter[0].wrapping_add(keys[0]), counter[1].wrapping_add(keys[1])];
+    for round in 0..20 {
+        x[0] = x[0].wrapping_add(x[1]);
+        x[1] = x[1].rotate_left(ROTATIONS[round % 8]) ^ x[0];
+        if round % 4 == 3 {
+            let injection = round / 4 + 1;
+            x[0] = x[0].wrapping_add(keys[injection % 3]);
+            x[1] = x[1].wrapping_add(keys[(injection + 1) % 3]).wrapping_add(injection as u32);
+        }
+    }
+    x
+}
+
+/// The key of one stream at one step, from which all words of that step are drawn.
+#[must_use]
+pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
+    let seed_key = threefry2x32([stream, 0], [seed as u32, (seed >> 32) as u32]);
+    threefry2x32([step as u32, (step >> 32) as u32], seed_key)
+}
+
+/// The two random words of a pair of counters under a step's key.
+#[must_use]
+pub fn words(generator: crate::scene::Generator, key: [u32; 2], counters: [u32; 2]) -> [u32; 2] {
+    match generator {
+        crate::scene::Generator::Pcg4d => {
+            let hash = pcg4d([counters[0], counters[1], key[0], key[1]]);
+            [hash[3], hash[2]]
+        }
+        crate::scene::Generator::Threefry2x32 => threefry2x32(counters, key),
+    }
+}
+
+/// A word as a number in (-½, ½): its top 24 bits, centred so that the mean is exactly zero.
+#[must_use]
+pub fn centred_uniform(word: u32) -> f64 {
+    (f64::from((word as i32) >> 8) + 0.5) / 16_777_216.0
+}
+
+/// Two words as one standard Gaussian number, by Box and Muller's transform.
+#[must_use]
+pub fn gaussian(words: [u32; 2]) -> f64 {
+    let radius_uniform = centred_uniform(words[0]) + 0.5;
+    let angle = std::f64::consts::TAU * centred_uniform(words[1]);
+    (-2.0 * radius_uniform.ln()).sqrt() * angle.cos()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Known answers of Random123's `kat_vectors`.
+    #[test]
+    fn threefry_gives_the_published_answers() {
+        assert_eq!(threefry2x32([0, 0], [0, 0]), [0x6b20_0159, 0x99ba_4efe]);
+        assert_eq!(threefry2x32([0x243f_6a88, 0x85a3_08d3], [0x1319_8a2e, 0x0370_7344]), [0xc492_3a9c, 0x483d_f7a0]);
+    }
+
+    #[test]
+    fn seed_and_step_are_separate_words() {
+        assert_ne!(step_key(1, 1, 2), step_key(2, 1, 1));
+        assert_ne!(step_key(1, 1, 1 << 32), step_key(1, 1, 0));
+    }
+}

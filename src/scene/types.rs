@@ -1,0 +1,451 @@
+//! The typed form of a scene file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A simulation scene: everything a run needs to know.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Where an editor finds the schema of this file; ignored by the program.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// Version of the scene format.
+    #[serde(default = "current_version")]
+    #[schemars(range(min = 1, max = 1))]
+    pub version: u32,
+    /// One line that names the scene; it heads every plot.
+    #[schemars(length(min = 1))]
+    pub title: String,
+    /// What the scene is for and what to expect of it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    /// Seed of every random number in the run.
+    #[serde(default)]
+    pub seed: u64,
+    /// The simulation box.
+    pub space: Space,
+    /// The clock.
+    pub time: Time,
+    /// Temperature kT of the heat bath, in units of energy. Zero leaves the noise out.
+    #[schemars(range(min = 0.0))]
+    pub temperature: f64,
+    /// How the equations of motion are integrated.
+    #[serde(default)]
+    pub integrator: Integrator,
+    /// How random numbers are made.
+    #[serde(default)]
+    pub noise: Noise,
+    /// Groups of particles.
+    pub particles: Vec<ParticleGroup>,
+    /// Forces between particles.
+    #[serde(default)]
+    pub interactions: Vec<Interaction>,
+    /// What the run writes.
+    #[serde(default)]
+    pub output: Output,
+}
+
+fn current_version() -> u32 {
+    1
+}
+
+/// An orthogonal periodic box.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Space {
+    /// Edge lengths; two of them make a two-dimensional scene, three a three-dimensional one.
+    #[serde(rename = "box")]
+    #[schemars(length(min = 2, max = 3), inner(extend("exclusiveMinimum" = 0)))]
+    pub lengths: Vec<f64>,
+}
+
+/// Time step and duration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Time step.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub step: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Steps at the start that averages and correlations leave out.
+    #[serde(default)]
+    pub equilibration: u64,
+}
+
+/// How the equations of motion are integrated.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Integrator {
+    /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
+    /// traversal a step. The default: both temperatures right at the largest step per unit cost.
+    Splitting {},
+    /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
+    GrootWarren {
+        /// Weight λ of the predicted velocity that enters the friction.
+        #[serde(default = "half")]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        lambda: f64,
+    },
+    /// The Markov limit (18)-(21) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8: friction from the discrete
+    /// gradient of the coupling function.
+    CotterReich {},
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+impl Default for Integrator {
+    fn default() -> Self {
+        Self::Splitting {}
+    }
+}
+
+/// How random numbers are made.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Noise {
+    /// The counter-based generator.
+    #[serde(default)]
+    pub generator: Generator,
+    /// The distribution of the noise on a pair.
+    #[serde(default)]
+    pub distribution: Distribution,
+}
+
+/// A counter-based random number generator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+pub enum Generator {
+    /// Word w of pcg4d: the fast path (default).
+    #[default]
+    #[serde(rename = "pcg4d")]
+    Pcg4d,
+    /// Threefry2x32 with 20 rounds: the conservative choice.
+    #[serde(rename = "threefry2x32-20")]
+    Threefry2x32,
+}
+
+/// The distribution of a pair's noise; both have zero mean and unit variance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Distribution {
+    /// Uniform on (-√3, √3): enough for a sum over many pairs and steps, and the cheapest (default).
+    #[default]
+    Uniform,
+    /// Gaussian, by Box and Muller's transform.
+    Gaussian,
+}
+
+/// A group of particles of one species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParticleGroup {
+    /// Name of the species; groups of the same species share their mass.
+    #[schemars(length(min = 1))]
+    pub species: String,
+    /// Number of particles; give this or `number_density`, or list `placement.positions`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u64>,
+    /// Particles per unit volume (area in two dimensions); the count is rounded to the nearest integer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub number_density: Option<f64>,
+    /// Mass of one particle.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub mass: f64,
+    /// Where the particles start.
+    #[serde(default)]
+    pub placement: Placement,
+    /// How fast they start.
+    #[serde(default)]
+    pub velocities: Velocities,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Where the particles of a group start.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Placement {
+    /// Independent uniform positions.
+    #[default]
+    #[serde(rename_all = "kebab-case")]
+    Random,
+    /// The smallest nearly cubic (square) lattice that holds the group, filled evenly.
+    Lattice,
+    /// Positions listed one by one; each is taken modulo the box.
+    Listed {
+        /// One position per particle.
+        positions: Vec<Vec<f64>>,
+    },
+}
+
+/// How fast the particles of a group start.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Velocities {
+    /// Maxwell's distribution at the temperature of the scene; the group's net momentum is removed to the last bit.
+    #[default]
+    Thermal,
+    /// At rest.
+    Rest,
+    /// Velocities listed one by one.
+    Listed {
+        /// One velocity per particle.
+        velocities: Vec<Vec<f64>>,
+    },
+}
+
+/// A force between particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Interaction {
+    /// Dissipative particle dynamics: soft repulsion a(1 - r/rc), friction and noise along the line of centres.
+    Dpd(DpdInteraction),
+}
+
+/// Parameters of a DPD interaction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DpdInteraction {
+    /// Range rc of all pair forces.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cutoff: f64,
+    /// Exponent of the friction weight ω = (1 - r/rc)^exponent; 2 is the standard choice.
+    #[serde(default = "two")]
+    #[schemars(range(min = 0.0))]
+    pub weight_exponent: f64,
+    /// Repulsion a of every pair of species not listed in `pairs`; all zero leaves the conservative force out.
+    #[serde(default)]
+    pub repulsion: f64,
+    /// Friction γ of every pair of species not listed in `pairs`; the noise follows from σ² = 2γkT.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// Pairs of species with coefficients of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<DpdPair>,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+/// Coefficients of one pair of species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DpdPair {
+    /// The two species; the same name twice for a species with itself.
+    pub between: [String; 2],
+    /// Repulsion a; left out, that of the interaction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repulsion: Option<f64>,
+    /// Friction γ; left out, that of the interaction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+}
+
+/// What the run measures and writes. Everything optional is off, and free, unless it is asked for.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// The table of energies.
+    #[serde(default)]
+    pub energies: Energies,
+    /// The look of the plots.
+    #[serde(default)]
+    pub plot: PlotStyle,
+    /// Pictures of the particles.
+    #[serde(default)]
+    pub snapshot: Snapshot,
+    /// Checkpoints to resume from.
+    #[serde(default)]
+    pub checkpoint: Checkpoint,
+    /// Positions and velocities for other tools.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trajectory: Option<Trajectory>,
+    /// The radial distribution function g(r).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_distribution: Option<RadialDistribution>,
+    /// Mean squared displacement and velocity autocorrelation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diffusion: Option<Diffusion>,
+    /// Shear viscosity from the decay of transverse momentum waves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscosity: Option<Viscosity>,
+}
+
+/// The table of energies.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Energies {
+    /// Steps between two rows.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+}
+
+impl Default for Energies {
+    fn default() -> Self {
+        Self { every: 20 }
+    }
+}
+
+/// The look of the plots.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlotStyle {
+    /// Width of a plot in pixels.
+    #[schemars(range(min = 320, max = 8192))]
+    pub width: u32,
+    /// Height of a plot in pixels.
+    #[schemars(range(min = 240, max = 8192))]
+    pub height: u32,
+    /// Factor on every type size and line width.
+    #[schemars(range(min = 0.25, max = 8.0))]
+    pub scale: f64,
+    /// Light or dark.
+    pub theme: Theme,
+}
+
+impl Default for PlotStyle {
+    fn default() -> Self {
+        Self { width: 1600, height: 1200, scale: 1.0, theme: Theme::Light }
+    }
+}
+
+/// Colours of paper and ink.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Theme {
+    /// Dark ink on white (default).
+    #[default]
+    Light,
+    /// Light ink on near-black.
+    Dark,
+}
+
+/// Pictures of the particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Snapshot {
+    /// Steps between two numbered pictures `snapshot-<number>.png`; zero writes only `snapshot.png` at the end.
+    pub every: u64,
+    /// Width of a picture in pixels.
+    #[schemars(range(min = 64, max = 8192))]
+    pub width: u32,
+    /// Height of a picture in pixels.
+    #[schemars(range(min = 64, max = 8192))]
+    pub height: u32,
+    /// Radius of the drawn discs in units of length; left out, a third of the cutoff.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: Option<f64>,
+    /// What the colour of a particle shows.
+    pub color: SnapshotColor,
+}
+
+impl Default for Snapshot {
+    fn default() -> Self {
+        Self { every: 0, width: 1200, height: 1200, radius: None, color: SnapshotColor::Species }
+    }
+}
+
+/// What the colour of a particle shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SnapshotColor {
+    /// The species (default).
+    #[default]
+    Species,
+    /// The speed, on a perceptually uniform scale.
+    Speed,
+}
+
+/// Checkpoints to resume from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Checkpoint {
+    /// Steps between two checkpoints; each replaces the last. The end of the run is always one.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+}
+
+impl Default for Checkpoint {
+    fn default() -> Self {
+        Self { every: 10_000 }
+    }
+}
+
+/// Positions and velocities for other tools.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Trajectory {
+    /// Steps between two frames.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// The file format.
+    #[serde(default)]
+    pub format: TrajectoryFormat,
+}
+
+/// The format of a trajectory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TrajectoryFormat {
+    /// HOOMD's binary GSD, `trajectory.gsd` (default).
+    #[default]
+    Gsd,
+    /// Extended XYZ text, `trajectory.xyz`.
+    ExtendedXyz,
+}
+
+/// The radial distribution function g(r).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RadialDistribution {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// Largest distance, at most half the shortest box edge.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub range: f64,
+    /// Number of bins.
+    #[serde(default = "hundred_bins")]
+    #[schemars(range(min = 1, max = 4096))]
+    pub bins: u32,
+}
+
+fn hundred_bins() -> u32 {
+    100
+}
+
+/// Mean squared displacement and velocity autocorrelation.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Diffusion {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// Samples in one window; each window starts from a new origin and the windows are averaged.
+    #[schemars(range(min = 2, max = 1_000_000))]
+    pub window: u64,
+}
+
+/// Shear viscosity from the decay of the longest transverse momentum waves.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Viscosity {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// Largest lag of the correlation, in samples.
+    #[schemars(range(min = 8, max = 100_000))]
+    pub window: u64,
+}
