@@ -56,7 +56,7 @@ fn current_version() -> u32 {
 pub struct Space {
     /// Edge lengths; two of them make a two-dimensional scene, three a three-dimensional one.
     #[serde(rename = "box")]
-    #[schemars(length(min = 2, max = 3), inner(extend("exclusiveMinimum" = 0)))]
+    #[schemars(length(min = 2, max = 3), extend("items" = serde_json::json!({"type": "number", "exclusiveMinimum": 0})))]
     pub lengths: Vec<f64>,
 }
 
