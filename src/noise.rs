@@ -47,11 +47,16 @@ pub fn threefry2x32(counter: [u32; 2], key: [u32; 2]) -> [u32; 2] {
     x
 }
 
+/// The key of one stream over all steps.
+#[must_use]
+pub fn seed_key(seed: u64, stream: u32) -> [u32; 2] {
+    threefry2x32([stream, 0], [seed as u32, (seed >> 32) as u32])
+}
+
 /// The key of one stream at one step, from which all words of that step are drawn.
 #[must_use]
 pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
-    let seed_key = threefry2x32([stream, 0], [seed as u32, (seed >> 32) as u32]);
-    threefry2x32([step as u32, (step >> 32) as u32], seed_key)
+    threefry2x32([step as u32, (step >> 32) as u32], seed_key(seed, stream))
 }
 
 /// The two random words of a pair of counters under a step's key.

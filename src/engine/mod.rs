@@ -1,1 +1,380 @@
-//! Placeholder.
+//! Executes a plan: owns buffers and pipelines, records many steps a submission, and reads results back while the next
+//! batch runs. Knows no physics.
+
+mod error;
+mod pipeline;
+mod readback;
+
+pub use error::EngineError;
+
+use std::collections::{HashMap, VecDeque};
+
+use crate::gpu::Gpu;
+use crate::plan::{Contents, Plan};
+use crate::state::State;
+use pipeline::Stage;
+use readback::Readback;
+
+/// Words of the control buffer, as `shaders/common/control.wgsl` declares them.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Control {
+    /// Current step, low and high word.
+    pub step: [u32; 2],
+    /// The step that the next sort begins.
+    pub next: [u32; 2],
+    /// Key of this step's random words.
+    pub key: [u32; 2],
+    /// Key of the whole stream.
+    pub seed_key: [u32; 2],
+    /// 0 at step 0; else 1.
+    pub closing: i32,
+    /// Sorts since the upload.
+    pub elapsed: u32,
+    /// Failure bits.
+    pub failures: u32,
+    /// `elapsed` at the first failure.
+    pub failure_elapsed: u32,
+}
+
+/// One row of a sampler.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sample {
+    /// Index of the sampler in [`Plan::samplers`].
+    pub sampler: usize,
+    /// The step it belongs to.
+    pub step: u64,
+    /// The sums, in the units that the plan states.
+    pub sums: Vec<i64>,
+}
+
+/// Where the particles are within a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Advanced, in no particular order: what a checkpoint holds.
+    Advanced,
+    /// Sorted into cells; `reported` once the particles by id are in place.
+    Sorted { reported: bool },
+}
+
+/// A plan on a device, with its state.
+pub struct Engine<'a> {
+    gpu: &'a Gpu,
+    plan: Plan,
+    buffers: HashMap<&'static str, wgpu::Buffer>,
+    stages: Vec<Stage>,
+    step: u64,
+    first_step: u64,
+    phase: Phase,
+    /// Rows that each sampler's buffer will hold once everything submitted has run.
+    pending_rows: Vec<u64>,
+    in_flight: VecDeque<Readback>,
+    collected: Vec<Sample>,
+}
+
+/// Batches that may wait on the device while the host goes on.
+const BATCHES_IN_FLIGHT: usize = 2;
+
+impl<'a> Engine<'a> {
+    /// Creates the buffers and pipelines of a plan and uploads a state.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device has too little memory, a shader is not valid or the state does not fit.
+    pub fn new(gpu: &'a Gpu, plan: Plan, state: &State) -> Result<Self, EngineError> {
+        let mut buffers = HashMap::new();
+        for buffer in &plan.buffers {
+            let doing = format!("creating buffer `{}`", buffer.name);
+            let made = gpu.scoped(&doing, buffer.bytes, || {
+                let made = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some(buffer.name),
+                    size: buffer.bytes,
+                    usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                });
+                if let Contents::Bytes(bytes) = &buffer.contents {
+                    gpu.queue.write_buffer(&made, 0, bytes);
+                }
+                made
+            })?;
+            buffers.insert(buffer.name, made);
+        }
+        let stages = plan
+            .kernels
+            .iter()
+            .map(|kernel| pipeline::stage(gpu, &plan, kernel, &buffers))
+            .collect::<Result<Vec<_>, _>>()?;
+        let pending_rows = vec![0; plan.samplers.len()];
+        let mut engine = Self {
+            gpu,
+            plan,
+            buffers,
+            stages,
+            step: 0,
+            first_step: 0,
+            phase: Phase::Advanced,
+            pending_rows,
+            in_flight: VecDeque::new(),
+            collected: Vec::new(),
+        };
+        engine.upload(state)?;
+        Ok(engine)
+    }
+
+    /// The plan being executed.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The current step.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Replaces the state: positions, momenta and step.
+    ///
+    /// # Errors
+    /// [`EngineError::State`] if the number of particles is not that of the plan.
+    pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        let refuse = |reason: String| Err(EngineError::State { reason });
+        if state.len() as u64 != self.plan.particles {
+            return refuse(format!("{} particles, where the plan has {}", state.len(), self.plan.particles));
+        }
+        if self.plan.predicted && state.step > 0 && state.predicted.len() != state.len() {
+            return refuse("predicted momenta are missing".to_owned());
+        }
+        let width = if self.plan.predicted { 12 } else { 8 };
+        let mut words: Vec<u32> = Vec::with_capacity(width * state.len());
+        for id in 0..state.len() {
+            words.extend(state.positions[id]);
+            words.push(id as u32);
+            words.extend(state.momenta[id].map(|unit| unit as u32));
+            words.push(state.species[id]);
+            if self.plan.predicted {
+                let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
+                words.extend(predicted.map(|unit| unit as u32));
+                words.push(state.species[id]);
+            }
+        }
+        let step = [state.step as u32, (state.step >> 32) as u32];
+        let control = Control {
+            step,
+            next: step,
+            seed_key: self.plan.seed_key,
+            failure_elapsed: u32::MAX,
+            ..Control::default()
+        };
+        self.gpu.queue.write_buffer(&self.buffers["particles"], 0, bytemuck::cast_slice(&words));
+        self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.clear_buffer(&self.buffers["counts"], 0, None);
+        self.record(&mut encoder, &self.plan.prepare.clone());
+        self.gpu.queue.submit([encoder.finish()]);
+        self.step = state.step;
+        self.first_step = state.step;
+        self.phase = Phase::Advanced;
+        Ok(())
+    }
+
+    /// Advances by `steps`, taking every sample that falls due at the start of each step, in submissions of at most
+    /// `batch` steps. Returns before the device is done; see [`Self::finish`].
+    ///
+    /// # Errors
+    /// [`EngineError`] as soon as a finished batch shows a failure.
+    pub fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
+        let mut left = steps;
+        while left > 0 {
+            let now = left.min(batch.max(1));
+            let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                let mut done = 0;
+                while done < now && self.room_for_samples() {
+                    self.record_sample(&mut pass);
+                    for &kernel in &self.plan.advance {
+                        self.stages[kernel].dispatch(&mut pass);
+                    }
+                    self.phase = Phase::Advanced;
+                    self.step += 1;
+                    done += 1;
+                }
+                left -= done;
+            }
+            self.submit(encoder)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the samples due at the current step without advancing, waits for the device, and returns all samples
+    /// collected since the last call, in order.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device failed or the run became unstable.
+    pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if !matches!(self.phase, Phase::Sorted { reported: true }) {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            self.record_sample(&mut pass);
+        }
+        self.submit(encoder)?;
+        self.wait_all()?;
+        Ok(std::mem::take(&mut self.collected))
+    }
+
+    /// Samples of the batches that have finished so far, in order.
+    pub fn take_samples(&mut self) -> Vec<Sample> {
+        std::mem::take(&mut self.collected)
+    }
+
+    /// The state to continue from, ordered by id. Only right after [`Self::advance`] or [`Self::upload`]: before the
+    /// samples of the current step are taken.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device failed, or if the step has been reported already.
+    pub fn state(&mut self) -> Result<State, EngineError> {
+        if self.phase != Phase::Advanced {
+            return Err(EngineError::State { reason: "the current step has been reported already".to_owned() });
+        }
+        self.download()
+    }
+
+    /// The particles at the current step, ordered by id, with full-step momenta: what a snapshot shows.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device failed or the run became unstable.
+    pub fn reported(&mut self) -> Result<State, EngineError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            self.record_sample(&mut pass);
+            self.record_report(&mut pass);
+        }
+        self.submit(encoder)?;
+        let mut state = self.download()?;
+        state.predicted.clear();
+        Ok(state)
+    }
+
+    fn download(&mut self) -> Result<State, EngineError> {
+        self.wait_all()?;
+        let bytes = readback::read(self.gpu, &self.buffers["particles"])?;
+        let words: &[u32] = bytemuck::cast_slice(&bytes);
+        let count = self.plan.particles as usize;
+        let width = if self.plan.predicted { 12 } else { 8 };
+        let mut state = State {
+            step: self.step,
+            positions: vec![[0; 3]; count],
+            momenta: vec![[0; 3]; count],
+            species: vec![0; count],
+            predicted: if self.plan.predicted { vec![[0; 3]; count] } else { Vec::new() },
+        };
+        for particle in words.chunks_exact(width).take(count) {
+            let id = particle[3] as usize;
+            if id >= count {
+                return Err(EngineError::State { reason: format!("a particle came back with number {id}") });
+            }
+            state.positions[id] = [particle[0], particle[1], particle[2]];
+            state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
+            state.species[id] = particle[7];
+            if self.plan.predicted {
+                state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
+            }
+        }
+        if self.plan.units.dimension == 2 {
+            state.positions.iter_mut().for_each(|position| position[2] = 0);
+        }
+        Ok(state)
+    }
+
+    fn record(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        for &kernel in kernels {
+            self.stages[kernel].dispatch(&mut pass);
+        }
+    }
+
+    /// Sorts, if that is still to be done, and takes whatever samples are due.
+    fn record_sample(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        if self.phase == Phase::Advanced {
+            for kernels in [&self.plan.sort, &self.plan.before_report] {
+                for &kernel in kernels {
+                    self.stages[kernel].dispatch(pass);
+                }
+            }
+            self.phase = Phase::Sorted { reported: false };
+        } else {
+            // Already sorted: the samples of this step have been taken.
+            return;
+        }
+        let due: Vec<usize> = (0..self.plan.samplers.len())
+            .filter(|&sampler| self.step.is_multiple_of(self.plan.samplers[sampler].every))
+            .collect();
+        if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
+            self.record_report(pass);
+        }
+        for sampler in due {
+            for &kernel in &self.plan.samplers[sampler].kernels {
+                self.stages[kernel].dispatch(pass);
+            }
+            self.pending_rows[sampler] += 1;
+        }
+    }
+
+    fn record_report(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        if self.phase == (Phase::Sorted { reported: false }) {
+            for &kernel in &self.plan.report {
+                self.stages[kernel].dispatch(pass);
+            }
+            self.phase = Phase::Sorted { reported: true };
+        }
+    }
+
+    fn room_for_samples(&self) -> bool {
+        self.plan.samplers.iter().zip(&self.pending_rows).all(|(sampler, rows)| rows + 1 < sampler.capacity)
+    }
+
+    /// Submits a batch with the readback of its samples, and collects older batches if too many wait.
+    fn submit(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<(), EngineError> {
+        let readback = Readback::record(self.gpu, &mut encoder, &self.plan, &self.buffers, &self.pending_rows)?;
+        self.pending_rows.fill(0);
+        let submission = self.gpu.queue.submit([encoder.finish()]);
+        self.in_flight.push_back(readback.submitted(submission));
+        while self.in_flight.len() > BATCHES_IN_FLIGHT {
+            self.collect_oldest()?;
+        }
+        Ok(())
+    }
+
+    fn wait_all(&mut self) -> Result<(), EngineError> {
+        while !self.in_flight.is_empty() {
+            self.collect_oldest()?;
+        }
+        Ok(())
+    }
+
+    fn collect_oldest(&mut self) -> Result<(), EngineError> {
+        let Some(readback) = self.in_flight.pop_front() else { return Ok(()) };
+        let (control, samples) = readback.collect(self.gpu, &self.plan)?;
+        self.check(&control)?;
+        self.collected.extend(samples);
+        Ok(())
+    }
+
+    fn check(&self, control: &Control) -> Result<(), EngineError> {
+        if control.failures == 0 {
+            return Ok(());
+        }
+        let step = self.first_step + u64::from(control.failure_elapsed.max(1) - 1);
+        if control.failures & 8 != 0 {
+            return Err(EngineError::Crowded { step });
+        }
+        let quantity = match control.failures {
+            bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number",
+            bits if bits & 4 != 0 => "a particle moves further than the cutoff in one step",
+            _ => "a momentum is more than 64 times its natural scale",
+        };
+        let suggested_step = crate::engine::error::round_down(0.25 * self.plan.time_step);
+        Err(EngineError::Unstable { step, quantity, suggested_step })
+    }
+}

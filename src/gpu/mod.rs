@@ -1,1 +1,13 @@
-//! Placeholder.
+//! The graphics adapter: choosing one, opening it with the limits a plan needs, and linking shaders.
+
+mod adapter;
+mod device;
+mod error;
+mod shader;
+mod shader_library;
+
+pub use adapter::{AdapterChoice, AdapterDescription, list_adapters};
+pub use device::{Gpu, Requirements};
+pub use error::GpuError;
+pub use shader::{Binding, LinkedShader, link};
+pub use shader_library::{module_names, module_text};

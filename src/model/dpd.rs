@@ -40,6 +40,13 @@ impl PairForce {
         force
     }
 
+    /// No force: nothing reaches further than half the shortest edge.
+    pub(crate) fn none(units: &crate::state::Units, species: usize) -> Self {
+        let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
+        let zeros = vec![0.0; species * species];
+        Self { cutoff: 0.5 * shortest, weight_exponent: 2.0, species, repulsion: zeros.clone(), friction: zeros }
+    }
+
     /// Repulsion a between two species.
     #[must_use]
     pub fn repulsion(&self, a: usize, b: usize) -> f64 {

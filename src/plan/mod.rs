@@ -1,1 +1,160 @@
-//! Placeholder.
+//! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
+
+mod grid;
+mod pair;
+
+pub use grid::Grid;
+pub use pair::plan;
+
+use crate::state::Units;
+
+/// What the plan may use of the adapter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Hardware {
+    /// Lanes of every subgroup, if fixed and usable.
+    pub subgroup_size: Option<u32>,
+}
+
+/// Choices that change how a scene is computed but not a bit of its results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// How pairs are visited; left to the hardware if `None`.
+    pub traversal: Option<Traversal>,
+    /// Workgroups that share a row of cells; chosen from the sizes if `None`.
+    pub segments: Option<u32>,
+    /// Room for copies of particles in the frames of rows; twice the expected number if `None`.
+    pub copies: Option<u64>,
+    /// Prefix sum over cells in several levels even where one workgroup would do.
+    pub many_level_scan: bool,
+}
+
+/// How pairs are visited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Traversal {
+    /// One invocation a particle; for any adapter.
+    Rows,
+    /// Eight particles a subgroup of eight lanes.
+    Clusters,
+    /// No pairs at all: the scene has no pair force.
+    Alone,
+}
+
+/// A kernel: the modules it is linked from, its constants and its size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kernel {
+    /// What it does, in a word or two.
+    pub name: &'static str,
+    /// Shader modules, as `folder/name`.
+    pub modules: Vec<&'static str>,
+    /// Number of workgroups.
+    pub workgroups: u32,
+    /// Constants of this kernel only; all others come from [`Plan::constants`].
+    pub constants: Vec<(&'static str, f64)>,
+    /// Variables whose buffer has another name: `(variable, buffer)`.
+    pub renamed: Vec<(&'static str, &'static str)>,
+}
+
+/// What a buffer holds before the first step.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Contents {
+    /// Zeros.
+    Zeros,
+    /// These bytes.
+    Bytes(Vec<u8>),
+}
+
+/// A buffer on the device; kernels find it by its name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Buffer {
+    /// The name, which is also that of the shader variable.
+    pub name: &'static str,
+    /// What it is for.
+    pub purpose: &'static str,
+    /// Size in bytes.
+    pub bytes: u64,
+    /// Initial contents.
+    pub contents: Contents,
+}
+
+/// Kernels that turn the particles of a report into one row of sums.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampler {
+    /// What is sampled.
+    pub name: &'static str,
+    /// Steps between two samples.
+    pub every: u64,
+    /// Kernels in order, as indices into [`Plan::kernels`].
+    pub kernels: Vec<usize>,
+    /// Name of the buffer that receives the rows.
+    pub samples: &'static str,
+    /// Number of sums in a row.
+    pub quantities: usize,
+    /// Rows the buffer holds.
+    pub capacity: u64,
+    /// Whether the kernels read the particles that the report leaves in the order of their ids.
+    pub needs_report: bool,
+}
+
+/// Values of the integer units in which the observables are summed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quanta {
+    /// Energy.
+    pub energy: f64,
+    /// Square of a force.
+    pub force_squared: f64,
+    /// Second derivative of the potential.
+    pub curvature: f64,
+}
+
+/// Everything a run does on the device.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Number of particles.
+    pub particles: u64,
+    /// Scales of the integer state.
+    pub units: Units,
+    /// The cells.
+    pub grid: Grid,
+    /// Units of the observables' sums.
+    pub quanta: Quanta,
+    /// Whether particles carry predicted momenta.
+    pub predicted: bool,
+    /// Key of the noise stream.
+    pub seed_key: [u32; 2],
+    /// Time step.
+    pub time_step: f64,
+    /// All kernels.
+    pub kernels: Vec<Kernel>,
+    /// Constants by name, for all kernels that declare them.
+    pub constants: Vec<(&'static str, f64)>,
+    /// All buffers.
+    pub buffers: Vec<Buffer>,
+    /// Kernels run once after an upload.
+    pub prepare: Vec<usize>,
+    /// Kernels that begin a step and order the particles.
+    pub sort: Vec<usize>,
+    /// Kernels between the ordering and the report.
+    pub before_report: Vec<usize>,
+    /// The kernel that reports: sums of observables, and particles in order of id.
+    pub report: Vec<usize>,
+    /// Kernels that finish a step.
+    pub advance: Vec<usize>,
+    /// The samplers; the first is that of the observables.
+    pub samplers: Vec<Sampler>,
+    /// Arithmetic operations a particle and step, an estimate from the density.
+    pub operations_per_particle: f64,
+}
+
+impl Plan {
+    /// Bytes of all buffers.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.buffers.iter().map(|buffer| buffer.bytes).sum()
+    }
+
+    /// The largest buffer in bytes.
+    #[must_use]
+    pub fn largest_buffer(&self) -> u64 {
+        self.buffers.iter().map(|buffer| buffer.bytes).max().unwrap_or(0)
+    }
+}

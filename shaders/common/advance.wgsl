@@ -1,0 +1,26 @@
+// The end of a step for one particle: drift, and count it into its next cell.
+override DISPLACEMENT_LIMIT: f32;
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
+@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
+
+const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
+const STRAIN_LIMIT: f32 = 1073741824.0;
+
+// `strain` is the sum of the magnitudes of all impulses on the particle: it tells, where the wrapped sum cannot, that
+// the sum has left the range of integers, and it carries what is not a number.
+fn check_particle(momentum: Steps, species: i32, strain: f32) {
+    let travelled = abs(Vector(momentum)) * drift_of(species);
+    raise(select(FAILURE_IMPULSE, 0u, strain < STRAIN_LIMIT)
+        | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
+        | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT));
+}
+
+fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
+    check_particle(momentum, me.momentum.w, strain);
+    let word = momentum_word(momentum, me.momentum.w);
+    let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
+    let slot = cells[row_offset_index(row)] + index - row_begin(row);
+    particles[slot] = advanced_particle(position_word(fraction, me.position.w), word, kick);
+    ranks[slot] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
+}

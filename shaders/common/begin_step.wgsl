@@ -1,0 +1,9 @@
+// Moves the clock to the next step and draws the step's key.
+fn begin_step() {
+    let step = control.next;
+    control.step = step;
+    control.next = vec2<u32>(step.x + 1u, step.y + select(0u, 1u, step.x == 0xffffffffu));
+    control.key = threefry2x32(step, control.seed_key);
+    control.closing = select(1, 0, all(step == vec2<u32>(0u)));
+    control.elapsed += 1u;
+}

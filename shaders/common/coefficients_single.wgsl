@@ -1,0 +1,17 @@
+// One species: every coefficient is a constant of the pipeline, in integer momentum units.
+override REPULSION: f32; // impulse at contact
+override FRICTION: f32;  // impulse per difference of momentum
+override NOISE: f32;     // impulse per unit noise
+override DRIFT: f32;     // displacement in a step per unit of momentum
+override KINETIC: f32;   // energy per square of a unit of momentum
+
+struct Coefficients { repulsion: f32, friction: f32, noise: f32 }
+
+fn coefficients_of(a: i32, b: i32) -> Coefficients { return Coefficients(REPULSION, FRICTION, NOISE); }
+fn drift_of(species: i32) -> f32 { return DRIFT; }
+fn kinetic_of(species: i32) -> f32 { return KINETIC; }
+
+// The difference of two momenta, exact in integers: odd under exchange to the last bit.
+fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
+    return Vector(mine - theirs);
+}

@@ -1,0 +1,24 @@
+// What changes from step to step, kept on the device so that many steps can be recorded ahead.
+struct Control {
+    step: vec2<u32>,             // current step, low and high word
+    next: vec2<u32>,             // the step that the next sort begins
+    key: vec2<u32>,              // key of this step's random words
+    seed_key: vec2<u32>,         // key of the whole stream, from the seed
+    closing: i32,                // 0 at step 0, where stored momenta are full-step ones; else 1
+    elapsed: u32,                // sorts since the state was uploaded
+    failures: atomic<u32>,       // FAILURE_ bits
+    failure_elapsed: atomic<u32>,// `elapsed` when the first of them was raised
+}
+@group(0) @binding(0) var<storage, read_write> control: Control;
+
+const FAILURE_IMPULSE: u32 = 1u;   // the impulses on a particle left the range of integers, or were not numbers
+const FAILURE_MOMENTUM: u32 = 2u;  // a momentum came near the end of its range
+const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutoff in one step
+const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies
+
+fn raise(failure: u32) {
+    if (failure != 0u) {
+        atomicOr(&control.failures, failure);
+        atomicMin(&control.failure_elapsed, control.elapsed);
+    }
+}

@@ -1,0 +1,4 @@
+// A dispatch of more than 65 535 workgroups is folded into two dimensions.
+fn linear_workgroup(workgroup: vec3<u32>, workgroups: vec3<u32>) -> u32 {
+    return workgroup.x + workgroup.y * workgroups.x;
+}

@@ -1,0 +1,10 @@
+// Friction from the change of the coupling function since the last step, Cotter and Reich (18)-(21),
+// doi:10.1209/epl/i2003-00621-8. Last positions follow from the last drifts, which are recomputed to the bit.
+override FRICTION_PER_LENGTH: f32; // impulse unit of momentum per length: turns a change of phi into a motion
+
+fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
+    let drifted = drift_steps(me.momentum) - drift_steps(other.momentum);
+    let d = Vector(signed(fraction_of(me.position) - fraction_of(other.position)) - drifted) * unit_lengths();
+    let before = coupling(max(1.0 - length(d) * (1.0 / CUTOFF), 0.0));
+    return -c.friction * FRICTION_PER_LENGTH * root * (coupling(contact.w) - before);
+}

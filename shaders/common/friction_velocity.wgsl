@@ -1,0 +1,5 @@
+// Friction from the relative velocity along the line of centres.
+fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
+    let motion = relative_motion(me, other, friction_momentum(me), friction_momentum(other));
+    return -c.friction * root * root * dot(contact.direction, motion);
+}

@@ -1,0 +1,49 @@
+// What is summed over all particles at a report, each in integers of a unit that the plan states.
+override PAIR_ENERGY: f32;  // potential energy of one end of a pair per impulse, over its quantum
+override PAIR_VIRIAL: f32;  // virial of one end of a pair per impulse and length, over its quantum
+override CLOSING_VIRIAL: f32; // the same for the impulse that closes the step, where it differs in weight
+override GRADIENT: f32;     // square of the force per square of an impulse, over its quantum
+override LAPLACIAN: f32;    // second derivative per impulse and inverse length, over its quantum
+
+const QUANTITIES: u32 = 9u;
+var<private> totals: array<vec2<u32>, QUANTITIES>;
+
+fn total_add(quantity: u32, value: Sum64) { totals[quantity] = sum64_add(totals[quantity], value); }
+
+// What a particle's pairs add up to.
+struct PairSums { energy: Sum64, conservative_virial: Sum64, virial: Sum64, laplacian: Sum64, force: Steps }
+
+fn no_pairs() -> PairSums {
+    let zero = Sum64(0u);
+    return PairSums(zero, zero, zero, zero, Steps(0));
+}
+fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: Contact) {
+    let magnitude = repulsion * contact.w;
+    (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(magnitude * contact.w * PAIR_ENERGY));
+    (*sums).conservative_virial =
+        sum64_add((*sums).conservative_virial, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
+    let slope = contact.w / max(contact.distance, 1e-6 * CUTOFF);
+    let curvature = repulsion * (1.0 / CUTOFF - f32(DIMENSION - 1u) * slope);
+    (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(curvature * LAPLACIAN));
+    (*sums).force += Steps(round(magnitude * contact.direction));
+}
+fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, contact: Contact) {
+    (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(magnitude * contact.distance * weight));
+}
+
+// Adds a particle with its momentum at the report, and leaves it where its id says for whoever wants the particles.
+fn observe_particle(me: Particle, momentum: Steps, sums: PairSums) {
+    let p = Vector(momentum);
+    let f = Vector(sums.force);
+    total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(me.momentum.w)));
+    total_add(1u, sums.energy);
+    total_add(2u, sums.conservative_virial);
+    total_add(3u, sums.virial);
+    total_add(4u, sum64_of_f32(dot(f, f) * GRADIENT));
+    total_add(5u, sums.laplacian);
+    let word = momentum_word(momentum, me.momentum.w);
+    total_add(6u, sum64_of_i32(word.x));
+    total_add(7u, sum64_of_i32(word.y));
+    if (DIMENSION == 3u) { total_add(8u, sum64_of_i32(word.z)); }
+    particles[me.position.w] = advanced_particle(me.position, word, Steps(0));
+}

@@ -1,0 +1,11 @@
+// A particle as it is stored: position.xyz are fractions of the box, position.w the persistent id; momentum.xyz are
+// integer momentum units, momentum.w the index of the species.
+struct Particle {
+    position: vec4<u32>,
+    momentum: vec4<i32>,
+}
+
+fn friction_momentum(particle: Particle) -> Steps { return steps_of(particle.momentum); }
+fn advanced_particle(position: vec4<u32>, momentum: vec4<i32>, kick: Steps) -> Particle {
+    return Particle(position, momentum);
+}

@@ -1,0 +1,21 @@
+// Two dimensions: the vectors everything else is written in. The third word of a stored vector is zero.
+alias Fraction = vec2<u32>;
+alias Steps = vec2<i32>;
+alias Vector = vec2<f32>;
+
+// Length of 2^-32 of the box on each axis.
+override UNIT_X: f32;
+override UNIT_Y: f32;
+
+const DIMENSION: u32 = 2u;
+
+fn unit_lengths() -> Vector { return Vector(UNIT_X, UNIT_Y); }
+fn fraction_of(word: vec4<u32>) -> Fraction { return word.xy; }
+fn steps_of(word: vec4<i32>) -> Steps { return word.xy; }
+fn position_word(fraction: Fraction, id: u32) -> vec4<u32> { return vec4<u32>(fraction, 0u, id); }
+fn momentum_word(momentum: Steps, species: i32) -> vec4<i32> { return vec4<i32>(momentum, 0, species); }
+fn signed(fraction: Fraction) -> Steps { return bitcast<Steps>(fraction); }
+fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
+fn sum_of_components(v: Vector) -> f32 { return v.x + v.y; }
+fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
+fn largest(v: Vector) -> f32 { return max(v.x, v.y); }

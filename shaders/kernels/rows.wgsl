@@ -1,0 +1,72 @@
+// Visits every pair from both ends, one invocation a particle: the prefilter turns each stretch of candidates into a
+// mask of hits, and the hits are visited in a second loop that has little else to do. For any subgroup size.
+override SEGMENTS: u32; // workgroups that share a row
+
+const WORDS: u32 = 32u;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        for (var index = row_begin(row) + (group - row * SEGMENTS) * 64u + lane; index < end; index += 64u * SEGMENTS) {
+            visit(row, index);
+        }
+    }
+    pass_finish(group, lane);
+}
+
+fn visit(row: u32, index: u32) {
+    let me = sorted[index];
+    let fraction = fraction_of(me.position);
+    let middle = row_middle(row);
+    let probe = probe_of(fraction, middle);
+    let column = column_of(fraction);
+    let last_column = column + 2u * frame();
+    var sums = pass_begin(me);
+    var masks: array<u32, WORDS>;
+    var bases: array<u32, WORDS>;
+    var neighbour = 0u;
+    var base = 0u;
+    var end = 0u;
+    loop {
+        var filled = 0u;
+        while (filled < WORDS) {
+            if (base >= end) {
+                if (neighbour == neighbour_rows()) { break; }
+                let start = neighbour_row(row, neighbour) * row_width();
+                base = cells[start + column];
+                end = cells[start + last_column + 1u];
+                neighbour += 1u;
+                continue;
+            }
+            let count = min(32u, end - base);
+            var mask = 0u;
+            for (var bit = 0u; bit < count; bit++) {
+                mask |= select(0u, 1u << bit, probe_hits(probe, probe_of_word(probes[base + bit], middle)));
+            }
+            let own = index - base;
+            mask &= ~select(0u, 1u << (own & 31u), own < 32u);
+            masks[filled] = mask;
+            bases[filled] = base;
+            filled += select(0u, 1u, mask != 0u);
+            base += 32u;
+        }
+        var word = 0u;
+        var mask = masks[0];
+        var word_base = bases[0];
+        while (word < filled) {
+            pass_pair(&sums, me, word_base + firstTrailingBit(mask));
+            mask &= mask - 1u;
+            if (mask == 0u) {
+                word += 1u;
+                mask = masks[word & 31u];
+                word_base = bases[word & 31u];
+            }
+        }
+        if (base >= end && neighbour == neighbour_rows()) { break; }
+    }
+    pass_end(row, index, me, sums);
+}

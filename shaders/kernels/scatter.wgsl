@@ -1,0 +1,35 @@
+// Puts every particle into its cell, and its copy into the frame of the row, and clears the counts for the next step.
+override PARTICLES: u32;
+override CELLS: u32;
+override CAPACITY: u32; // of the sorted array, frames included
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    if (index < CELLS) { counts[index] = 0u; }
+    if (index >= PARTICLES) { return; }
+    let particle = particles[index];
+    let rank = ranks[index];
+    let fraction = fraction_of(particle.position);
+    let row = row_of(fraction);
+    let column = column_of(fraction);
+    let probe = probe_word(fraction);
+    let target_index = cells[cell_index(row, column)] + rank;
+    if (target_index >= CAPACITY) {
+        raise(FAILURE_FRAMES);
+        return;
+    }
+    sorted[target_index] = particle;
+    probes[target_index] = probe;
+    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
+        let copy = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)] + rank;
+        if (copy < CAPACITY) {
+            sorted[copy] = particle;
+            probes[copy] = probe;
+        }
+    }
+}

@@ -1,0 +1,20 @@
+// One traversal a step: closing and opening half kicks by the same pair impulses, then the drift
+// (Groot and Warren, doi:10.1063/1.474784; Cotter and Reich, doi:10.1209/epl/i2003-00621-8).
+struct Sums { kick: Steps, strain: f32 }
+
+fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0.0); }
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let other = sorted[other_index];
+    let contact = contact_of(separation(me.position, other.position));
+    let c = coefficients_of(me.momentum.w, other.momentum.w);
+    let root = root_weight(contact.w);
+    let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
+        + random_impulse(c, root, me, other);
+    (*sums).kick += select(Steps(0), Steps(round(magnitude * contact.direction)), contact.inside);
+    (*sums).strain += select(0.0, abs(magnitude), contact.inside);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    let full_step = steps_of(me.momentum) + control.closing * sums.kick;
+    store_advanced(row, index, me, full_step + sums.kick, sums.kick, sums.strain);
+}
+fn pass_finish(group: u32, lane: u32) {}

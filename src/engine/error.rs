@@ -1,0 +1,41 @@
+//! What can go wrong while a plan runs.
+
+use crate::gpu::GpuError;
+
+/// A failure of a run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// The graphics layer failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The simulation left the range where its numbers mean anything.
+    #[error("the run became unstable at step {step}: {quantity}; try a time step of {suggested_step} or less")]
+    Unstable {
+        /// The first step at which it was seen.
+        step: u64,
+        /// What went out of range.
+        quantity: &'static str,
+        /// A time step worth trying.
+        suggested_step: f64,
+    },
+    /// More particles at the ends of rows than there is room to copy.
+    #[error("at step {step} the particles crowd so much at the ends of the box along x that their copies do not fit")]
+    Crowded {
+        /// The first step at which it was seen.
+        step: u64,
+    },
+    /// A state that does not fit the plan.
+    #[error("the state does not fit the plan: {reason}")]
+    State {
+        /// What does not fit.
+        reason: String,
+    },
+}
+
+/// The largest number of one digit not above `value`.
+pub(super) fn round_down(value: f64) -> f64 {
+    let magnitude = 10_f64.powf(value.log10().floor());
+    let rounded = (value / magnitude).floor() * magnitude;
+    format!("{rounded:.0e}").parse().unwrap_or(rounded)
+}

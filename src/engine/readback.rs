@@ -1,0 +1,122 @@
+//! Results on their way from the device: copied at the end of a batch, mapped when it has run.
+
+use std::collections::HashMap;
+use std::sync::mpsc;
+use std::time::Duration;
+
+use super::{Control, Sample};
+use crate::gpu::{Gpu, GpuError};
+use crate::plan::Plan;
+
+/// A device that has not finished a batch by then is taken for lost.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+pub(super) struct Readback {
+    staging: wgpu::Buffer,
+    submission: Option<wgpu::SubmissionIndex>,
+    arrival: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+    /// Sampler, rows and first byte of each stretch of samples in the staging buffer.
+    stretches: Vec<(usize, u64, u64)>,
+}
+
+fn row_bytes(plan: &Plan, sampler: usize) -> u64 {
+    8 * (1 + plan.samplers[sampler].quantities as u64)
+}
+
+impl Readback {
+    /// Records the copies of the control block and of the samples taken in this batch, and resets their counters.
+    pub(super) fn record(
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        plan: &Plan,
+        buffers: &HashMap<&'static str, wgpu::Buffer>,
+        rows: &[u64],
+    ) -> Result<Self, GpuError> {
+        let control_bytes = size_of::<Control>() as u64;
+        let mut bytes = control_bytes;
+        let mut stretches = Vec::new();
+        for (sampler, &rows) in rows.iter().enumerate().filter(|(_, rows)| **rows > 0) {
+            stretches.push((sampler, rows, bytes));
+            bytes += rows * row_bytes(plan, sampler);
+        }
+        let staging = gpu.scoped("creating a readback buffer", bytes, || {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: bytes,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
+        encoder.copy_buffer_to_buffer(&buffers["control"], 0, &staging, 0, control_bytes);
+        for &(sampler, rows, offset) in &stretches {
+            let samples = &buffers[plan.samplers[sampler].samples];
+            encoder.copy_buffer_to_buffer(samples, 8, &staging, offset, rows * row_bytes(plan, sampler));
+            encoder.clear_buffer(samples, 0, Some(8));
+        }
+        let (sender, arrival) = mpsc::channel();
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
+            // The receiver is gone only if the whole run is.
+            let _ = sender.send(result);
+        });
+        Ok(Self { staging, submission: None, arrival, stretches })
+    }
+
+    pub(super) fn submitted(mut self, submission: wgpu::SubmissionIndex) -> Self {
+        self.submission = Some(submission);
+        self
+    }
+
+    pub(super) fn collect(self, gpu: &Gpu, plan: &Plan) -> Result<(Control, Vec<Sample>), GpuError> {
+        let bytes = arrived(gpu, &self.staging, self.submission, &self.arrival)?;
+        let control_bytes = size_of::<Control>();
+        let control: Control = bytemuck::pod_read_unaligned(&bytes[..control_bytes]);
+        let mut samples = Vec::new();
+        for (sampler, rows, offset) in self.stretches {
+            let width = row_bytes(plan, sampler) as usize;
+            for row in bytes[offset as usize..].chunks_exact(width).take(rows as usize) {
+                let words: Vec<i64> = row.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+                samples.push(Sample { sampler, step: words[0] as u64, sums: words[1..].to_vec() });
+            }
+        }
+        Ok((control, samples))
+    }
+}
+
+fn arrived(
+    gpu: &Gpu,
+    staging: &wgpu::Buffer,
+    submission: Option<wgpu::SubmissionIndex>,
+    arrival: &mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+) -> Result<Vec<u8>, GpuError> {
+    let lost = |reason: String| GpuError::Lost { adapter: gpu.description().name.clone(), reason };
+    gpu.device
+        .poll(wgpu::PollType::Wait { submission_index: submission, timeout: Some(PATIENCE) })
+        .map_err(|error| lost(error.to_string()))?;
+    gpu.health()?;
+    arrival
+        .recv_timeout(PATIENCE)
+        .map_err(|error| lost(error.to_string()))?
+        .map_err(|error| lost(error.to_string()))?;
+    let view = staging.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
+    Ok(view.to_vec())
+}
+
+/// Waits for the device and reads a whole buffer.
+pub(super) fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    let staging = gpu.scoped("creating a readback buffer", buffer.size(), || {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("readback"),
+            size: buffer.size(),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    })?;
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    let (sender, arrival) = mpsc::channel();
+    encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
+        let _ = sender.send(result);
+    });
+    let submission = gpu.queue.submit([encoder.finish()]);
+    arrived(gpu, &staging, Some(submission), &arrival)
+}

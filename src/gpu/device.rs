@@ -1,0 +1,142 @@
+//! An opened adapter.
+
+use std::sync::{Arc, Mutex};
+
+use super::adapter::{self, AdapterChoice, AdapterDescription};
+use super::error::GpuError;
+
+/// What a plan needs beyond the limits every WebGPU adapter has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Requirements {
+    /// The largest storage buffer in bytes.
+    pub largest_buffer: u64,
+}
+
+/// An opened device with its queue.
+pub struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    description: AdapterDescription,
+    subgroup_size: Option<u32>,
+    trouble: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it.
+    ///
+    /// # Errors
+    /// [`GpuError`] if there is no such adapter, if it cannot meet the requirements or if it does not open.
+    pub fn open(choice: &AdapterChoice, requirements: Requirements) -> Result<Self, GpuError> {
+        let adapter = adapter::choose(choice)?;
+        let info = adapter.get_info();
+        let offered = adapter.limits();
+        let mut limits = wgpu::Limits::default();
+        if requirements.largest_buffer > limits.max_storage_buffer_binding_size {
+            for (quantity, allowed) in [
+                ("a storage buffer", offered.max_storage_buffer_binding_size),
+                ("a buffer", offered.max_buffer_size),
+            ] {
+                if requirements.largest_buffer > allowed {
+                    return Err(GpuError::TooSmall {
+                        adapter: info.name,
+                        quantity,
+                        allowed,
+                        needed: requirements.largest_buffer,
+                    });
+                }
+            }
+            limits.max_storage_buffer_binding_size = requirements.largest_buffer;
+            limits.max_buffer_size = limits.max_buffer_size.max(requirements.largest_buffer);
+        }
+        let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
+        let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("mesoscope"),
+            required_features: timestamps | if subgroups { wgpu::Features::SUBGROUP } else { wgpu::Features::empty() },
+            required_limits: limits,
+            ..Default::default()
+        }))
+        .map_err(|error| GpuError::Open { adapter: info.name.clone(), reason: error.to_string() })?;
+        let trouble = Arc::new(Mutex::new(None));
+        let note = Arc::clone(&trouble);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| record(&note, error.to_string())));
+        let note = Arc::clone(&trouble);
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                record(&note, message);
+            }
+        });
+        Ok(Self {
+            device,
+            queue,
+            description: AdapterDescription::new(&info),
+            subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
+                .then_some(info.subgroup_min_size),
+            trouble,
+        })
+    }
+
+    /// The adapter in words.
+    #[must_use]
+    pub fn description(&self) -> &AdapterDescription {
+        &self.description
+    }
+
+    /// The device, for drawing.
+    #[must_use]
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The queue, for drawing.
+    #[must_use]
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// The number of lanes of every subgroup, if it is fixed and subgroup operations can be used.
+    #[must_use]
+    pub fn subgroup_size(&self) -> Option<u32> {
+        self.subgroup_size
+    }
+
+    /// The first error that reached no error scope, or the loss of the device.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] with the driver's words.
+    pub fn health(&self) -> Result<(), GpuError> {
+        match self.trouble.lock().ok().and_then(|trouble| trouble.clone()) {
+            Some(reason) => Err(GpuError::Lost { adapter: self.description.name.clone(), reason }),
+            None => Ok(()),
+        }
+    }
+
+    /// Runs `work` inside error scopes, and turns what they catch into a typed error.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`] or [`GpuError::Refused`].
+    pub(crate) fn scoped<T>(&self, doing: &str, bytes: u64, work: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let made = work();
+        let refused = pollster::block_on(validation.pop());
+        let starved = pollster::block_on(memory.pop());
+        if starved.is_some() {
+            return Err(GpuError::OutOfMemory {
+                adapter: self.description.name.clone(),
+                doing: doing.to_owned(),
+                bytes,
+            });
+        }
+        match refused {
+            Some(error) => Err(GpuError::Refused { doing: doing.to_owned(), reason: error.to_string() }),
+            None => Ok(made),
+        }
+    }
+}
+
+fn record(note: &Mutex<Option<String>>, message: String) {
+    if let Ok(mut slot) = note.lock() {
+        slot.get_or_insert(message);
+    }
+}

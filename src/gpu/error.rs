@@ -1,0 +1,86 @@
+//! What can go wrong between the program and the adapter.
+
+/// A failure of the graphics layer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// No adapter at all.
+    #[error("no usable graphics adapter was found\n{}", install_hint())]
+    NoAdapter,
+    /// No adapter by that name or number.
+    #[error("no adapter matches `{wanted}`; adapters here: {available}")]
+    NoSuchAdapter {
+        /// What was asked for.
+        wanted: String,
+        /// The adapters there are.
+        available: String,
+    },
+    /// The adapter cannot do what the scene needs.
+    #[error("adapter `{adapter}` allows {quantity} of at most {allowed}, but this scene needs {needed}")]
+    TooSmall {
+        /// Name of the adapter.
+        adapter: String,
+        /// The limit in words.
+        quantity: &'static str,
+        /// What the adapter allows.
+        allowed: u64,
+        /// What the scene needs.
+        needed: u64,
+    },
+    /// The device could not be opened.
+    #[error("adapter `{adapter}` could not be opened: {reason}")]
+    Open {
+        /// Name of the adapter.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// A shader does not compile.
+    #[error("shader `{kernel}` is not valid: {place}: {reason}")]
+    Shader {
+        /// Name of the kernel.
+        kernel: String,
+        /// File and line, where known.
+        place: String,
+        /// The compiler's words.
+        reason: String,
+    },
+    /// The device ran out of memory.
+    #[error("adapter `{adapter}` ran out of memory while {doing} ({bytes} bytes); use fewer particles or another adapter")]
+    OutOfMemory {
+        /// Name of the adapter.
+        adapter: String,
+        /// What was being done.
+        doing: String,
+        /// How many bytes it needed.
+        bytes: u64,
+    },
+    /// The device was lost or did not answer.
+    #[error("adapter `{adapter}` stopped answering: {reason}")]
+    Lost {
+        /// Name of the adapter.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// A call was refused by validation: a defect of this program.
+    #[error("the graphics layer refused a call while {doing}: {reason} (a defect of mesoscope; please report it)")]
+    Refused {
+        /// What was being done.
+        doing: String,
+        /// The validation message.
+        reason: String,
+    },
+}
+
+fn install_hint() -> &'static str {
+    if cfg!(target_os = "linux") {
+        "install a Vulkan driver; without a GPU the software driver serves: \
+         apt-get install mesa-vulkan-drivers (Debian, Ubuntu), dnf install mesa-vulkan-drivers (Fedora), \
+         pacman -S vulkan-swrast (Arch)"
+    } else if cfg!(target_os = "windows") {
+        "install your graphics card's driver; DirectX 12 or Vulkan is needed"
+    } else {
+        "Metal (macOS 10.13 or later) is needed"
+    }
+}

@@ -1,0 +1,75 @@
+//! The shader modules, embedded in the program.
+
+macro_rules! library {
+    ($($name:literal),* $(,)?) => {
+        /// Names of all modules, as `folder/name`.
+        #[must_use]
+        pub fn module_names() -> &'static [&'static str] {
+            &[$($name),*]
+        }
+
+        /// The text of a module, by name.
+        #[must_use]
+        pub fn module_text(name: &str) -> Option<&'static str> {
+            match name {
+                $($name => Some(include_str!(concat!("../../shaders/", $name, ".wgsl"))),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+library![
+    "common/advance",
+    "common/begin_step",
+    "common/cells",
+    "common/coefficients_single",
+    "common/coefficients_table",
+    "common/contact",
+    "common/control",
+    "common/dispatch",
+    "common/drift",
+    "common/eight_hits",
+    "common/friction_discrete_gradient",
+    "common/friction_off",
+    "common/friction_velocity",
+    "common/grid2",
+    "common/grid3",
+    "common/noise_gaussian",
+    "common/noise_uniform",
+    "common/observation",
+    "common/particle",
+    "common/particle_predicted",
+    "common/probe2",
+    "common/probe3",
+    "common/random_off",
+    "common/random_on",
+    "common/reduce",
+    "common/repulsion_off",
+    "common/repulsion_on",
+    "common/row_scan",
+    "common/shuffle2",
+    "common/shuffle3",
+    "common/sorted",
+    "common/space2",
+    "common/space3",
+    "common/sum64",
+    "common/threefry",
+    "common/weight_general",
+    "common/weight_standard",
+    "common/words_pcg4d",
+    "common/words_threefry",
+    "common/workgroup_scan",
+    "kernels/alone",
+    "kernels/bin",
+    "kernels/clusters",
+    "kernels/record_sample",
+    "kernels/rows",
+    "kernels/scan",
+    "kernels/scan_blocks",
+    "kernels/scan_rows",
+    "kernels/scan_tops",
+    "kernels/scatter",
+    "passes/leapfrog",
+    "passes/observe_leapfrog",
+];

@@ -1,0 +1,74 @@
+//! Cells no narrower than the cutoff, and the windows of the prefilter.
+
+use crate::state::Units;
+
+/// The cell grid of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of dimensions.
+    pub dimension: usize,
+    /// Cells on each axis; 1 where there is room for fewer than three.
+    pub cells: [u32; 3],
+    /// On each axis, the prefilter sees the box divided by two to this power.
+    pub windows: [u32; 3],
+    /// Length of a window unit of each axis over one of x; 0 on an axis with a single cell.
+    pub ratios: [f64; 3],
+    /// Square of the prefilter's reach in window units of x.
+    pub reach_squared: f64,
+}
+
+impl Grid {
+    /// The grid for a cutoff in a box.
+    ///
+    /// Cells are capped at 1024 an axis and, for few particles in a large box, at about four cells a particle.
+    #[must_use]
+    pub fn new(units: &Units, cutoff: f64, particles: u64) -> Self {
+        let dimension = units.dimension;
+        let mut cells = [1_u32; 3];
+        let budget = (4.0 * particles as f64).max(27.0);
+        let mut width = cutoff;
+        loop {
+            for axis in 0..dimension {
+                let room = (units.lengths[axis] / width * (1.0 + 1e-12)).floor().min(1024.0) as u32;
+                cells[axis] = if room < 3 { 1 } else { room };
+            }
+            if cells.iter().map(|count| f64::from(*count)).product::<f64>() <= budget {
+                break;
+            }
+            width *= 1.1;
+        }
+        // Bits that the probe word gives to each axis.
+        let bits: [u32; 3] = if dimension == 3 { [12, 10, 10] } else { [16, 16, 0] };
+        let windows: [u32; 3] = std::array::from_fn(|axis| (cells[axis] / if axis == 0 { 8 } else { 4 }).max(1).ilog2());
+        let unit: [f64; 3] =
+            std::array::from_fn(|axis| units.lengths[axis] / 2_f64.powi(32 + windows[axis] as i32));
+        let ratios: [f64; 3] = std::array::from_fn(|axis| {
+            if axis < dimension && (axis == 0 || cells[axis] > 1) { unit[axis] / unit[0] } else { 0.0 }
+        });
+        let diagonal: f64 = (0..dimension)
+            .map(|axis| (2_f64.powi(32 - bits[axis] as i32) * ratios[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        // Half a quantum's diagonal, and a little for the rounding of single precision.
+        let reach = (cutoff / unit[0] + 0.5 * diagonal) * (1.0 + 1e-5);
+        Self { dimension, cells, windows, ratios, reach_squared: reach * reach }
+    }
+
+    /// Number of rows along x.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        u64::from(self.cells[1]) * u64::from(self.cells[2])
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.rows() * u64::from(self.cells[0])
+    }
+
+    /// Whether rows are framed by copies of their last and first cell.
+    #[must_use]
+    pub fn framed(&self) -> bool {
+        self.cells[0] >= 3
+    }
+}

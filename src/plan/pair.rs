@@ -1,0 +1,365 @@
+//! The plan of a scene whose particles interact in pairs.
+
+use super::{Buffer, Contents, Grid, Hardware, Kernel, Options, Plan, Quanta, Sampler, Traversal};
+use crate::model::{Model, PairForce};
+use crate::noise;
+use crate::scene::{Distribution, Generator, Integrator, Output};
+use crate::state::Units;
+
+/// Sums of a report, in order: kinetic energy, potential energy, conservative virial, virial, squared force, curvature,
+/// three components of momentum.
+const OBSERVABLES: usize = 9;
+/// Rows of samples kept on the device between two readbacks.
+const SAMPLE_ROWS: u64 = 1024;
+/// Rows of cells that a single workgroup still scans faster than three kernels would.
+const SINGLE_SCAN_ROWS: u64 = 1024;
+
+/// Makes the plan of a model.
+#[must_use]
+pub fn plan(model: &Model, output: &Output, hardware: Hardware, options: Options) -> Plan {
+    let particles = model.particle_count();
+    let free = PairForce::none(&model.units, model.species.len());
+    let force = model.pair_force.as_ref().unwrap_or(&free);
+    let grid = Grid::new(&model.units, force.cutoff, particles);
+    let traversal = match (model.pair_force.is_some(), options.traversal, hardware.subgroup_size) {
+        (false, _, _) => Traversal::Alone,
+        (true, Some(traversal), _) => traversal,
+        (true, None, Some(8)) => Traversal::Clusters,
+        (true, None, _) => Traversal::Rows,
+    };
+    let mut builder = Builder { model, force, grid, particles, traversal, options, plan: empty_plan(model, grid) };
+    builder.constants();
+    builder.ordering();
+    builder.integration(output);
+    builder.buffers();
+    builder.plan
+}
+
+fn empty_plan(model: &Model, grid: Grid) -> Plan {
+    Plan {
+        particles: model.particle_count(),
+        units: model.units,
+        grid,
+        quanta: quanta(model),
+        predicted: matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5),
+        seed_key: noise::seed_key(model.seed, noise::stream::PAIR),
+        time_step: model.time_step,
+        kernels: Vec::new(),
+        constants: Vec::new(),
+        buffers: Vec::new(),
+        prepare: Vec::new(),
+        sort: Vec::new(),
+        before_report: Vec::new(),
+        report: Vec::new(),
+        advance: Vec::new(),
+        samplers: Vec::new(),
+        operations_per_particle: 0.0,
+    }
+}
+
+/// Units of the sums: 2⁻³² of a typical value, so that one particle may hold two thousand million times the typical.
+fn quanta(model: &Model) -> Quanta {
+    let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    let lightest = if lightest.is_finite() { lightest } else { 1.0 };
+    let typical_momentum = model.units.momentum * 2_f64.powi(24);
+    let cutoff = model.pair_force.as_ref().map_or(1.0, |force| force.cutoff);
+    let energy = 2_f64.powi((typical_momentum * typical_momentum / lightest).log2().ceil() as i32 - 32);
+    Quanta { energy, force_squared: energy / (cutoff * cutoff) * energy.max(f64::MIN_POSITIVE) * 2_f64.powi(32), curvature: energy / (cutoff * cutoff) }
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    force: &'a PairForce,
+    grid: Grid,
+    particles: u64,
+    traversal: Traversal,
+    options: Options,
+    plan: Plan,
+}
+
+/// Modules of the vector space and of the stored particle.
+fn space(units: &Units, predicted: bool) -> Vec<&'static str> {
+    let mut modules = if units.dimension == 3 {
+        vec!["common/space3", "common/grid3", "common/probe3"]
+    } else {
+        vec!["common/space2", "common/grid2", "common/probe2"]
+    };
+    modules.push(if predicted { "common/particle_predicted" } else { "common/particle" });
+    modules.extend(["common/cells", "common/control", "common/dispatch"]);
+    modules
+}
+
+impl Builder<'_> {
+    fn constants(&mut self) {
+        let units = self.model.units;
+        let half = 0.5 * self.model.time_step;
+        let cutoff = self.force.cutoff;
+        let Quanta { energy, force_squared, curvature } = self.plan.quanta;
+        let to_force = units.momentum / half;
+        let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
+        let exponent = self.force.weight_exponent;
+        let capacity = self.frame_capacity();
+        let mut constants = Vec::new();
+        constants.extend([
+            ("UNIT_X", unit(0)),
+            ("UNIT_Y", unit(1)),
+            ("UNIT_Z", unit(2)),
+            ("CELLS_X", f64::from(self.grid.cells[0])),
+            ("CELLS_Y", f64::from(self.grid.cells[1])),
+            ("CELLS_Z", f64::from(self.grid.cells[2])),
+            ("CELLS", self.grid.count() as f64),
+            ("WINDOW_X", f64::from(self.grid.windows[0])),
+            ("WINDOW_Y", f64::from(self.grid.windows[1])),
+            ("WINDOW_Z", f64::from(self.grid.windows[2])),
+            ("PROBE_Y", self.grid.ratios[1]),
+            ("PROBE_Z", self.grid.ratios[2]),
+            ("PROBE_REACH", self.grid.reach_squared),
+            ("PARTICLES", self.particles as f64),
+            ("CAPACITY", (self.particles + capacity) as f64),
+            ("CUTOFF", cutoff),
+            ("WEIGHT_ROOT_EXPONENT", 0.5 * exponent),
+            ("SPECIES", self.model.species.len() as f64),
+            ("DISPLACEMENT_LIMIT", cutoff),
+            ("PAIR_ENERGY", to_force * cutoff / (4.0 * energy)),
+            ("PAIR_VIRIAL", to_force / (2.0 * energy)),
+            ("CLOSING_VIRIAL", to_force / (4.0 * energy)),
+            ("GRADIENT", to_force * to_force / force_squared),
+            ("LAPLACIAN", to_force / curvature),
+        ]);
+        if let Integrator::GrootWarren { lambda } = self.model.integrator {
+            constants.push(("PREDICTION", 2.0 * lambda - 1.0));
+        }
+        // One species: coefficients are constants, and the friction acts on differences of momentum. Several: they are
+        // a table, and the friction acts on differences of velocity.
+        let mass = if self.single() { self.model.species.first().map_or(1.0, |species| species.mass) } else { 1.0 };
+        constants.extend([
+            ("DRIFT", self.model.time_step * units.momentum / mass),
+            ("KINETIC", units.momentum * units.momentum / (2.0 * mass * energy)),
+            ("FRICTION_PER_LENGTH", mass / (self.model.time_step * units.momentum)),
+        ]);
+        if self.single() {
+            let [repulsion, friction, noise] = self.impulses(0, 0);
+            constants.extend([("REPULSION", repulsion), ("FRICTION", friction / mass), ("NOISE", noise)]);
+        }
+        self.plan.constants = constants;
+    }
+
+    fn single(&self) -> bool {
+        self.model.species.len() <= 1
+    }
+
+    /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity, noise.
+    fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
+        let half = 0.5 * self.model.time_step;
+        let unit = self.model.units.momentum;
+        let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
+        let amplitude = (2.0 * friction * self.model.temperature / self.model.time_step).sqrt();
+        [repulsion * half / unit, friction * half, amplitude * half / unit]
+    }
+
+    fn kernel(&mut self, kernel: Kernel) -> usize {
+        self.plan.kernels.push(kernel);
+        self.plan.kernels.len() - 1
+    }
+
+    fn simple(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
+        let mut modules = space(&self.model.units, self.plan.predicted);
+        modules.extend(extra);
+        self.kernel(Kernel {
+            name,
+            modules,
+            workgroups: workgroups.max(1) as u32,
+            constants: Vec::new(),
+            renamed: Vec::new(),
+        })
+    }
+
+    /// Counting sort by cell.
+    fn ordering(&mut self) {
+        let bin = self.simple("bin", &["kernels/bin"], self.particles.div_ceil(64));
+        self.plan.prepare.push(bin);
+        let rows = self.grid.rows();
+        let shared = ["common/row_scan", "common/workgroup_scan", "common/begin_step", "common/threefry"];
+        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
+            let scan = self.simple("scan", &[&shared[..], &["kernels/scan"]].concat(), 1);
+            self.plan.sort.push(scan);
+        } else {
+            let blocks = self.simple(
+                "scan_blocks",
+                &["common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"],
+                rows.div_ceil(256),
+            );
+            let tops = self.simple(
+                "scan_tops",
+                &["common/workgroup_scan", "common/begin_step", "common/threefry", "kernels/scan_tops"],
+                1,
+            );
+            let last = self.simple("scan_rows", &["common/row_scan", "kernels/scan_rows"], rows.div_ceil(64));
+            self.plan.sort.extend([blocks, tops, last]);
+        }
+        let scatter = self.simple(
+            "scatter",
+            &["common/sorted", "kernels/scatter"],
+            self.particles.max(self.grid.count()).div_ceil(64),
+        );
+        self.plan.sort.push(scatter);
+    }
+
+    /// Modules of the pair force.
+    fn force_modules(&self) -> Vec<&'static str> {
+        let force = self.force;
+        let frictional = force.largest_friction() > 0.0;
+        let mut modules = vec!["common/sorted", "common/contact", "common/drift"];
+        modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
+        modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
+        modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
+        modules.push(match self.model.integrator {
+            _ if !frictional => "common/friction_off",
+            Integrator::CotterReich {} => "common/friction_discrete_gradient",
+            _ => "common/friction_velocity",
+        });
+        if frictional && self.model.temperature > 0.0 {
+            modules.push("common/random_on");
+            modules.push(match self.model.distribution {
+                Distribution::Uniform => "common/noise_uniform",
+                Distribution::Gaussian => "common/noise_gaussian",
+            });
+            match self.model.generator {
+                Generator::Pcg4d => modules.push("common/words_pcg4d"),
+                Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),
+            }
+        } else {
+            modules.push("common/random_off");
+        }
+        modules
+    }
+
+    /// A kernel that visits all pairs.
+    fn traversal(&mut self, name: &'static str, traversal: Traversal, pass: &[&'static str]) -> usize {
+        let mut modules = space(&self.model.units, self.plan.predicted);
+        modules.extend(self.force_modules());
+        modules.extend(pass);
+        let lanes = match traversal {
+            Traversal::Rows => {
+                modules.push("kernels/rows");
+                64
+            }
+            Traversal::Alone => {
+                modules.push("kernels/alone");
+                64
+            }
+            Traversal::Clusters => {
+                modules.extend([
+                    "kernels/clusters",
+                    "common/eight_hits",
+                    if self.grid.dimension == 3 { "common/shuffle3" } else { "common/shuffle2" },
+                ]);
+                8
+            }
+        };
+        let rows = self.grid.rows();
+        // Enough workgroups to fill a large adapter, none with less than one round of work on average.
+        let rounds = (self.particles / rows).div_ceil(lanes).max(1);
+        let segments = u64::from(self.options.segments.unwrap_or(0));
+        let segments = if segments > 0 { segments } else { rounds.min((8192 / rows).max(1)) };
+        self.kernel(Kernel {
+            name,
+            modules,
+            workgroups: (rows * segments) as u32,
+            constants: vec![("SEGMENTS", segments as f64)],
+            renamed: Vec::new(),
+        })
+    }
+
+    fn integration(&mut self, output: &Output) {
+        let observe = ["common/sum64", "common/reduce", "common/observation"];
+        let advance = self.traversal("leapfrog", self.traversal, &["common/advance", "passes/leapfrog"]);
+        self.plan.advance.push(advance);
+        let portable = if self.traversal == Traversal::Alone { Traversal::Alone } else { Traversal::Rows };
+        let report =
+            self.traversal("report", portable, &[&observe[..], &["passes/observe_leapfrog"]].concat());
+        self.plan.report.push(report);
+        let groups = self.plan.kernels[report].workgroups;
+        let record = self.kernel(Kernel {
+            name: "record_observables",
+            modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
+            workgroups: 1,
+            constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", f64::from(groups))],
+            renamed: Vec::new(),
+        });
+        self.plan.samplers.push(Sampler {
+            name: "observables",
+            every: output.energies.every,
+            kernels: vec![record],
+            samples: "samples",
+            quantities: OBSERVABLES,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+        self.plan.buffers.push(Buffer {
+            name: "partial_sums",
+            purpose: "sums of each workgroup at a report",
+            bytes: 8 * OBSERVABLES as u64 * u64::from(groups),
+            contents: Contents::Zeros,
+        });
+        self.plan.buffers.push(Buffer {
+            name: "samples",
+            purpose: "rows of sums waiting to be read",
+            bytes: 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)),
+            contents: Contents::Zeros,
+        });
+        // Prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff.
+        let density = self.particles as f64 / self.model.units.volume();
+        let cutoff = self.force.cutoff;
+        let (candidates, pairs) = if self.grid.dimension == 3 {
+            (27.0 * density * cutoff.powi(3), 4.18879 * density * cutoff.powi(3))
+        } else {
+            (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
+        };
+        self.plan.operations_per_particle = 12.0 * candidates + 70.0 * pairs + 60.0;
+    }
+
+    fn buffers(&mut self) {
+        let particle = if self.plan.predicted { 48 } else { 32 };
+        let rows = self.grid.rows();
+        let cells = self.grid.count();
+        let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
+        let copies = self.frame_capacity();
+        let mut buffers = Vec::new();
+        let mut add = |name, purpose, bytes: u64, contents| {
+            buffers.push(Buffer { name, purpose, bytes: bytes.max(16).next_multiple_of(16), contents });
+        };
+        add("control", "clock, key of the step's random words, failures", 64, Contents::Zeros);
+        add("particles", "particles in the order they were advanced", particle * self.particles, Contents::Zeros);
+        add("sorted", "particles in order of cells", particle * (self.particles + copies), Contents::Zeros);
+        add("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies), Contents::Zeros);
+        add("cells", "where each cell begins", 4 * (rows * width + 1 + rows), Contents::Zeros);
+        add("counts", "particles in each cell", 4 * cells, Contents::Zeros);
+        add("ranks", "place of each particle in its cell", 4 * self.particles, Contents::Zeros);
+        if self.plan.sort.len() > 2 {
+            add("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)), Contents::Zeros);
+        }
+        if !self.single() {
+            let count = self.model.species.len();
+            let mut table: Vec<f32> = Vec::with_capacity(4 * count * count);
+            for a in 0..count {
+                for b in 0..count {
+                    table.extend(self.impulses(a, b).map(|value| value as f32));
+                    table.push((1.0 / self.model.species[b].mass) as f32);
+                }
+            }
+            let bytes = bytemuck::cast_slice(&table).to_vec();
+            add("coefficients", "coefficients of each pair of species", bytes.len() as u64, Contents::Bytes(bytes));
+        }
+        self.plan.buffers.append(&mut buffers);
+    }
+
+    /// Room for the copies in the frames: twice the share of the end cells, and never more than all particles.
+    fn frame_capacity(&self) -> u64 {
+        if self.grid.framed() {
+            self.options.copies.unwrap_or(4 * self.particles / u64::from(self.grid.cells[0]) + 1024).min(self.particles)
+        } else {
+            0
+        }
+    }
+}
