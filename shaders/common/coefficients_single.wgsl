@@ -8,6 +8,9 @@ override KINETIC: f32;   // energy per square of a unit of momentum
 struct Coefficients { repulsion: f32, friction: f32, noise: f32 }
 
 fn coefficients_of(a: i32, b: i32) -> Coefficients { return Coefficients(REPULSION, FRICTION, NOISE); }
+override INVERSE_MASS: f32;
+
+fn inverse_mass_of(species: i32) -> f32 { return INVERSE_MASS; }
 fn drift_of(species: i32) -> f32 { return DRIFT; }
 fn kinetic_of(species: i32) -> f32 { return KINETIC; }
 

@@ -18,4 +18,6 @@ fn signed(fraction: Fraction) -> Steps { return bitcast<Steps>(fraction); }
 fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
 fn sum_of_components(v: Vector) -> f32 { return v.x + v.y; }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
+// Lengths from numbers of 2^-32 of the box.
+fn component_lengths(parts: vec4<f32>) -> Vector { return parts.xy * unit_lengths(); }
 fn largest(v: Vector) -> f32 { return max(v.x, v.y); }

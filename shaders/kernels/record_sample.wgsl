@@ -2,7 +2,7 @@
 override QUANTITIES: u32;
 override GROUPS: u32;
 @group(0) @binding(9) var<storage, read_write> partial_sums: array<vec2<u32>>;
-@group(0) @binding(10) var<storage, read_write> samples: array<vec2<u32>>; // number of rows, then the rows
+@group(0) @binding(10) var<storage, read_write> samples: array<vec2<u32>>; // rows in the batch and in all, then the rows
 var<workgroup> lane_sums: array<vec2<u32>, 64>;
 
 @compute @workgroup_size(64)
@@ -25,6 +25,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     workgroupBarrier();
     if (lane == 0u) {
         samples[row] = control.step;
-        samples[0].x += 1u;
+        samples[0] += vec2<u32>(1u);
     }
 }

@@ -2,7 +2,10 @@
 // (Groot and Warren, doi:10.1063/1.474784; Cotter and Reich, doi:10.1209/epl/i2003-00621-8).
 struct Sums { kick: Steps, strain: f32 }
 
-fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0.0); }
+fn pass_begin(me: Particle) -> Sums {
+    prepare_noise();
+    return Sums(Steps(0), 0.0);
+}
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let other = sorted[other_index];
     let contact = contact_of(separation(me.position, other.position));

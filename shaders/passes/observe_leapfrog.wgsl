@@ -3,7 +3,10 @@
 
 struct Sums { kick: Steps, pairs: PairSums }
 
-fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), no_pairs()); }
+fn pass_begin(me: Particle) -> Sums {
+    prepare_noise();
+    return Sums(Steps(0), no_pairs());
+}
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let other = sorted[other_index];
     let contact = contact_of(separation(me.position, other.position));

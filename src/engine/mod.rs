@@ -308,7 +308,7 @@ impl<'a> Engine<'a> {
             return;
         }
         let due: Vec<usize> = (0..self.plan.samplers.len())
-            .filter(|&sampler| self.step.is_multiple_of(self.plan.samplers[sampler].every))
+            .filter(|&sampler| self.plan.samplers[sampler].due(self.step))
             .collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
             self.record_report(pass);

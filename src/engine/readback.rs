@@ -24,7 +24,7 @@ fn row_bytes(plan: &Plan, sampler: usize) -> u64 {
 }
 
 impl Readback {
-    /// Records the copies of the control block and of the samples taken in this batch, and resets their counters.
+    /// Records the copies of the control block and of the samples taken in this batch, and resets their count within the batch.
     pub(super) fn record(
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
@@ -51,7 +51,7 @@ impl Readback {
         for &(sampler, rows, offset) in &stretches {
             let samples = &buffers[plan.samplers[sampler].samples];
             encoder.copy_buffer_to_buffer(samples, 8, &staging, offset, rows * row_bytes(plan, sampler));
-            encoder.clear_buffer(samples, 0, Some(8));
+            encoder.clear_buffer(samples, 0, Some(4));
         }
         let (sender, arrival) = mpsc::channel();
         encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {

@@ -81,6 +81,8 @@ pub struct Buffer {
 pub struct Sampler {
     /// What is sampled.
     pub name: &'static str,
+    /// The first step sampled.
+    pub first: u64,
     /// Steps between two samples.
     pub every: u64,
     /// Kernels in order, as indices into [`Plan::kernels`].
@@ -104,6 +106,10 @@ pub struct Quanta {
     pub force_squared: f64,
     /// Second derivative of the potential.
     pub curvature: f64,
+    /// Square of a length.
+    pub length_squared: f64,
+    /// Square of a velocity.
+    pub velocity_squared: f64,
 }
 
 /// Everything a run does on the device.
@@ -143,6 +149,14 @@ pub struct Plan {
     pub samplers: Vec<Sampler>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
+}
+
+impl Sampler {
+    /// Whether a sample is due at a step.
+    #[must_use]
+    pub fn due(&self, step: u64) -> bool {
+        step >= self.first && (step - self.first).is_multiple_of(self.every)
+    }
 }
 
 impl Plan {

@@ -3,7 +3,7 @@
 use super::{Buffer, Contents, Grid, Hardware, Kernel, Options, Plan, Quanta, Sampler, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
-use crate::scene::{Distribution, Generator, Integrator, Output};
+use crate::scene::{Diffusion, Distribution, Generator, Integrator, Output, RadialDistribution, Viscosity};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, potential energy, conservative virial, virial, squared force, curvature,
@@ -16,7 +16,7 @@ const SINGLE_SCAN_ROWS: u64 = 1024;
 
 /// Makes the plan of a model.
 #[must_use]
-pub fn plan(model: &Model, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force.as_ref().unwrap_or(&free);
@@ -27,10 +27,11 @@ pub fn plan(model: &Model, output: &Output, hardware: Hardware, options: Options
         (true, None, Some(8)) => Traversal::Clusters,
         (true, None, _) => Traversal::Rows,
     };
-    let mut builder = Builder { model, force, grid, particles, traversal, options, plan: empty_plan(model, grid) };
+    let mut builder = Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, grid) };
     builder.constants();
     builder.ordering();
     builder.integration(output);
+    builder.analyses(output);
     builder.buffers();
     builder.plan
 }
@@ -64,7 +65,24 @@ fn quanta(model: &Model) -> Quanta {
     let typical_momentum = model.units.momentum * 2_f64.powi(24);
     let cutoff = model.pair_force.as_ref().map_or(1.0, |force| force.cutoff);
     let energy = 2_f64.powi((typical_momentum * typical_momentum / lightest).log2().ceil() as i32 - 32);
-    Quanta { energy, force_squared: energy / (cutoff * cutoff) * energy.max(f64::MIN_POSITIVE) * 2_f64.powi(32), curvature: energy / (cutoff * cutoff) }
+    Quanta {
+        energy,
+        force_squared: energy * energy / (cutoff * cutoff) * 2_f64.powi(32),
+        curvature: energy / (cutoff * cutoff),
+        length_squared: cutoff * cutoff * 2_f64.powi(-32),
+        velocity_squared: energy / lightest,
+    }
+}
+
+/// What distinguishes one sampler of particles from another.
+struct ParticleSampler {
+    name: &'static str,
+    module: &'static str,
+    constants: Vec<(&'static str, f64)>,
+    sums: &'static str,
+    samples: &'static str,
+    quantities: usize,
+    every: u64,
 }
 
 struct Builder<'a> {
@@ -74,6 +92,7 @@ struct Builder<'a> {
     particles: u64,
     traversal: Traversal,
     options: Options,
+    equilibration: u64,
     plan: Plan,
 }
 
@@ -94,7 +113,7 @@ impl Builder<'_> {
         let units = self.model.units;
         let half = 0.5 * self.model.time_step;
         let cutoff = self.force.cutoff;
-        let Quanta { energy, force_squared, curvature } = self.plan.quanta;
+        let Quanta { energy, force_squared, curvature, .. } = self.plan.quanta;
         let to_force = units.momentum / half;
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         let exponent = self.force.weight_exponent;
@@ -135,6 +154,7 @@ impl Builder<'_> {
         constants.extend([
             ("DRIFT", self.model.time_step * units.momentum / mass),
             ("KINETIC", units.momentum * units.momentum / (2.0 * mass * energy)),
+            ("INVERSE_MASS", 1.0 / mass),
             ("FRICTION_PER_LENGTH", mass / (self.model.time_step * units.momentum)),
         ]);
         if self.single() {
@@ -289,6 +309,7 @@ impl Builder<'_> {
         });
         self.plan.samplers.push(Sampler {
             name: "observables",
+            first: 0,
             every: output.energies.every,
             kernels: vec![record],
             samples: "samples",
@@ -317,6 +338,142 @@ impl Builder<'_> {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
         self.plan.operations_per_particle = 12.0 * candidates + 70.0 * pairs + 60.0;
+    }
+
+    fn analyses(&mut self, output: &Output) {
+        if let Some(asked) = &output.radial_distribution {
+            self.radial_distribution(asked);
+        }
+        if let Some(asked) = &output.diffusion {
+            self.diffusion(asked);
+        }
+        if let Some(asked) = &output.viscosity {
+            self.viscosity(asked);
+        }
+    }
+
+    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(16), contents: Contents::Zeros });
+    }
+
+    fn radial_distribution(&mut self, asked: &RadialDistribution) {
+        let span = |axis: usize| {
+            let width = self.model.units.lengths[axis] / f64::from(self.grid.cells[axis]);
+            let cells = 2 * (asked.range / width).ceil() as u32 + 1;
+            f64::from(if axis < self.grid.dimension { cells.min(self.grid.cells[axis]) } else { 1 })
+        };
+        let bins = asked.bins;
+        let constants = vec![
+            ("BINS", f64::from(bins)),
+            ("HISTOGRAM_RANGE", asked.range),
+            ("SPAN_X", span(0)),
+            ("SPAN_Y", span(1)),
+            ("SPAN_Z", span(2)),
+        ];
+        let rows = self.grid.rows();
+        let segments = (self.particles / rows).div_ceil(64).max(1).min((8192 / rows).max(1));
+        let mut modules = space(&self.model.units, self.plan.predicted);
+        modules.extend([
+            "common/sorted",
+            "common/contact",
+            if self.grid.dimension == 3 { "common/span3" } else { "common/span2" },
+            "kernels/pair_histogram",
+        ]);
+        let count = self.kernel(Kernel {
+            name: "pair_histogram",
+            modules,
+            workgroups: (rows * segments) as u32,
+            constants: [&constants[..], &[("SEGMENTS", segments as f64)]].concat(),
+            renamed: Vec::new(),
+        });
+        let record = self.kernel(Kernel {
+            name: "record_histogram",
+            modules: vec!["common/control", "kernels/record_histogram"],
+            workgroups: 1,
+            constants: vec![("BINS", f64::from(bins))],
+            renamed: vec![("samples", "histogram_samples")],
+        });
+        let capacity = 16;
+        self.buffer("histogram", "pairs by distance", 8 * u64::from(bins));
+        self.buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + capacity * (1 + u64::from(bins))));
+        self.plan.samplers.push(Sampler {
+            name: "radial_distribution",
+            first: self.equilibration,
+            every: asked.every,
+            kernels: vec![count, record],
+            samples: "histogram_samples",
+            quantities: bins as usize,
+            capacity,
+            needs_report: false,
+        });
+    }
+
+    /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
+    fn particle_sampler(&mut self, sampler: ParticleSampler) {
+        let groups = self.particles.div_ceil(64).max(1);
+        let mut modules = space(&self.model.units, self.plan.predicted);
+        modules.extend(["common/sum64", "common/reduce"]);
+        modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
+        modules.push(sampler.module);
+        let sums = self.kernel(Kernel {
+            name: sampler.name,
+            modules,
+            workgroups: groups as u32,
+            constants: sampler.constants,
+            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
+        });
+        let record = self.kernel(Kernel {
+            name: "record_sample",
+            modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
+            workgroups: 1,
+            constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
+            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
+        });
+        self.buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
+        let row = 8 * (1 + sampler.quantities as u64);
+        self.buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
+        self.plan.samplers.push(Sampler {
+            name: sampler.name,
+            first: self.equilibration,
+            every: sampler.every,
+            kernels: vec![sums, record],
+            samples: sampler.samples,
+            quantities: sampler.quantities,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+    }
+
+    fn diffusion(&mut self, asked: &Diffusion) {
+        let units = self.model.units;
+        let quanta = self.plan.quanta;
+        self.buffer("trackers", "each particle's way since the window began", 64 * self.particles);
+        self.particle_sampler(ParticleSampler {
+            name: "diffusion",
+            module: "kernels/track",
+            constants: vec![
+                ("WINDOW", asked.window as f64),
+                ("DISPLACEMENT", 1.0 / quanta.length_squared),
+                ("VELOCITY", units.momentum * units.momentum / quanta.velocity_squared),
+            ],
+            sums: "diffusion_sums",
+            samples: "diffusion_samples",
+            quantities: 2,
+            every: asked.every,
+        });
+    }
+
+    fn viscosity(&mut self, asked: &Viscosity) {
+        let dimension = self.grid.dimension;
+        self.particle_sampler(ParticleSampler {
+            name: "viscosity",
+            module: "kernels/transverse_modes",
+            constants: Vec::new(),
+            sums: "mode_sums",
+            samples: "mode_samples",
+            quantities: 2 * dimension * (dimension - 1),
+            every: asked.every,
+        });
     }
 
     fn buffers(&mut self) {

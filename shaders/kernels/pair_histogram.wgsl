@@ -1,0 +1,50 @@
+// Distances of all pairs up to a range, counted into bins: one invocation a particle, each pair seen from its smaller id.
+override SEGMENTS: u32; // workgroups that share a row
+override BINS: u32;
+override HISTOGRAM_RANGE: f32;
+override SPAN_X: u32; // cells to visit on each axis, centred on the particle's
+override SPAN_Y: u32;
+override SPAN_Z: u32;
+@group(0) @binding(8) var<storage, read_write> histogram: array<atomic<u32>>; // low and high word of each bin
+var<workgroup> local_bins: array<atomic<u32>, BINS>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    for (var bin = lane; bin < BINS; bin += 64u) { atomicStore(&local_bins[bin], 0u); }
+    workgroupBarrier();
+    let group = linear_workgroup(workgroup, workgroups);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        for (var index = row_begin(row) + (group - row * SEGMENTS) * 64u + lane; index < end; index += 64u * SEGMENTS) {
+            count_pairs(row, sorted[index].position);
+        }
+    }
+    workgroupBarrier();
+    for (var bin = lane; bin < BINS; bin += 64u) {
+        let found = atomicLoad(&local_bins[bin]);
+        if (found > 0u) {
+            let before = atomicAdd(&histogram[2u * bin], found);
+            if (before + found < before) { atomicAdd(&histogram[2u * bin + 1u], 1u); }
+        }
+    }
+}
+
+fn count_pairs(row: u32, position: vec4<u32>) {
+    let column = column_of(fraction_of(position));
+    for (var across = 0u; across < SPAN_Y * SPAN_Z; across++) {
+        let other_row = row_at(row, across);
+        for (var along = 0u; along < SPAN_X; along++) {
+            let other_column = (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X;
+            let cell = cell_index(other_row, other_column);
+            let cell_end = cells[cell + 1u];
+            for (var other = cells[cell]; other < cell_end; other++) {
+                let there = sorted[other].position;
+                let d = separation(position, there);
+                let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));
+                if (position.w < there.w && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }
+            }
+        }
+    }
+}

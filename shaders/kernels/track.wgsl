@@ -1,0 +1,53 @@
+// How far each particle has come, and how much of its velocity it has kept, since the window began. Reads the particles
+// in the order of their ids.
+override PARTICLES: u32;
+override WINDOW: u32;        // samples in a window
+override DISPLACEMENT: f32;  // squared length over its quantum
+override VELOCITY: f32;      // square of momentum per mass over its quantum
+const QUANTITIES: u32 = 2u;
+
+struct Tracker {
+    last: vec4<u32>,     // position at the last sample
+    turns: vec4<i32>,    // times round the box since the window began
+    origin: vec4<u32>,   // position when the window began
+    momentum: vec4<i32>, // momentum when the window began
+}
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(8) var<storage, read_write> trackers: array<Tracker>;
+@group(0) @binding(10) var<storage, read_write> samples: array<vec2<u32>>; // rows in the batch and in all, then the rows
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let id = group * 64u + lane;
+    var squared = Sum64(0u);
+    var kept = Sum64(0u);
+    if (id < PARTICLES) {
+        let particle = particles[id];
+        var tracker = trackers[id];
+        if (samples[0].y % WINDOW == 0u) {
+            tracker = Tracker(particle.position, vec4<i32>(0), particle.position, particle.momentum);
+        }
+        // A signed step that carries out of the fraction is a crossing of the boundary.
+        let moved = bitcast<vec4<i32>>(particle.position - tracker.last);
+        let forward = (moved >= vec4<i32>(0)) & (particle.position < tracker.last);
+        let backward = (moved < vec4<i32>(0)) & (particle.position > tracker.last);
+        tracker.turns += select(vec4<i32>(0), vec4<i32>(1), forward) - select(vec4<i32>(0), vec4<i32>(1), backward);
+        tracker.last = particle.position;
+        trackers[id] = tracker;
+        // 64-bit difference from the origin, as a real number.
+        let low = particle.position - tracker.origin;
+        let borrow = select(vec4<i32>(0), vec4<i32>(1), particle.position < tracker.origin);
+        let high = tracker.turns - borrow;
+        let parts = vec4<f32>(high) * 4294967296.0 + vec4<f32>(low);
+        let travelled = component_lengths(parts);
+        squared = sum64_of_f32(dot(travelled, travelled) * DISPLACEMENT);
+        let now = Vector(steps_of(particle.momentum));
+        let then = Vector(steps_of(tracker.momentum));
+        let inverse_mass = inverse_mass_of(particle.momentum.w);
+        kept = sum64_of_f32(dot(now, then) * inverse_mass * inverse_mass * VELOCITY);
+    }
+    reduce_quantity(group, lane, 0u, squared);
+    reduce_quantity(group, lane, 1u, kept);
+}

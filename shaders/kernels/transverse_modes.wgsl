@@ -1,0 +1,29 @@
+// The longest transverse momentum waves: for every axis of the box, the momenta across it weighted with the cosine and
+// the sine of the position along it. Reads the particles in the order of their ids.
+override PARTICLES: u32;
+const QUANTITIES: u32 = 2u * DIMENSION * (DIMENSION - 1u);
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let id = group * 64u + lane;
+    var quantity = 0u;
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        for (var across = 1u; across < DIMENSION; across++) {
+            var cosine = Sum64(0u);
+            var sine = Sum64(0u);
+            if (id < PARTICLES) {
+                let particle = particles[id];
+                let angle = f32(bitcast<i32>(particle.position[axis])) * 1.4629181e-9; // 2 pi / 2^32
+                let momentum = f32(particle.momentum[(axis + across) % DIMENSION]);
+                cosine = sum64_of_f32(momentum * cos(angle));
+                sine = sum64_of_f32(momentum * sin(angle));
+            }
+            reduce_quantity(group, lane, quantity, cosine);
+            reduce_quantity(group, lane, quantity + 1u, sine);
+            quantity += 2u;
+        }
+    }
+}
