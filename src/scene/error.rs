@@ -59,7 +59,7 @@ impl fmt::Display for Warning {
 #[non_exhaustive]
 pub enum SceneError {
     /// Neither a file nor a built-in scene has this name.
-    #[error("no scene `{name}`: no file has this path{}, and the built-in scenes are {builtin}", did_you_mean(.suggestion))]
+    #[error("no scene `{name}`: no file has this path{}, and the built-in scenes are {builtin}", did_you_mean(.suggestion.as_deref()))]
     NotFound {
         /// What was asked for.
         name: String,
@@ -127,11 +127,13 @@ fn list(name: &str, problems: &[Problem]) -> String {
         text.push_str(&problem.to_string());
     }
     if count > LISTED {
-        text.push_str(&format!("\n  and {} more", count - LISTED));
+        text.push_str("\n  and ");
+        text.push_str(&(count - LISTED).to_string());
+        text.push_str(" more");
     }
     text
 }
 
-fn did_you_mean(suggestion: &Option<String>) -> String {
-    suggestion.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
 }

@@ -34,13 +34,13 @@ pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
     }
     match builtin().iter().find(|scene| scene.name == source) {
         Some(scene) => parse(scene.name, scene.text, overrides),
-        None => Err(not_found(source)),
+        None => Err(unknown_builtin(source)),
     }
 }
 
 /// The error for a name that is neither a file nor a built-in scene.
 #[must_use]
-pub fn not_found(name: &str) -> SceneError {
+pub fn unknown_builtin(name: &str) -> SceneError {
     let names = builtin().iter().map(|scene| scene.name);
     let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
     SceneError::NotFound {
@@ -81,8 +81,9 @@ fn invalid(name: &str, problems: Vec<Problem>) -> SceneError {
 
 fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
     let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-    let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-    let column = before.iter().rev().take_while(|byte| **byte != b'\n').count() + 1;
+    let before = std::str::from_utf8(before).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    let column = before.len() - before.rfind('\n').map_or(0, |end| end + 1) + 1;
     let message = "this is not UTF-8 text; a scene is a JSON file".to_owned();
     SceneError::Syntax { name: name.to_owned(), line, column, message }
 }

@@ -17,7 +17,7 @@ mod warnings;
 
 pub use builtin::{Builtin, builtin};
 pub use error::{Problem, SceneError, Warning};
-pub use load::{load, not_found, parse, schema};
+pub use load::{load, parse, schema, unknown_builtin};
 pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
 pub use warnings::warnings;

@@ -24,7 +24,10 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         if meaning == Some(candidate) {
             return Some(candidate.to_owned());
         }
-        let likeness = strsim::jaro_winkler(&word, &candidate.to_lowercase());
+        let lower = candidate.to_lowercase();
+        // One slip in a short name is a small likeness, but a likely slip.
+        let one_slip = word.len() > 2 && strsim::damerau_levenshtein(&word, &lower) == 1;
+        let likeness = strsim::jaro_winkler(&word, &lower).max(if one_slip { 0.9 } else { 0.0 });
         if likeness > best.0 {
             best = (likeness, Some(candidate));
         }

@@ -105,13 +105,14 @@ impl<'a> Walker<'a> {
                 let found = suggestion.map_or("missing".to_owned(), |key| format!("missing (found `{key}`)"));
                 self.problems.push(Problem::new(place, found, kinds));
             }
-            Some(Value::String(text)) => match tags.iter().position(|tag| tag == text) {
-                Some(chosen) => self.check(&alternatives[chosen], value, path),
-                None => {
+            Some(Value::String(text)) => {
+                if let Some(chosen) = tags.iter().position(|tag| tag == text) {
+                    self.check(&alternatives[chosen], value, path);
+                } else {
                     let problem = Problem::new(place, format!("found \"{text}\""), kinds);
                     self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
                 }
-            },
+            }
             Some(other) => self.problems.push(Problem::new(place, found(other), kinds)),
         }
     }

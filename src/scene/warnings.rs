@@ -28,6 +28,15 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     warnings
 }
 
+/// The largest value of a property among the species that have particles, and the first species that has it.
+fn largest(species: &[Species], property: impl Fn(usize) -> f64) -> (f64, usize) {
+    let present = (0..species.len()).filter(|index| species[*index].count > 0);
+    present.fold((0.0, 0), |most, index| {
+        let value = property(index);
+        if value > most.0 { (value, index) } else { most }
+    })
+}
+
 fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {
     warnings.push(Warning { path: path.into(), message });
 }
@@ -49,10 +58,7 @@ fn friction_rate(scene: &Scene, species: &[Species], force: &PairForce, index: u
 
 fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let rates = (0..species.len())
-        .filter(|index| species[*index].count > 0)
-        .map(|index| (friction_rate(scene, species, force, index), index));
-    let Some((rate, index)) = rates.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+    let (rate, index) = largest(species, |index| friction_rate(scene, species, force, index));
     if rate * step > FRICTION_LIMIT {
         warn(
             warnings,
@@ -82,10 +88,7 @@ fn frequency(scene: &Scene, species: &[Species], force: &PairForce, index: usize
 
 fn warn_of_stiffness(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let frequencies = (0..species.len())
-        .filter(|index| species[*index].count > 0)
-        .map(|index| (frequency(scene, species, force, index), index));
-    let Some((frequency, index)) = frequencies.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+    let (frequency, index) = largest(species, |index| frequency(scene, species, force, index));
     if frequency * step > FREQUENCY_LIMIT {
         warn(
             warnings,
