@@ -348,3 +348,13 @@ fn a_reader_that_leaves_is_no_failure() {
     assert!(output.status.success());
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
 }
+
+#[test]
+fn a_flood_of_mistakes_is_counted() {
+    let positions = vec![[1]; 30];
+    let group = json!([{"species": "A", "placement": {"type": "listed", "positions": positions}}]);
+    let error = parse(&[&format!("particles={group}")]).unwrap_err().to_string();
+    assert!(error.starts_with("scene `test.json` has 30 mistakes:"), "{error}");
+    assert_eq!(error.lines().count(), 22, "{error}");
+    assert!(error.ends_with("\n  and 10 more"), "{error}");
+}

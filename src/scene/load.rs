@@ -91,5 +91,7 @@ fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
 /// The JSON Schema of a scene (draft 2020-12), derived from [`Scene`].
 #[must_use]
 pub fn schema() -> Value {
-    schemars::schema_for!(Scene).to_value()
+    let schema = schemars::schema_for!(Scene);
+    // Serialisation puts the keys in reading order.
+    serde_json::to_value(&schema).unwrap_or_else(|_| schema.to_value())
 }
