@@ -1,8 +1,26 @@
 //! What the user wrote, typed and checked.
+//!
+//! [`load`] goes from text to JSON, applies overrides, compares the JSON with the [`schema`] that the types define,
+//! reads it into a [`Scene`] and checks what a schema cannot say. Mistakes are reported all at once.
 
+mod builtin;
+mod error;
+mod load;
+mod nearest;
+mod overrides;
+mod path;
+mod semantics;
+mod shape;
+mod text;
 mod types;
+mod warnings;
 
+pub use builtin::{Builtin, builtin};
+pub use error::{Problem, SceneError, Warning};
+pub use load::{load, parse, schema, unknown_builtin};
+pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
+pub use warnings::warnings;
 
 impl Space {
     /// Volume of the box (area in two dimensions).

@@ -1,0 +1,60 @@
+//! Why a command failed, in words, with its exit code.
+
+use std::fmt;
+
+use mesoscope::scene::SceneError;
+
+/// Why a command failed.
+#[derive(Debug)]
+pub struct Failure {
+    exit_code: u8,
+    message: String,
+}
+
+impl Failure {
+    /// A wrong command line or scene: exit code 2.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self { exit_code: 2, message: message.into() }
+    }
+
+    /// No adapter that could run this: exit code 3.
+    #[expect(dead_code, reason = "for the commands that open an adapter")]
+    pub fn no_adapter(message: impl Into<String>) -> Self {
+        Self { exit_code: 3, message: message.into() }
+    }
+
+    /// A run became unstable: exit code 4.
+    #[expect(dead_code, reason = "for the commands that run")]
+    pub fn unstable(message: impl Into<String>) -> Self {
+        Self { exit_code: 4, message: message.into() }
+    }
+
+    /// Input or output failed: exit code 5.
+    pub fn input_output(message: impl Into<String>) -> Self {
+        Self { exit_code: 5, message: message.into() }
+    }
+
+    /// What the process returns.
+    pub fn exit_code(&self) -> u8 {
+        self.exit_code
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Read { .. } => Self::input_output(error.to_string()),
+            SceneError::NotFound { .. } => Self::usage(format!("{error}\nhint: `mesoscope scenes` lists them")),
+            SceneError::Invalid { .. } => Self::usage(format!(
+                "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes dpd-fluid` a complete scene"
+            )),
+            _ => Self::usage(error.to_string()),
+        }
+    }
+}

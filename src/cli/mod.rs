@@ -1,0 +1,73 @@
+//! The command line: one file per command.
+
+mod adapters;
+mod check;
+mod failure;
+mod plot;
+mod print;
+mod resume;
+mod run;
+mod scene_arguments;
+mod scenes;
+mod schema;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use failure::Failure;
+pub use print::print;
+pub use scene_arguments::SceneArguments;
+
+/// Stochastic mesoscale particle simulations on any GPU.
+#[derive(Debug, Parser)]
+#[command(
+    name = "mesoscope",
+    version,
+    arg_required_else_help = true,
+    after_help = "\
+Examples:
+  mesoscope run dpd-fluid                     simulate the standard DPD fluid on the best adapter
+  mesoscope run my-scene.json --out results   simulate a scene of your own
+  mesoscope check my-scene.json               find all its mistakes, see what it costs
+  mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
+
+Exit codes: 2 wrong command line or scene, 3 no usable adapter, 4 unstable run, 5 input or output."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Check(check::Arguments),
+    Resume(resume::Arguments),
+    Plot(plot::Arguments),
+    Scenes(scenes::Arguments),
+    Schema(schema::Arguments),
+    Adapters(adapters::Arguments),
+}
+
+/// Reads the command line, executes the command and turns a failure into a message and an exit code.
+pub fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Run(arguments) => run::execute(&arguments),
+        Command::Check(arguments) => check::execute(&arguments),
+        Command::Resume(arguments) => resume::execute(&arguments),
+        Command::Plot(arguments) => plot::execute(&arguments),
+        Command::Scenes(arguments) => scenes::execute(&arguments),
+        Command::Schema(arguments) => schema::execute(&arguments),
+        Command::Adapters(arguments) => adapters::execute(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // Nobody is left to tell if standard error is closed.
+            let _ = writeln!(std::io::stderr().lock(), "error: {failure}");
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}

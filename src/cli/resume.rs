@@ -1,0 +1,34 @@
+//! `mesoscope resume`: go on with a run.
+
+use std::path::PathBuf;
+
+use super::Failure;
+
+/// Continue a run from its last checkpoint
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  mesoscope resume dpd-fluid                 finish a run that was interrupted
+  mesoscope resume dpd-fluid --steps 50000   go on to step 50000")]
+pub struct Arguments {
+    /// Directory of the run
+    directory: PathBuf,
+
+    /// Step at which to stop [default: the number of steps in the scene]
+    #[arg(long, value_name = "N")]
+    steps: Option<u64>,
+
+    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
+    /// [default: the best one]
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+
+    /// Report errors only
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Continues the run.
+pub fn execute(_: &Arguments) -> Result<(), Failure> {
+    Err(Failure::usage("`resume` is not available in this build"))
+}

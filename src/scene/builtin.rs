@@ -1,0 +1,23 @@
+//! The scenes inside the program.
+
+/// A scene inside the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Builtin {
+    /// The name that [`super::load`] takes.
+    pub name: &'static str,
+    /// The scene as JSON text.
+    pub text: &'static str,
+}
+
+macro_rules! builtin {
+    ($($name:literal),* $(,)?) => {
+        &[$(Builtin { name: $name, text: include_str!(concat!("../../assets/scenes/", $name, ".json")) }),*]
+    };
+}
+
+/// The scenes inside the program, the main one first.
+#[must_use]
+pub fn builtin() -> &'static [Builtin] {
+    builtin!["dpd-fluid", "dpd-fluid-2d", "binary-mixture", "ideal-dissipative-gas"]
+}

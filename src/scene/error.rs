@@ -1,0 +1,139 @@
+//! Everything that can be wrong with a scene, in words for the person who wrote it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// One mistake in a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Problem {
+    /// Where: `interactions[0].friction`.
+    pub path: String,
+    /// What is there, as a phrase: `found -1`, `unknown key`, `missing`.
+    pub found: String,
+    /// What would be right.
+    pub accepted: String,
+    /// The nearest valid key, choice or name.
+    pub suggestion: Option<String>,
+}
+
+impl Problem {
+    pub(super) fn new(path: impl fmt::Display, found: impl Into<String>, accepted: impl Into<String>) -> Self {
+        Self { path: path.to_string(), found: found.into(), accepted: accepted.into(), suggestion: None }
+    }
+
+    pub(super) fn suggest(mut self, suggestion: Option<String>) -> Self {
+        self.suggestion = suggestion;
+        self
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}: {}; ", self.path, self.found)?;
+        if let Some(suggestion) = &self.suggestion {
+            write!(formatter, "did you mean `{suggestion}`? ")?;
+        }
+        write!(formatter, "accepted: {}", self.accepted)
+    }
+}
+
+/// Something a scene may say, but that its author should know about.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Warning {
+    /// Where: `time.step`.
+    pub path: String,
+    /// What to know and what to do about it.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}: {}", self.path, self.message)
+    }
+}
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// Neither a file nor a built-in scene has this name.
+    #[error("no scene `{name}`: no file has this path{}, and the built-in scenes are {builtin}", did_you_mean(.suggestion.as_deref()))]
+    NotFound {
+        /// What was asked for.
+        name: String,
+        /// The nearest built-in name.
+        suggestion: Option<String>,
+        /// The names of all built-in scenes.
+        builtin: String,
+    },
+    /// The file exists but cannot be read.
+    #[error("cannot read the scene {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// The text is not JSON.
+    #[error("{name}:{line}:{column}: {message}")]
+    Syntax {
+        /// File or built-in name.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column in bytes, from 1.
+        column: usize,
+        /// What is wrong and, where it is known, what to do.
+        message: String,
+    },
+    /// An override `path=value` cannot be applied.
+    #[error("override `{argument}`: {message}")]
+    Override {
+        /// The override as it was given.
+        argument: String,
+        /// What is wrong and what to do.
+        message: String,
+    },
+    /// The scene says something that is not accepted.
+    #[error("{}", list(.name, .problems))]
+    Invalid {
+        /// File or built-in name.
+        name: String,
+        /// All mistakes, in the order of the scene.
+        problems: Vec<Problem>,
+    },
+    /// The scene satisfies its schema and yet the program does not understand it: a defect of the program.
+    #[error(
+        "scene `{name}` satisfies the schema but cannot be read ({message}); this is a defect of mesoscope, please report it"
+    )]
+    SchemaMismatch {
+        /// File or built-in name.
+        name: String,
+        /// What the typed reader said.
+        message: String,
+    },
+}
+
+/// Mistakes beyond this number are counted, not listed.
+const LISTED: usize = 20;
+
+fn list(name: &str, problems: &[Problem]) -> String {
+    let count = problems.len();
+    let mut text = format!("scene `{name}` has {count} mistake{}:", if count == 1 { "" } else { "s" });
+    for problem in problems.iter().take(LISTED) {
+        text.push_str("\n  ");
+        text.push_str(&problem.to_string());
+    }
+    if count > LISTED {
+        text.push_str("\n  and ");
+        text.push_str(&(count - LISTED).to_string());
+        text.push_str(" more");
+    }
+    text
+}
+
+fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}

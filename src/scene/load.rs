@@ -1,0 +1,97 @@
+//! From a file or a built-in name to a checked scene.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::error::{Problem, SceneError};
+use super::nearest::nearest;
+use super::path::related;
+use super::{Scene, builtin, overrides, semantics, shape, text};
+
+/// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
+/// `overrides` (`path.to.key=value`, in order) and checks the result.
+///
+/// ```
+/// let scene = mesoscope::scene::load("dpd-fluid", &["time.step=0.02".to_owned()])?;
+/// assert_eq!(scene.time.step, 0.02);
+///
+/// let error = mesoscope::scene::load("dpd-fluid", &["time.setp=0.02".to_owned()]).unwrap_err();
+/// assert!(error.to_string().contains("time.setp: unknown key; did you mean `step`?"));
+/// # Ok::<(), mesoscope::scene::SceneError>(())
+/// ```
+///
+/// # Errors
+/// No such scene, a file that cannot be read, text that is not JSON, an override that does not fit, or
+/// [`SceneError::Invalid`] with all mistakes at once.
+pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    let path = Path::new(source);
+    // A directory of a scene's name is the likely place of its last run, not a scene.
+    if path.exists() && !path.is_dir() {
+        let bytes = std::fs::read(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
+        let text = String::from_utf8(bytes).map_err(|error| not_text(source, &error))?;
+        return parse(source, &text, overrides);
+    }
+    match builtin().iter().find(|scene| scene.name == source) {
+        Some(scene) => parse(scene.name, scene.text, overrides),
+        None => Err(unknown_builtin(source)),
+    }
+}
+
+/// The error for a name that is neither a file nor a built-in scene.
+#[must_use]
+pub fn unknown_builtin(name: &str) -> SceneError {
+    let names = builtin().iter().map(|scene| scene.name);
+    let stem = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
+    SceneError::NotFound {
+        name: name.to_owned(),
+        suggestion: nearest(stem, names.clone()),
+        builtin: names.collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// Reads a scene from JSON text; `name` is what messages call it. Otherwise like [`load`].
+///
+/// # Errors
+/// Text that is not JSON, an override that does not fit, or [`SceneError::Invalid`] with all mistakes at once.
+pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    let (mut document, mut problems) = text::parse(name, text)?;
+    for argument in overrides {
+        overrides::apply(&mut document, argument)?;
+    }
+    problems.extend(shape::check(&super::schema(), &mut document));
+    // What the shape check has mended may be readable, and then everything can be said at once.
+    let scene = match serde_json::from_value::<Scene>(document) {
+        Ok(scene) => scene,
+        Err(_) if !problems.is_empty() => return Err(invalid(name, problems)),
+        Err(error) => {
+            return Err(SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() });
+        }
+    };
+    let mut further = semantics::check(&scene);
+    // A mistake in the shape is likely to be the cause of a misfit in the same place.
+    further.retain(|problem| problems.iter().all(|known| !related(&known.path, &problem.path)));
+    problems.extend(further);
+    if problems.is_empty() { Ok(scene) } else { Err(invalid(name, problems)) }
+}
+
+fn invalid(name: &str, problems: Vec<Problem>) -> SceneError {
+    SceneError::Invalid { name: name.to_owned(), problems }
+}
+
+fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
+    let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+    let before = std::str::from_utf8(before).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    let column = before.len() - before.rfind('\n').map_or(0, |end| end + 1) + 1;
+    let message = "this is not UTF-8 text; a scene is a JSON file".to_owned();
+    SceneError::Syntax { name: name.to_owned(), line, column, message }
+}
+
+/// The JSON Schema of a scene (draft 2020-12), derived from [`Scene`].
+#[must_use]
+pub fn schema() -> Value {
+    let schema = schemars::schema_for!(Scene);
+    // Serialisation puts the keys in reading order.
+    serde_json::to_value(&schema).unwrap_or_else(|_| schema.to_value())
+}

@@ -1,0 +1,42 @@
+//! A place in a JSON document, spelled out only when there is something to say about it.
+
+use std::fmt;
+
+/// A place in a JSON document, as a chain towards the root.
+#[derive(Clone, Copy)]
+pub(super) enum Path<'a> {
+    Root,
+    Key { parent: &'a Path<'a>, key: &'a str },
+    Index { parent: &'a Path<'a>, index: usize },
+}
+
+impl<'a> Path<'a> {
+    pub(super) fn key(&'a self, key: &'a str) -> Path<'a> {
+        Path::Key { parent: self, key }
+    }
+
+    pub(super) fn index(&'a self, index: usize) -> Path<'a> {
+        Path::Index { parent: self, index }
+    }
+}
+
+/// How the document itself is called in a message.
+pub(super) const TOP_LEVEL: &str = "top level";
+
+impl fmt::Display for Path<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Path::Root => formatter.write_str(TOP_LEVEL),
+            Path::Key { parent: Path::Root, key } => formatter.write_str(key),
+            Path::Key { parent, key } => write!(formatter, "{parent}.{key}"),
+            Path::Index { parent: Path::Root, index } => write!(formatter, "[{index}]"),
+            Path::Index { parent, index } => write!(formatter, "{parent}[{index}]"),
+        }
+    }
+}
+
+/// Whether one of two places contains the other.
+pub(super) fn related(a: &str, b: &str) -> bool {
+    let (outer, inner) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    outer == TOP_LEVEL || inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}

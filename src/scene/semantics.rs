@@ -1,0 +1,213 @@
+//! What a schema cannot say: counts, species, lengths and durations that have to fit each other.
+
+use std::collections::HashMap;
+
+use super::error::Problem;
+use super::nearest::nearest;
+use super::{DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities};
+
+/// Bytes of device memory that a run needs for each particle, as an upper bound.
+pub const BYTES_PER_PARTICLE: u64 = 100;
+
+/// Particles are numbered by 32-bit words.
+const MOST_PARTICLES: u64 = u32::MAX as u64;
+
+/// All problems of a scene that has the right shape.
+pub(super) fn check(scene: &Scene) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    check_groups(scene, &mut problems);
+    check_number_of_particles(scene, &mut problems);
+    check_interactions(scene, &mut problems);
+    check_durations(scene, &mut problems);
+    problems
+}
+
+fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
+    let dimension = scene.space.lengths.len();
+    let mut first: HashMap<&str, (usize, f64)> = HashMap::new();
+    for (index, group) in scene.particles.iter().enumerate() {
+        let path = format!("particles[{index}]");
+        check_amount(group, &path, problems);
+        if let Placement::Listed { positions } = &group.placement {
+            check_vectors(positions, dimension, &format!("{path}.placement.positions"), problems);
+        }
+        if let Velocities::Listed { velocities } = &group.velocities {
+            let path = format!("{path}.velocities.velocities");
+            let count = group.resolved_count(scene.space.volume());
+            if velocities.len() as u64 != count {
+                let found = format!("found a list of {}", velocities.len());
+                problems.push(Problem::new(
+                    &path,
+                    found,
+                    format!("one velocity for each of the group's {count} particles"),
+                ));
+            }
+            check_vectors(velocities, dimension, &path, problems);
+        }
+        let (known, mass) = *first.entry(&group.species).or_insert((index, group.mass));
+        if mass != group.mass {
+            let accepted = format!("{mass}, the mass of species `{}` in particles[{known}]", group.species);
+            problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
+        }
+    }
+}
+
+/// A group says in exactly one way how many particles it has.
+fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Vec<Problem>) {
+    if let Placement::Listed { positions } = &group.placement {
+        let length = positions.len();
+        if let Some(count) = group.count.filter(|count| *count != length as u64) {
+            let accepted = format!("{length}, the number of listed positions, or no `count` at all");
+            problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), accepted));
+        }
+        if let Some(density) = group.number_density {
+            let accepted = "no `number_density`: the listed positions say how many particles there are";
+            problems.push(Problem::new(format!("{path}.number_density"), format!("found {density}"), accepted));
+        }
+        return;
+    }
+    let found = match (group.count, group.number_density) {
+        (Some(_), Some(_)) => "both `count` and `number_density` are given",
+        (None, None) => "neither `count` nor `number_density` is given",
+        _ => return,
+    };
+    problems.push(Problem::new(path, found, "exactly one of `count` and `number_density`"));
+}
+
+fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &mut Vec<Problem>) {
+    for (index, vector) in vectors.iter().enumerate() {
+        if vector.len() != dimension {
+            let found = format!("found {} components", vector.len());
+            let accepted = format!("{dimension} components, one for each box edge");
+            problems.push(Problem::new(format!("{path}[{index}]"), found, accepted));
+        } else if let Some(axis) = vector.iter().position(|component| !component.is_finite()) {
+            let found = format!("found {}", vector[axis]);
+            problems.push(Problem::new(format!("{path}[{index}][{axis}]"), found, "a finite number"));
+        }
+    }
+}
+
+fn check_number_of_particles(scene: &Scene, problems: &mut Vec<Problem>) {
+    let volume = scene.space.volume();
+    // In double precision, since a density can ask for more particles than any integer holds.
+    let amounts: Vec<f64> = scene
+        .particles
+        .iter()
+        .map(|group| match (&group.placement, group.count, group.number_density) {
+            (Placement::Listed { positions }, _, _) => positions.len() as f64,
+            (_, Some(count), _) => count as f64,
+            (_, None, density) => (density.unwrap_or(0.0) * volume).round(),
+        })
+        .collect();
+    let total: f64 = amounts.iter().sum();
+    if total <= MOST_PARTICLES as f64 {
+        return;
+    }
+    let largest = amounts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    let path = match largest.map(|(index, _)| (index, &scene.particles[index])) {
+        Some((index, group)) if group.count.is_some() => format!("particles[{index}].count"),
+        Some((index, group)) if group.number_density.is_some() => format!("particles[{index}].number_density"),
+        _ => "particles".to_owned(),
+    };
+    let gibibytes = total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64;
+    let found = format!(
+        "found {} particles in the scene, which need {} GiB at {BYTES_PER_PARTICLE} bytes each",
+        quantity(total),
+        quantity(gibibytes)
+    );
+    let accepted = format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words");
+    problems.push(Problem::new(path, found, accepted));
+}
+
+/// A large number as people read it.
+fn quantity(number: f64) -> String {
+    if number < 1e15 { format!("{number:.0}") } else { format!("{number:.3e}") }
+}
+
+fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let path = format!("interactions[{index}]");
+        let Interaction::Dpd(dpd) = interaction;
+        if index > 0 {
+            let found = "a second `dpd` interaction defines the same pairs of species again";
+            let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
+            problems.push(Problem::new(&path, found, accepted));
+        }
+        check_pairs(scene, dpd, &path, problems);
+    }
+    let cutoffs = scene.interactions.iter().map(|Interaction::Dpd(dpd)| dpd.cutoff);
+    let cutoff = cutoffs.fold(0.0, f64::max);
+    for (axis, length) in scene.space.lengths.iter().enumerate() {
+        if *length < 2.0 * cutoff {
+            let accepted = format!(
+                "at least {}, two cutoffs of {cutoff}: in a shorter box a particle would meet two images of a neighbour",
+                2.0 * cutoff
+            );
+            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
+        }
+    }
+}
+
+fn check_pairs(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut Vec<Problem>) {
+    let mut species: Vec<&str> = Vec::new();
+    for group in &scene.particles {
+        if !species.contains(&group.species.as_str()) {
+            species.push(&group.species);
+        }
+    }
+    let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
+    for (index, pair) in dpd.pairs.iter().enumerate() {
+        let path = format!("{path}.pairs[{index}]");
+        for (end, name) in pair.between.iter().enumerate() {
+            if !species.contains(&name.as_str()) {
+                let accepted = match species.as_slice() {
+                    [] => "a species of some particle group, and there is none".to_owned(),
+                    names => format!("a species of some particle group: {}", names.join(", ")),
+                };
+                let problem = Problem::new(format!("{path}.between[{end}]"), format!("found \"{name}\""), accepted);
+                problems.push(problem.suggest(nearest(name, species.iter().copied())));
+            }
+        }
+        let mut key = [pair.between[0].as_str(), pair.between[1].as_str()];
+        key.sort_unstable();
+        if let Some(earlier) = defined.insert(key, index) {
+            let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
+            problems.push(Problem::new(path, found, "every pair of species once, in either order"));
+        }
+    }
+}
+
+fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
+    let time = &scene.time;
+    if time.equilibration > time.steps {
+        let accepted = format!("at most {}, the number of steps", time.steps);
+        problems.push(Problem::new("time.equilibration", format!("found {}", time.equilibration), accepted));
+    }
+    let measured = time.steps.saturating_sub(time.equilibration);
+    let output = &scene.output;
+    let windows = [
+        ("diffusion", output.diffusion.as_ref().map(|diffusion| (diffusion.every, diffusion.window))),
+        ("viscosity", output.viscosity.as_ref().map(|viscosity| (viscosity.every, viscosity.window))),
+    ];
+    for (name, asked) in windows {
+        let Some((every, window)) = asked else { continue };
+        let needed = u128::from(every) * u128::from(window);
+        if needed > u128::from(measured) {
+            let found = format!("found {window} samples of {every} steps, {needed} steps in all");
+            let most = measured / every.max(1);
+            let accepted = format!(
+                "at most {most} samples within the {measured} steps after equilibration; or let time.steps be at least {}",
+                needed + u128::from(time.equilibration)
+            );
+            problems.push(Problem::new(format!("output.{name}.window"), found, accepted));
+        }
+    }
+    if let Some(radial) = &output.radial_distribution {
+        let half = scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0;
+        if radial.range > half {
+            let accepted = format!("at most {half}, half the shortest box edge");
+            let found = format!("found {}", radial.range);
+            problems.push(Problem::new("output.radial_distribution.range", found, accepted));
+        }
+    }
+}

@@ -1,0 +1,506 @@
+//! A scene's JSON against its JSON Schema, with every mistake reported at once.
+//!
+//! The schema is derived from the types, so keys, types, ranges and choices are written once. This reads the part of
+//! JSON Schema that the derivation emits; a test refuses a schema with a keyword that is not read here.
+
+use serde_json::{Map, Value};
+
+use super::error::Problem;
+use super::nearest::nearest;
+use super::path::Path;
+
+/// Checks `document` against `schema` and mends it on the way: unknown keys are taken out after they are reported, so
+/// that later checks can go on, and whole numbers written as `1e6` or `2000.0` become integers.
+pub(super) fn check(schema: &Value, document: &mut Value) -> Vec<Problem> {
+    let mut walker = Walker { root: schema, problems: Vec::new() };
+    walker.check(schema, document, &Path::Root);
+    walker.problems
+}
+
+struct Walker<'a> {
+    root: &'a Value,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Walker<'a> {
+    fn check(&mut self, schema: &'a Value, value: &mut Value, path: &Path<'_>) {
+        let layers = layers(self.root, schema);
+        if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
+            self.check_alternatives(schema, alternatives, value, path);
+            return;
+        }
+        if !self.check_type(schema, &layers, value, path) {
+            return;
+        }
+        match value {
+            Value::Number(_) => self.check_number(schema, &layers, value, path),
+            Value::String(text) => self.check_text(schema, &layers, text, path),
+            Value::Array(list) => self.check_list(schema, &layers, list, path),
+            Value::Object(object) => self.check_object(&layers, object, path),
+            Value::Null | Value::Bool(_) => {}
+        }
+    }
+
+    /// Reports what stands at `path` as not accepted by `schema`.
+    fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
+        self.problems.push(Problem::new(path, found(value), accepted(self.root, schema)));
+    }
+
+    fn check_alternatives(&mut self, schema: &'a Value, alternatives: &'a [Value], value: &mut Value, path: &Path<'_>) {
+        let choices: Vec<&str> = alternatives.iter().filter_map(|choice| choice["const"].as_str()).collect();
+        if choices.len() == alternatives.len() {
+            match value.as_str() {
+                Some(text) if choices.contains(&text) => {}
+                Some(text) => {
+                    let suggestion = nearest(text, choices);
+                    let problem = Problem::new(path, found(value), accepted(self.root, schema));
+                    self.problems.push(problem.suggest(suggestion));
+                }
+                None => self.refuse(schema, value, path),
+            }
+            return;
+        }
+        let tags: Vec<&str> = alternatives.iter().filter_map(|branch| tag(self.root, branch)).collect();
+        if tags.len() == alternatives.len() {
+            self.check_tagged(schema, alternatives, &tags, value, path);
+            return;
+        }
+        // Whatever the value comes nearest to being is what its author meant.
+        let mut fewest: Option<(Vec<Problem>, Value)> = None;
+        for branch in alternatives {
+            let mut attempt = Walker { root: self.root, problems: Vec::new() };
+            let mut mended = value.clone();
+            attempt.check(branch, &mut mended, path);
+            if fewest.as_ref().is_none_or(|(problems, _)| attempt.problems.len() < problems.len()) {
+                fewest = Some((attempt.problems, mended));
+            }
+        }
+        if let Some((problems, mended)) = fewest {
+            *value = mended;
+            self.problems.extend(problems);
+        }
+    }
+
+    /// One of several kinds of object, told apart by the text of `type`.
+    fn check_tagged(
+        &mut self,
+        schema: &'a Value,
+        alternatives: &'a [Value],
+        tags: &[&'a str],
+        value: &mut Value,
+        path: &Path<'_>,
+    ) {
+        let kinds = tags.iter().map(|tag| format!("`{tag}`")).collect::<Vec<_>>().join(", ");
+        let Value::Object(object) = value else {
+            let meant = value.as_str().and_then(|text| nearest(text, tags.iter().copied()));
+            let problem = Problem::new(path, found(value), accepted(self.root, schema));
+            self.problems.push(problem.suggest(meant.map(|tag| format!("{{\"type\": \"{tag}\"}}"))));
+            return;
+        };
+        let place = path.key("type");
+        match object.get("type") {
+            None => {
+                // A misspelt `type` is both an unknown key and a missing one.
+                let suggestion = object.keys().find(|key| nearest(key, ["type"]).is_some());
+                let found = suggestion.map_or("missing".to_owned(), |key| format!("missing (found `{key}`)"));
+                self.problems.push(Problem::new(place, found, kinds));
+            }
+            Some(Value::String(text)) => {
+                if let Some(chosen) = tags.iter().position(|tag| tag == text) {
+                    self.check(&alternatives[chosen], value, path);
+                } else {
+                    let problem = Problem::new(place, format!("found \"{text}\""), kinds);
+                    self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
+                }
+            }
+            Some(other) => self.problems.push(Problem::new(place, found(other), kinds)),
+        }
+    }
+
+    fn check_type(&mut self, schema: &Value, layers: &[&Value], value: &mut Value, path: &Path<'_>) -> bool {
+        for layer in layers {
+            let types = types(layer);
+            if types.is_empty() {
+                continue;
+            }
+            if types.contains(&"integer")
+                && let Some(number) = value.as_f64()
+                && value.is_f64()
+                && number.fract() == 0.0
+            {
+                if number >= 0.0 && number < u64::MAX as f64 {
+                    *value = (number as u64).into();
+                } else if number < 0.0 && number >= i64::MIN as f64 {
+                    *value = (number as i64).into();
+                }
+            }
+            let matches = match value {
+                Value::Null => types.contains(&"null"),
+                Value::Bool(_) => types.contains(&"boolean"),
+                Value::Number(number) => types.contains(&"number") || types.contains(&"integer") && !number.is_f64(),
+                Value::String(_) => types.contains(&"string"),
+                Value::Array(_) => types.contains(&"array"),
+                Value::Object(_) => types.contains(&"object"),
+            };
+            if !matches {
+                self.refuse(schema, value, path);
+                return false;
+            }
+        }
+        true
+    }
+
+    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &Value, path: &Path<'_>) {
+        let range = Range::of(layers);
+        // Within a whole number's format, u64 and f64 compare exactly enough: every bound is far below 2^53 or at 2^64.
+        let inside = value.as_f64().is_some_and(|number| range.contains(number))
+            && !(range.integer && value.as_i64().is_none() && value.as_u64().is_none());
+        if !inside {
+            self.refuse(schema, value, path);
+        }
+    }
+
+    fn check_text(&mut self, schema: &Value, layers: &[&Value], text: &str, path: &Path<'_>) {
+        for layer in layers {
+            let short = layer["minLength"].as_u64().is_some_and(|least| (text.chars().count() as u64) < least);
+            let other = layer.get("const").is_some_and(|only| only != text);
+            let none = layer["enum"].as_array().is_some_and(|choices| !choices.iter().any(|choice| choice == text));
+            if short || other || none {
+                let choices = layer["enum"].as_array().into_iter().flatten().filter_map(Value::as_str);
+                let problem = Problem::new(path, format!("found \"{text}\""), accepted(self.root, schema));
+                self.problems.push(problem.suggest(nearest(text, choices)));
+                return;
+            }
+        }
+    }
+
+    fn check_list(&mut self, schema: &Value, layers: &[&'a Value], list: &mut [Value], path: &Path<'_>) {
+        for layer in layers {
+            let length = list.len() as u64;
+            let short = layer["minItems"].as_u64().is_some_and(|least| length < least);
+            let long = layer["maxItems"].as_u64().is_some_and(|most| length > most);
+            if short || long {
+                let entries = if length == 1 { "entry" } else { "entries" };
+                let found = format!("found a list of {length} {entries}");
+                self.problems.push(Problem::new(path, found, accepted(self.root, schema)));
+            }
+            let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
+            for (index, entry) in list.iter_mut().enumerate() {
+                if let Some(schema) = first.get(index).or_else(|| layer.get("items")) {
+                    self.check(schema, entry, &path.index(index));
+                }
+            }
+        }
+    }
+
+    fn check_object(&mut self, layers: &[&'a Value], object: &mut Map<String, Value>, path: &Path<'_>) {
+        let known: Vec<(&'a str, &'a Value)> = layers
+            .iter()
+            .filter_map(|layer| layer["properties"].as_object())
+            .flatten()
+            .map(|(key, schema)| (key.as_str(), schema))
+            .collect();
+        let closed = layers
+            .iter()
+            .any(|layer| layer["additionalProperties"] == false || layer["unevaluatedProperties"] == false);
+        let required = layers.iter().filter_map(|layer| layer["required"].as_array()).flatten();
+        let mut missing: Vec<&str> =
+            required.filter_map(Value::as_str).filter(|key| !object.contains_key(*key)).collect();
+
+        let mut unknown = Vec::new();
+        for (key, value) in object.iter_mut() {
+            match known.iter().find(|(name, _)| name == key) {
+                Some((_, schema)) => self.check(schema, value, &path.key(key)),
+                None if closed => {
+                    // What is not there yet is likelier to be meant than what is; a missing key most of all.
+                    let names = known.iter().map(|(name, _)| *name);
+                    let suggestion = nearest(key, missing.iter().copied()).or_else(|| nearest(key, names.clone()));
+                    // A misspelt required key is one mistake, not two.
+                    missing.retain(|key| suggestion.as_deref() != Some(*key));
+                    let accepted = names.filter(|name| *name != "$schema").collect::<Vec<_>>().join(", ");
+                    let problem = Problem::new(path.key(key), "unknown key", accepted);
+                    self.problems.push(problem.suggest(suggestion));
+                    unknown.push(key.clone());
+                }
+                None => {}
+            }
+        }
+        for key in unknown {
+            object.remove(&key);
+        }
+        for key in missing {
+            let schema = known.iter().find(|(name, _)| *name == key).map_or(&Value::Null, |(_, schema)| *schema);
+            self.problems.push(Problem::new(path.key(key), "missing", accepted(self.root, schema)));
+        }
+    }
+}
+
+/// A schema and what it refers to, outermost first.
+fn layers<'a>(root: &'a Value, schema: &'a Value) -> Vec<&'a Value> {
+    let mut layers = vec![schema];
+    let mut current = schema;
+    while let Some(target) =
+        current["$ref"].as_str().and_then(|reference| root.pointer(reference.strip_prefix('#').unwrap_or(reference)))
+    {
+        layers.push(target);
+        current = target;
+    }
+    layers
+}
+
+fn alternatives(schema: &Value) -> Option<&[Value]> {
+    schema.get("oneOf").or_else(|| schema.get("anyOf"))?.as_array().map(Vec::as_slice)
+}
+
+/// The text of `type` that selects an alternative.
+fn tag<'a>(root: &'a Value, branch: &'a Value) -> Option<&'a str> {
+    layers(root, branch).iter().find_map(|layer| layer["properties"]["type"]["const"].as_str())
+}
+
+fn types(schema: &Value) -> Vec<&str> {
+    match &schema["type"] {
+        Value::String(only) => vec![only],
+        Value::Array(several) => several.iter().filter_map(Value::as_str).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The numbers a schema accepts.
+#[derive(Default)]
+struct Range {
+    integer: bool,
+    least: Option<f64>,
+    above: Option<f64>,
+    most: Option<f64>,
+    below: Option<f64>,
+}
+
+impl Range {
+    fn of(layers: &[&Value]) -> Self {
+        let mut range = Self::default();
+        for layer in layers {
+            range.integer |= types(layer).contains(&"integer");
+            let (least, most) = match layer["format"].as_str() {
+                Some("uint32") => (Some(0.0), Some(f64::from(u32::MAX))),
+                Some("uint64") => (Some(0.0), None),
+                _ => (None, None),
+            };
+            range.least = layer["minimum"].as_f64().or(least).or(range.least);
+            range.most = layer["maximum"].as_f64().or(most).or(range.most);
+            range.above = layer["exclusiveMinimum"].as_f64().or(range.above);
+            range.below = layer["exclusiveMaximum"].as_f64().or(range.below);
+        }
+        range
+    }
+
+    fn contains(&self, number: f64) -> bool {
+        self.least.is_none_or(|least| number >= least)
+            && self.most.is_none_or(|most| number <= most)
+            && self.above.is_none_or(|above| number > above)
+            && self.below.is_none_or(|below| number < below)
+    }
+
+    fn describe(&self) -> String {
+        let kind = if self.integer { "a whole number" } else { "a number" };
+        match (self.least, self.above, self.most, self.below) {
+            (Some(least), _, Some(most), _) if least == most => format!("the number {least}"),
+            (Some(least), _, Some(most), _) => format!("{kind} from {least} to {most}"),
+            (Some(0.0), _, _, _) => format!("{kind}, zero or positive"),
+            (Some(least), _, _, _) => format!("{kind} of at least {least}"),
+            (_, Some(0.0), None, None) => format!("{kind} greater than zero"),
+            (_, Some(above), None, None) => format!("{kind} greater than {above}"),
+            (_, Some(above), Some(most), _) => format!("{kind} greater than {above}, at most {most}"),
+            (_, _, Some(most), _) => format!("{kind} of at most {most}"),
+            (_, _, _, Some(below)) => format!("{kind} below {below}"),
+            (None, None, None, None) => kind.to_owned(),
+        }
+    }
+}
+
+/// What stands in a scene, short enough for one line.
+fn found(value: &Value) -> String {
+    match value {
+        Value::String(text) if text.chars().count() > 40 => {
+            format!("found the text \"{}…\"", text.chars().take(40).collect::<String>())
+        }
+        Value::String(text) => format!("found the text \"{text}\""),
+        Value::Array(list) => format!("found a list of {}", list.len()),
+        Value::Object(_) => "found an object".to_owned(),
+        Value::Null | Value::Bool(_) | Value::Number(_) => format!("found {value}"),
+    }
+}
+
+/// What a schema accepts, as a phrase.
+fn accepted(root: &Value, schema: &Value) -> String {
+    let layers = layers(root, schema);
+    if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
+        let choices: Vec<String> = alternatives
+            .iter()
+            .filter_map(|choice| choice["const"].as_str())
+            .map(|text| format!("\"{text}\""))
+            .collect();
+        if choices.len() == alternatives.len() {
+            return choices.join(", ");
+        }
+        let tags: Vec<String> =
+            alternatives.iter().filter_map(|branch| tag(root, branch)).map(|tag| format!("\"{tag}\"")).collect();
+        if tags.len() == alternatives.len() {
+            return format!("an object whose `type` is {}", tags.join(", "));
+        }
+        let phrases: Vec<String> = alternatives
+            .iter()
+            .filter(|branch| types(branch) != ["null"])
+            .map(|branch| accepted(root, branch))
+            .collect();
+        return phrases.join(", or ");
+    }
+    let kind = layers.iter().find_map(|layer| types(layer).into_iter().find(|kind| *kind != "null"));
+    let from_layers = |key: &str| layers.iter().find_map(|layer| layer.get(key));
+    match kind {
+        Some("number" | "integer") => Range::of(&layers).describe(),
+        Some("string") => match from_layers("enum").and_then(Value::as_array) {
+            Some(choices) => choices.iter().map(Value::to_string).collect::<Vec<_>>().join(", "),
+            None => match from_layers("const") {
+                Some(only) => only.to_string(),
+                None if from_layers("minLength").is_some() => "text that is not empty".to_owned(),
+                None => "text".to_owned(),
+            },
+        },
+        Some("boolean") => "true or false".to_owned(),
+        Some("array") => {
+            let bound = |key: &str| from_layers(key).and_then(Value::as_u64);
+            let length = match (bound("minItems"), bound("maxItems")) {
+                (Some(least), Some(most)) if least == most => format!(" of {least} entries"),
+                (Some(least), Some(most)) => format!(" of {least} to {most} entries"),
+                (Some(least), None) => format!(" of at least {least} entries"),
+                (None, Some(most)) => format!(" of at most {most} entries"),
+                (None, None) => String::new(),
+            };
+            match from_layers("items") {
+                Some(items) => format!("a list{length}, each {}", accepted(root, items)),
+                None => format!("a list{length}"),
+            }
+        }
+        Some("object") => {
+            let keys = layers.iter().filter_map(|layer| layer["properties"].as_object()).flat_map(Map::keys);
+            let keys = keys.filter(|key| *key != "$schema").map(|key| format!("`{key}`")).collect::<Vec<_>>();
+            format!("an object with {}", keys.join(", "))
+        }
+        _ => "any value".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    /// Every keyword in the published schema, by the place where keywords stand.
+    fn keywords(schema: &Value, into: &mut Vec<String>) {
+        let Some(object) = schema.as_object() else { return };
+        for (key, value) in object {
+            into.push(key.clone());
+            match key.as_str() {
+                "properties" | "$defs" => {
+                    value.as_object().into_iter().flatten().for_each(|(_, schema)| keywords(schema, into));
+                }
+                "oneOf" | "anyOf" | "prefixItems" => {
+                    value.as_array().into_iter().flatten().for_each(|schema| keywords(schema, into));
+                }
+                "items" => keywords(value, into),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn every_keyword_of_the_schema_is_read() {
+        let read = [
+            "$defs",
+            "$ref",
+            "$schema",
+            "additionalProperties",
+            "anyOf",
+            "const",
+            "default",
+            "description",
+            "enum",
+            "exclusiveMaximum",
+            "exclusiveMinimum",
+            "format",
+            "items",
+            "maxItems",
+            "maximum",
+            "minItems",
+            "minLength",
+            "minimum",
+            "oneOf",
+            "prefixItems",
+            "properties",
+            "required",
+            "title",
+            "type",
+            "unevaluatedProperties",
+        ];
+        let mut found = Vec::new();
+        keywords(&crate::scene::schema(), &mut found);
+        assert!(found.len() > 300, "the walk over the schema stopped early: {}", found.len());
+        found.retain(|keyword| !read.contains(&keyword.as_str()));
+        assert!(found.is_empty(), "not read: {found:?}");
+    }
+
+    fn messages(schema: &Value, mut value: Value) -> Vec<String> {
+        check(schema, &mut value).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn references_with_siblings_are_one_object() {
+        let schema = json!({
+            "type": "object", "$ref": "#/$defs/Inner", "properties": {"type": {"const": "x", "type": "string"}},
+            "unevaluatedProperties": false,
+            "$defs": {"Inner": {"type": "object", "properties": {"size": {"type": "integer", "maximum": 3}},
+                "required": ["size"]}},
+        });
+        assert!(messages(&schema, json!({"type": "x", "size": 3})).is_empty());
+        assert_eq!(
+            messages(&schema, json!({"type": "x", "size": 4})),
+            ["size: found 4; accepted: a whole number of at most 3"]
+        );
+        assert_eq!(messages(&schema, json!({"type": "x"})), ["size: missing; accepted: a whole number of at most 3"]);
+        assert_eq!(
+            messages(&schema, json!({"type": "x", "seize": 4})),
+            ["seize: unknown key; did you mean `size`? accepted: type, size",]
+        );
+    }
+
+    #[test]
+    fn tuples_enumerations_and_absent_values() {
+        let schema = json!({"type": "object", "properties": {
+            "pair": {"type": "array", "prefixItems": [{"type": "string"}, {"type": "number"}], "minItems": 2},
+            "mode": {"type": "string", "enum": ["fast", "exact"]},
+            "maybe": {"anyOf": [{"type": "object", "properties": {"n": {"type": "integer"}}}, {"type": "null"}]},
+        }});
+        assert!(messages(&schema, json!({"pair": ["a", 1], "mode": "fast", "maybe": null})).is_empty());
+        assert_eq!(
+            messages(&schema, json!({"pair": ["a", "b"], "mode": "exat", "maybe": {"n": 1.5}})),
+            [
+                "pair[1]: found the text \"b\"; accepted: a number",
+                "mode: found \"exat\"; did you mean `exact`? accepted: \"fast\", \"exact\"",
+                "maybe.n: found 1.5; accepted: a whole number",
+            ]
+        );
+    }
+
+    #[test]
+    fn whole_numbers_may_be_written_with_an_exponent() {
+        let schema = json!({"type": "integer", "format": "uint64", "minimum": 0});
+        let mut value = json!(1e12);
+        assert!(check(&schema, &mut value).is_empty());
+        assert_eq!(value, json!(1_000_000_000_000_u64));
+        assert_eq!(messages(&schema, json!(1e30)).len(), 1);
+        assert_eq!(messages(&schema, json!(-1.0)).len(), 1);
+        assert_eq!(messages(&schema, json!(0.5)).len(), 1);
+        assert_eq!(messages(&json!({"type": "integer", "format": "uint32"}), json!(4_294_967_296_u64)).len(), 1);
+    }
+}

@@ -1,0 +1,360 @@
+//! Wrong scenes and wrong command lines: each names the place, what was found and what is accepted, and exits with 2.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::process::{Command, Output, Stdio};
+
+use mesoscope::scene::{self, Scene, SceneError};
+use serde_json::{Value, json};
+
+fn mesoscope(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mesoscope")).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// A small right scene.
+fn base() -> Value {
+    json!({
+        "title": "test",
+        "space": {"box": [10, 10, 10]},
+        "time": {"step": 0.01, "steps": 100},
+        "temperature": 1,
+        "particles": [
+            {"species": "water", "count": 300},
+            {"species": "oil", "count": 300},
+        ],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+    })
+}
+
+fn parse(overrides: &[&str]) -> Result<Scene, SceneError> {
+    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
+    scene::parse("test.json", &base().to_string(), &overrides)
+}
+
+fn problems(overrides: &[&str]) -> Vec<String> {
+    match parse(overrides) {
+        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
+        other => panic!("{overrides:?}: {other:?}"),
+    }
+}
+
+/// The one problem of the small scene with these overrides has all these parts.
+fn refused(overrides: &[&str], parts: &[&str]) {
+    let problems = problems(overrides);
+    assert_eq!(problems.len(), 1, "{problems:#?}");
+    for part in parts {
+        assert!(problems[0].contains(part), "`{part}` is not in: {}", problems[0]);
+    }
+}
+
+#[test]
+fn the_base_is_right() {
+    parse(&[]).unwrap();
+}
+
+#[test]
+fn unknown_keys() {
+    refused(
+        &["interactions.0.fricton=4"],
+        &["interactions[0].fricton: unknown key; did you mean `friction`? accepted: type, cutoff, weight_exponent"],
+    );
+    refused(&["interactions.0.gamma=4"], &["did you mean `friction`?"]);
+    refused(&["tempreature=1"], &["tempreature: unknown key; did you mean `temperature`?"]);
+    refused(&["integrator.type=splitting", "integrator.lambda=0.5"], &["integrator.lambda: unknown key"]);
+    refused(&["particles.0.placement.type=random", "particles.0.placement.spread=1"], &["placement.spread"]);
+    refused(&["wavelets=1"], &["wavelets: unknown key; accepted: version, title"]);
+}
+
+#[test]
+fn values_out_of_range_or_of_another_type() {
+    refused(&["particles.0.mass=-1"], &["particles[0].mass: found -1; accepted: a number greater than zero"]);
+    refused(&["time.step=0"], &["time.step: found 0; accepted: a number greater than zero"]);
+    refused(&["space.box=[]"], &["space.box: found a list of 0 entries; accepted: a list of 2 to 3 entries"]);
+    refused(&["space.box=[9,9,9,9]"], &["space.box: found a list of 4 entries"]);
+    refused(&["space.box=[9,9,-9]"], &["space.box[2]: found -9; accepted: a number greater than zero"]);
+    refused(&["time.steps=ten"], &["time.steps: found the text \"ten\"; accepted: a whole number, zero or positive"]);
+    refused(&["time.steps=1.5"], &["time.steps: found 1.5; accepted: a whole number"]);
+    refused(&["time.steps=null"], &["time.steps: found null"]);
+    refused(&["version=2"], &["version: found 2; accepted: the number 1"]);
+    refused(&["integrator=splitting"], &["did you mean `{\"type\": \"splitting\"}`?"]);
+    refused(&["integrator.type=grot-warren"], &["integrator.type", "did you mean `groot-warren`?"]);
+    refused(&["noise.generator=pcg"], &["noise.generator", "did you mean `pcg4d`?", "threefry2x32-20"]);
+    refused(&["integrator.lambda=.5"], &["integrator.type: missing; accepted: `splitting`, `groot-warren`"]);
+    assert_eq!(parse(&["time.steps=1e5"]).unwrap().time.steps, 100_000);
+}
+
+#[test]
+fn missing_keys() {
+    let mut document = base();
+    document["time"].as_object_mut().unwrap().remove("step");
+    let error = scene::parse("test.json", &document.to_string(), &[]).unwrap_err().to_string();
+    assert!(
+        error.contains("scene `test.json` has 1 mistake:\n  time.step: missing; accepted: a number greater"),
+        "{error}"
+    );
+}
+
+#[test]
+fn all_mistakes_at_once_of_shape_and_of_sense() {
+    let found = problems(&[
+        "interactions.0.fricton=4",
+        "particles.1.mass=-1",
+        "time.step=0",
+        "time.equilibration=200",
+        r#"interactions.0.pairs=[{"between": ["water", "oli"], "repulsion": 40}]"#,
+    ]);
+    let paths: Vec<&str> = found.iter().map(|line| line.split(':').next().unwrap()).collect();
+    assert_eq!(paths.len(), 5, "{found:#?}");
+    for path in [
+        "interactions[0].fricton",
+        "particles[1].mass",
+        "time.step",
+        "time.equilibration",
+        "interactions[0].pairs[0].between[1]",
+    ] {
+        assert!(paths.contains(&path), "{path} in {found:#?}");
+    }
+}
+
+#[test]
+fn species_and_pairs() {
+    refused(
+        &[r#"interactions.0.pairs=[{"between": ["water", "oyl"]}]"#],
+        &["interactions[0].pairs[0].between[1]: found \"oyl\"", "did you mean `oil`?", "water, oil"],
+    );
+    refused(
+        &[r#"interactions.0.pairs=[{"between": ["water", "oil"]}, {"between": ["oil", "water"]}]"#],
+        &["interactions[0].pairs[1]: pairs[0] defines `oil` with `water` already"],
+    );
+    refused(
+        &[r#"interactions=[{"type": "dpd"}, {"type": "dpd"}]"#],
+        &["interactions[1]: a second `dpd` interaction defines the same pairs"],
+    );
+    refused(
+        &["particles.1.species=water", "particles.1.mass=2"],
+        &["particles[1].mass: found 2; accepted: 1, the mass of species `water` in particles[0]"],
+    );
+}
+
+#[test]
+fn numbers_of_particles() {
+    refused(&["particles.0.number_density=3"], &["particles[0]: both", "exactly one of"]);
+    refused(&["particles.0.count=null"], &["particles[0]: neither", "exactly one of"]);
+    refused(
+        &["particles.0.count=1000000000000"],
+        &["particles[0].count: found 1000000000300 particles", "93132 GiB at 100 bytes", "at most 4294967295"],
+    );
+    refused(&["particles.0.count=1e12"], &["93132 GiB"]);
+    refused(&["particles.0.count=18446744073709551615"], &["particles[0].count", "GiB"]);
+    refused(
+        &["particles.0.count=null", "particles.0.number_density=1e300"],
+        &["particles[0].number_density", "GiB", "at most 4294967295"],
+    );
+    for few in [0, 1, 2] {
+        let scene = parse(&[&format!("particles.0.count={few}"), "particles.1.count=0"]).unwrap();
+        assert_eq!(scene.particles[0].count, Some(few));
+    }
+    assert!(parse(&["particles=[]"]).unwrap().particles.is_empty());
+}
+
+#[test]
+fn listed_particles() {
+    let group = |positions: &str, more: &str| {
+        format!(r#"particles=[{{"species": "A", "placement": {{"type": "listed", "positions": {positions}}}{more}}}]"#)
+    };
+    parse(&[&group("[[1,2,3],[4,5,6]]", "")]).unwrap();
+    parse(&[&group("[[1,2,3],[4,5,6]]", r#", "count": 2"#)]).unwrap();
+    refused(
+        &[&group("[[1,2,3],[4,5]]", "")],
+        &["particles[0].placement.positions[1]: found 2 components; accepted: 3"],
+    );
+    refused(&[&group("[[1,2,3]]", r#", "count": 2"#)], &["particles[0].count: found 2; accepted: 1"]);
+    refused(&[&group("[[1,2,3]]", r#", "number_density": 2"#)], &["particles[0].number_density"]);
+    let velocities = r#", "velocities": {"type": "listed", "velocities": [[0,0,0],[0,0]]}"#;
+    let found = problems(&[&group("[[1,2,3]]", velocities)]);
+    assert_eq!(found.len(), 2, "{found:#?}");
+    assert!(
+        found[0].contains("velocities.velocities: found a list of 2; accepted: one velocity for each"),
+        "{found:#?}"
+    );
+    assert!(found[1].contains("velocities.velocities[1]: found 2 components"), "{found:#?}");
+}
+
+#[test]
+fn lengths_and_durations() {
+    refused(&["space.box=[10,1.5,10]"], &["space.box[1]: found 1.5; accepted: at least 2, two cutoffs of 1"]);
+    refused(
+        &["output.radial_distribution.every=10", "output.radial_distribution.range=6"],
+        &["output.radial_distribution.range: found 6; accepted: at most 5, half the shortest box edge"],
+    );
+    refused(&["time.equilibration=101"], &["time.equilibration: found 101; accepted: at most 100"]);
+    for analysis in ["diffusion", "viscosity"] {
+        refused(
+            &[&format!("output.{analysis}={{\"every\": 5, \"window\": 20}}"), "time.equilibration=10"],
+            &[&format!("output.{analysis}.window: found 20 samples"), "at most 18 samples", "at least 110"],
+        );
+        parse(&[&format!("output.{analysis}={{\"every\": 5, \"window\": 20}}")]).unwrap();
+    }
+}
+
+#[test]
+fn warnings_name_place_and_remedy() {
+    let warned = |overrides: &[&str], expected: &str| {
+        let scene = parse(overrides).unwrap();
+        let warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(expected), "{warnings:?}");
+    };
+    assert!(scene::warnings(&parse(&[]).unwrap()).is_empty());
+    // The mean friction rate is γρ·(2π/15)/(3m): 628.3 for γ = 7500 at density 0.6.
+    warned(
+        &["interactions.0.friction=7500"],
+        "time.step: friction relaxes the velocities of `water` at a mean rate of 628.",
+    );
+    warned(&["interactions.0.repulsion=250000"], "time.step: repulsion shakes `water` at a frequency of about 457.");
+    warned(&["space.box=[2.5,10,10]"], "space.box[0]: the edge of 2.5 is under three cutoffs (3)");
+    warned(
+        &[
+            r#"particles=[{"species": "A", "count": 2, "velocities": {"type": "listed", "velocities": [[1,0,0],[1,0,0]]}}]"#,
+        ],
+        "particles: the listed velocities add up to a momentum of (2.000000, 0.000000, 0.000000)",
+    );
+}
+
+fn syntax(text: &str) -> (usize, usize, String) {
+    match scene::parse("test.json", text, &[]) {
+        Err(SceneError::Syntax { line, column, message, .. }) => (line, column, message),
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+#[test]
+fn text_that_is_not_json() {
+    let (line, column, message) = syntax("{\n  \"title\": \"x\",\n  \"seed\" 1\n}");
+    assert_eq!((line, column), (3, 10));
+    assert!(message.contains("expected `:`"), "{message}");
+    for (text, expected) in [
+        ("", "empty"),
+        ("{\"temperature\": NaN}", "JSON has no NaN or Infinity"),
+        ("{\"temperature\": -Infinity}", "JSON has no NaN or Infinity"),
+        ("{\n // kT\n\"temperature\": 1}", "JSON has no comments"),
+        ("{\"temperature\": 1e999}", "every number must be finite"),
+        ("{\"temperature\": .5}", "a number starts with a digit"),
+        ("{'temperature': 1}", "double quotes"),
+        ("{\"temperature\": 1,}", "trailing comma"),
+        ("{} {}", "trailing characters"),
+    ] {
+        let (_, _, message) = syntax(text);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+    syntax(&"[".repeat(100_000));
+}
+
+#[test]
+fn keys_given_twice() {
+    let text = base().to_string().replacen("\"step\":0.01", "\"step\":0.01,\"step\":0.02", 1);
+    let error = scene::parse("test.json", &text, &[]).unwrap_err().to_string();
+    assert!(error.contains("time.step: the key is given more than once"), "{error}");
+}
+
+#[test]
+fn a_document_that_is_no_object() {
+    for text in ["[]", "3", "null", "\"dpd-fluid\""] {
+        let error = scene::parse("test.json", text, &[]).unwrap_err().to_string();
+        assert!(error.contains("top level: found") && error.contains("`title`"), "{error}");
+    }
+}
+
+#[test]
+fn the_program_lists_and_prints_scenes() {
+    let output = mesoscope(&["scenes"]);
+    assert!(output.status.success());
+    for builtin in scene::builtin() {
+        assert!(text(&output.stdout).contains(builtin.name));
+        assert_eq!(text(&mesoscope(&["scenes", builtin.name]).stdout), builtin.text);
+    }
+    assert!(
+        text(&output.stdout)
+            .lines()
+            .any(|line| { line.split_whitespace().collect::<Vec<_>>()[..3] == ["dpd-fluid", "24000", "3"] })
+    );
+    let output = mesoscope(&["scenes", "dpd-fliud"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).starts_with("error: no scene `dpd-fliud`"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("did you mean `dpd-fluid`?"));
+}
+
+#[test]
+fn the_program_prints_the_schema() {
+    let output = mesoscope(&["schema"]);
+    assert!(output.status.success());
+    assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap(), scene::schema());
+}
+
+#[test]
+fn the_program_refuses_with_exit_code_two() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("wrong.json");
+    std::fs::write(&path, base().to_string().replace("friction", "fricton").replace("0.01", "0")).unwrap();
+    let path = path.to_str().unwrap();
+    let output = mesoscope(&["run", path]);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message.starts_with(&format!("error: scene `{path}` has 2 mistakes:\n  time.step: found 0;")), "{message}");
+    assert!(message.contains("\n  interactions[0].fricton: unknown key; did you mean `friction`?"), "{message}");
+    assert!(message.contains("\nhint: "), "{message}");
+    assert!(output.stdout.is_empty());
+
+    for arguments in [
+        &[][..],
+        &["simulate"],
+        &["run"],
+        &["run", "dpd-fluid", "--stpes", "3"],
+        &["run", "dpd-fluid", "--steps", "many"],
+        &["run", "dpd-fluid", "--set", "time.step"],
+        &["run", "no-such-file.json"],
+        &["run", directory.path().to_str().unwrap()],
+    ] {
+        let output = mesoscope(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", text(&output.stderr));
+        assert!(!output.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn files_that_are_not_text() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("picture.json");
+    std::fs::write(&path, b"{\n\xff\xfe}").unwrap();
+    let output = mesoscope(&["check", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("picture.json:2:1: this is not UTF-8 text"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_mesoscope"))
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success());
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_flood_of_mistakes_is_counted() {
+    let positions = vec![[1]; 30];
+    let group = json!([{"species": "A", "placement": {"type": "listed", "positions": positions}}]);
+    let error = parse(&[&format!("particles={group}")]).unwrap_err().to_string();
+    assert!(error.starts_with("scene `test.json` has 30 mistakes:"), "{error}");
+    assert_eq!(error.lines().count(), 22, "{error}");
+    assert!(error.ends_with("\n  and 10 more"), "{error}");
+}
