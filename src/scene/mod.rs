@@ -1,5 +1,6 @@
 //! What the user wrote, typed and checked.
 
+pub mod placement;
 mod types;
 
 pub use types::*;
