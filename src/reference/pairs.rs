@@ -31,8 +31,8 @@ pub(super) fn find_pairs(units: &Units, positions: &[[u32; 3]], range: f64) -> V
     // Smaller cells than this would mostly be empty.
     let most = (positions.len() as f64).powf(1.0 / dimension as f64).ceil().max(3.0);
     let mut cells = [1_usize; 3];
-    for axis in 0..dimension {
-        cells[axis] = (units.lengths[axis] / range).floor().min(most) as usize;
+    for (cells, length) in cells.iter_mut().zip(units.lengths).take(dimension) {
+        *cells = (length / range).floor().min(most) as usize;
     }
     let mut pairs = Pairs { units, range_squared: range * range, found: Vec::with_capacity(4 * positions.len()) };
     if cells[..dimension].iter().all(|&cells| cells >= 3) {
@@ -153,7 +153,7 @@ impl Forces {
         Self {
             conservative: force.repulsion(a, b) * closeness,
             friction: force.friction(a, b),
-            weight: closeness.powf(force.weight_exponent / 2.0),
+            weight: if force.weight_exponent == 2.0 { closeness } else { closeness.powf(force.weight_exponent / 2.0) },
         }
     }
 }

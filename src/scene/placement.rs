@@ -137,7 +137,112 @@ fn bring_to_rest(state: &mut State, particles: &[usize], model: &Model) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
+    use crate::reference::Reference;
+    use serde_json::{Value, json};
+
+    fn start(seed: u64, lengths: &Value, particles: &Value) -> (Model, State) {
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "seed": seed, "space": {"box": lengths}, "time": {"step": 0.1, "steps": 1},
+            "temperature": 2.0, "particles": particles, "interactions": [{"type": "dpd"}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        (model, state)
+    }
+
+    #[test]
+    fn particles_are_numbered_group_by_group() {
+        let (_, state) = start(
+            1,
+            &json!([4.0, 5.0]),
+            &json!([{"species": "B", "count": 2}, {"species": "A", "number_density": 0.1}, {"species": "B", "count": 1}]),
+        );
+        assert_eq!(state.species, [0, 0, 1, 1, 0]);
+        assert_eq!((state.positions.len(), state.momenta.len(), state.step), (5, 5, 0));
+        assert!(state.positions.iter().all(|position| position[2] == 0));
+        assert!(state.momenta.iter().all(|momentum| momentum[2] == 0));
+        assert!(state.predicted.is_empty());
+    }
+
+    #[test]
+    fn thermal_groups_together_are_at_rest_and_at_temperature() {
+        let (model, state) = start(
+            1,
+            &json!([9.0, 9.0, 9.0]),
+            &json!([{"species": "A", "count": 3001}, {"species": "B", "count": 2000, "mass": 7.0},
+                {"species": "A", "velocities": {"type": "listed", "velocities": [[1.0, -2.0, 0.5]]},
+                 "placement": {"type": "listed", "positions": [[-1.0, 10.0, 4.5]]}}]),
+        );
+        let last = state.len() - 1;
+        assert_eq!(model.units.momentum(state.momenta[last]), [1.0, -2.0, 0.5]);
+        assert_eq!(state.positions[last], model.units.fraction([8.0, 1.0, 4.5]));
+        assert_eq!(state.total_momentum(), state.momenta[last].map(i64::from));
+        for (range, mass) in [(0..3001, 1.0_f64), (3001..5001, 7.0)] {
+            let count = range.len() as f64;
+            let momenta: Vec<f64> =
+                state.momenta[range].iter().flat_map(|momentum| model.units.momentum(*momentum)).collect();
+            let moment =
+                |power: i32| momenta.iter().map(|p| (p / mass.sqrt()).powi(power)).sum::<f64>() / (3.0 * count);
+            let width = (2.0 / (3.0 * count)).sqrt();
+            assert!((moment(2) / 2.0 - 1.0).abs() < 4.0 * width, "{}", moment(2));
+            // Maxwell's distribution: ⟨v⁴⟩ = 3 (kT/m)².
+            assert!((moment(4) / 12.0 - 1.0).abs() < 10.0 * width, "{}", moment(4));
+        }
+    }
+
+    #[test]
+    fn a_single_thermal_particle_is_at_rest() {
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 1}]));
+        assert_eq!(state.momenta, [[0; 3]]);
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 0}]));
+        assert!(state.is_empty());
+    }
+
+    #[test]
+    fn random_positions_are_uniform_and_follow_the_seed() {
+        let particles = json!([{"species": "A", "count": 8000}]);
+        let (_, state) = start(1, &json!([9.0, 7.0, 8.0]), &particles);
+        let mut octants = [0_u32; 8];
+        for [x, y, z] in &state.positions {
+            octants[(x >> 31 | (y >> 31) << 1 | (z >> 31) << 2) as usize] += 1;
+        }
+        // Expected 1000 ± 30 each.
+        assert!(octants.iter().all(|count| (880..1120).contains(count)), "{octants:?}");
+        assert_eq!(start(1, &json!([9.0, 7.0, 8.0]), &particles).1, state);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.positions, state.positions);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.momenta, state.momenta);
+    }
+
+    #[test]
+    fn lattices_are_even_and_do_not_coincide() {
+        let lattice = json!({"type": "lattice"});
+        let (model, state) =
+            start(1, &json!([8.0, 4.0, 4.0]), &json!([{"species": "A", "count": 1024, "placement": lattice}]));
+        // 16 × 8 × 8 sites, half a unit apart: each particle has its six neighbours.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.6, 1), [3 * 1024]);
+        assert_eq!(run.radial_distribution(0.49, 1), [0]);
+
+        let (model, state) = start(
+            1,
+            &json!([4.0, 4.0, 4.0]),
+            &json!([{"species": "A", "count": 64, "placement": lattice}, {"species": "B", "count": 64, "placement": lattice}]),
+        );
+        // Each at the centres of the other's cells, √¾ away.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.86, 1), [0]);
+        assert_eq!(run.radial_distribution(0.88, 1), [8 * 64]);
+
+        // Of 4³ sites for 50 particles, every half of the box holds 25.
+        let (_, state) =
+            start(1, &json!([4.0, 4.0, 4.0]), &json!([{"species": "A", "count": 50, "placement": lattice}]));
+        let lower = state.positions.iter().filter(|position| position[2] < 1 << 31).count();
+        assert!((24..=26).contains(&lower), "{lower}");
+    }
 
     #[test]
     fn lattices_follow_the_shape_of_the_box() {
