@@ -158,13 +158,8 @@ impl<'a> Engine<'a> {
             }
         }
         let step = [state.step as u32, (state.step >> 32) as u32];
-        let control = Control {
-            step,
-            next: step,
-            seed_key: self.plan.seed_key,
-            failure_elapsed: u32::MAX,
-            ..Control::default()
-        };
+        let control =
+            Control { step, next: step, seed_key: self.plan.seed_key, failure_elapsed: u32::MAX, ..Control::default() };
         self.gpu.queue.write_buffer(&self.buffers["particles"], 0, bytemuck::cast_slice(&words));
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -307,9 +302,8 @@ impl<'a> Engine<'a> {
             // Already sorted: the samples of this step have been taken.
             return;
         }
-        let due: Vec<usize> = (0..self.plan.samplers.len())
-            .filter(|&sampler| self.plan.samplers[sampler].due(self.step))
-            .collect();
+        let due: Vec<usize> =
+            (0..self.plan.samplers.len()).filter(|&sampler| self.plan.samplers[sampler].due(self.step)).collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
             self.record_report(pass);
         }

@@ -32,10 +32,9 @@ impl Gpu {
         let offered = adapter.limits();
         let mut limits = wgpu::Limits::default();
         if requirements.largest_buffer > limits.max_storage_buffer_binding_size {
-            for (quantity, allowed) in [
-                ("a storage buffer", offered.max_storage_buffer_binding_size),
-                ("a buffer", offered.max_buffer_size),
-            ] {
+            for (quantity, allowed) in
+                [("a storage buffer", offered.max_storage_buffer_binding_size), ("a buffer", offered.max_buffer_size)]
+            {
                 if requirements.largest_buffer > allowed {
                     return Err(GpuError::TooSmall {
                         adapter: info.name,

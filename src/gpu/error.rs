@@ -46,7 +46,9 @@ pub enum GpuError {
         reason: String,
     },
     /// The device ran out of memory.
-    #[error("adapter `{adapter}` ran out of memory while {doing} ({bytes} bytes); use fewer particles or another adapter")]
+    #[error(
+        "adapter `{adapter}` ran out of memory while {doing} ({bytes} bytes); use fewer particles or another adapter"
+    )]
     OutOfMemory {
         /// Name of the adapter.
         adapter: String,

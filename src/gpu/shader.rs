@@ -42,8 +42,12 @@ pub fn link(kernel: &str, modules: &[&str]) -> Result<LinkedShader, GpuError> {
         text.push_str(part);
     }
     let place = |line: u32| {
-        let (start, name) =
-            starts.iter().rev().find(|(start, _)| *start < line).copied().unwrap_or((0, modules.first().unwrap_or(&"")));
+        let (start, name) = starts
+            .iter()
+            .rev()
+            .find(|(start, _)| *start < line)
+            .copied()
+            .unwrap_or((0, modules.first().unwrap_or(&"")));
         format!("shaders/{name}.wgsl:{}", line - start)
     };
     let module = naga::front::wgsl::parse_str(&text).map_err(|error| {

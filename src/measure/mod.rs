@@ -1,1 +1,5 @@
-//! Placeholder.
+//! Averages and derived quantities from raw sums.
+
+mod observables;
+
+pub use observables::Observables;

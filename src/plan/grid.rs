@@ -39,16 +39,14 @@ impl Grid {
         }
         // Bits that the probe word gives to each axis.
         let bits: [u32; 3] = if dimension == 3 { [12, 10, 10] } else { [16, 16, 0] };
-        let windows: [u32; 3] = std::array::from_fn(|axis| (cells[axis] / if axis == 0 { 8 } else { 4 }).max(1).ilog2());
-        let unit: [f64; 3] =
-            std::array::from_fn(|axis| units.lengths[axis] / 2_f64.powi(32 + windows[axis] as i32));
+        let windows: [u32; 3] =
+            std::array::from_fn(|axis| (cells[axis] / if axis == 0 { 8 } else { 4 }).max(1).ilog2());
+        let unit: [f64; 3] = std::array::from_fn(|axis| units.lengths[axis] / 2_f64.powi(32 + windows[axis] as i32));
         let ratios: [f64; 3] = std::array::from_fn(|axis| {
             if axis < dimension && (axis == 0 || cells[axis] > 1) { unit[axis] / unit[0] } else { 0.0 }
         });
-        let diagonal: f64 = (0..dimension)
-            .map(|axis| (2_f64.powi(32 - bits[axis] as i32) * ratios[axis]).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let diagonal: f64 =
+            (0..dimension).map(|axis| (2_f64.powi(32 - bits[axis] as i32) * ratios[axis]).powi(2)).sum::<f64>().sqrt();
         // Half a quantum's diagonal, and a little for the rounding of single precision.
         let reach = (cutoff / unit[0] + 0.5 * diagonal) * (1.0 + 1e-5);
         Self { dimension, cells, windows, ratios, reach_squared: reach * reach }

@@ -27,7 +27,8 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
         (true, None, Some(8)) => Traversal::Clusters,
         (true, None, _) => Traversal::Rows,
     };
-    let mut builder = Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, grid) };
+    let mut builder =
+        Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, grid) };
     builder.constants();
     builder.ordering();
     builder.integration(output);
@@ -296,8 +297,7 @@ impl Builder<'_> {
         let advance = self.traversal("leapfrog", self.traversal, &["common/advance", "passes/leapfrog"]);
         self.plan.advance.push(advance);
         let portable = if self.traversal == Traversal::Alone { Traversal::Alone } else { Traversal::Rows };
-        let report =
-            self.traversal("report", portable, &[&observe[..], &["passes/observe_leapfrog"]].concat());
+        let report = self.traversal("report", portable, &[&observe[..], &["passes/observe_leapfrog"]].concat());
         self.plan.report.push(report);
         let groups = self.plan.kernels[report].workgroups;
         let record = self.kernel(Kernel {

@@ -1,1 +1,235 @@
-//! Placeholder.
+//! The plain float64 implementation of every integrator on the CPU: the executable specification.
+//!
+//! It steps the same integer [`State`] as the GPU and draws the same random words, so that single steps can be
+//! compared closely; all real arithmetic is in float64. Positions are moved and momenta kicked by whole units, and the
+//! impulse of a pair is rounded once for both ends, so momentum is conserved to the last bit and no sum over pairs
+//! depends on their order.
+//!
+//! A step begins at positions r(n) with the momenta p(n-½) that brought the particles there. Its *report point* is
+//! (r(n), p(n)), when the step's closing kick (and relaxation) is done: there everything is measured. The opening kick
+//! and the drift of the same step follow. At step 0 the momenta given are those of the report point, and nothing is
+//! closed.
+
+mod cotter_reich;
+mod groot_warren;
+mod observables;
+mod pairs;
+mod splitting;
+
+pub use splitting::Relaxation;
+
+use crate::measure::Observables;
+use crate::model::Model;
+use crate::scene::Integrator;
+use crate::state::State;
+use pairs::Pair;
+
+/// A step that the integer state cannot hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unstable {
+    /// A momentum beyond 2³¹ units.
+    #[error("step {step}: the momentum of particle {particle} left the range of the integer state")]
+    Momentum {
+        /// The step.
+        step: u64,
+        /// The particle's id.
+        particle: usize,
+    },
+    /// A drift of half the box or more.
+    #[error("step {step}: particle {particle} moved by half the box or more")]
+    Drift {
+        /// The step.
+        step: u64,
+        /// The particle's id.
+        particle: usize,
+    },
+}
+
+/// Half the box: a drift as long as this could be in either direction.
+const MOST_DRIFT: f64 = (1_u64 << 31) as f64;
+
+/// What an integrator finds at the report point of a step.
+struct Report {
+    /// p(n), in integer units.
+    momenta: Vec<[i64; 3]>,
+    /// The opening kick that follows.
+    kick: Vec<[i64; 3]>,
+    /// Σ r·F over pairs, of all forces of the step.
+    total_virial: f64,
+}
+
+/// A model and its state, stepped on the CPU.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    model: Model,
+    state: State,
+    masses: Vec<f64>,
+    relaxation: Relaxation,
+}
+
+impl Reference {
+    /// A reference run from a state whose species are indices into those of the model.
+    #[must_use]
+    pub fn new(model: Model, state: State) -> Self {
+        Self::with_relaxation(model, state, Relaxation::default())
+    }
+
+    /// The same with another rule for the O step of the integrator `splitting`.
+    #[must_use]
+    pub fn with_relaxation(model: Model, state: State, relaxation: Relaxation) -> Self {
+        let masses = state.species.iter().map(|&species| model.species[species as usize].mass).collect();
+        Self { model, state, masses, relaxation }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state between steps: r(n) and p(n-½), as the GPU keeps it.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Unstable`] when a momentum or a drift does not fit the integer state, which is then left as it was.
+    pub fn step(&mut self) -> Result<(), Unstable> {
+        let Report { mut momenta, kick, .. } = self.report(&self.pairs());
+        add(&mut momenta, &kick);
+        let mut next = State { step: self.state.step + 1, momenta: self.narrow(&momenta)?, ..State::default() };
+        if let Integrator::GrootWarren { lambda } = self.model.integrator
+            && lambda != 0.5
+        {
+            for (momentum, kick) in momenta.iter_mut().zip(&kick) {
+                for axis in 0..3 {
+                    momentum[axis] += ((2.0 * lambda - 1.0) * kick[axis] as f64).round_ties_even() as i64;
+                }
+            }
+            next.predicted = self.narrow(&momenta)?;
+        }
+        let kept = std::mem::replace(&mut self.state.momenta, next.momenta);
+        let drifts: Vec<[i64; 3]> = (0..kept.len()).map(|particle| self.drift(particle)).collect();
+        let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
+        if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
+            self.state.momenta = kept;
+            return Err(Unstable::Drift { step: self.state.step, particle });
+        }
+        for (position, drift) in self.state.positions.iter_mut().zip(&drifts) {
+            for axis in 0..3 {
+                position[axis] = position[axis].wrapping_add(drift[axis] as u32);
+            }
+        }
+        self.state.predicted = next.predicted;
+        self.state.step = next.step;
+        Ok(())
+    }
+
+    /// Advances by a number of steps.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; the state is then that before the failing step.
+    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
+    /// Measures at the report point of the current step, without changing the state.
+    #[must_use]
+    pub fn observe(&self) -> Observables {
+        let found = self.pairs();
+        observables::observe(self, &found, &self.report(&found))
+    }
+
+    /// The state at the report point of the current step: r(n) and p(n). A momentum that belongs to the state between
+    /// steps is not what a user means by momentum; this is.
+    ///
+    /// # Errors
+    /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
+    pub fn reported_state(&self) -> Result<State, Unstable> {
+        let momenta = self.narrow(&self.report(&self.pairs()).momenta)?;
+        Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+    }
+
+    /// The state half a drift after the report point of the current step: r(n) + dt/2 p(n+½)/m and p(n+½).
+    ///
+    /// There the symmetric step A(½) B(½) O B(½) A(½) of the integrator `splitting` begins and ends. Its positions are
+    /// distributed more accurately there than where the forces are evaluated: for a harmonic oscillator under strong
+    /// friction exactly, against 1 / (1 - K dt²/4m) times too wide.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn state_between_forces(&self) -> Result<State, Unstable> {
+        let mut ahead = self.clone();
+        ahead.step()?;
+        let mut state = self.state.clone();
+        for (particle, position) in state.positions.iter_mut().enumerate() {
+            for (position, drift) in position.iter_mut().zip(ahead.drift(particle)) {
+                *position = position.wrapping_add((drift as f64 / 2.0).round_ties_even() as i64 as u32);
+            }
+        }
+        Ok(State { momenta: ahead.state.momenta, predicted: Vec::new(), ..state })
+    }
+
+    /// Counts of unordered pairs in `bins` equal bins of distance up to `range`, which is at most half the shortest
+    /// box edge.
+    #[must_use]
+    pub fn radial_distribution(&self, range: f64, bins: usize) -> Vec<u64> {
+        observables::radial_distribution(self, range, bins)
+    }
+
+    fn pairs(&self) -> Vec<Pair> {
+        let Some(force) = &self.model.pair_force else { return Vec::new() };
+        pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
+    }
+
+    fn report(&self, found: &[Pair]) -> Report {
+        match self.model.integrator {
+            Integrator::GrootWarren { .. } => groot_warren::report(self, found),
+            Integrator::CotterReich {} => cotter_reich::report(self, found),
+            Integrator::Splitting {} => splitting::report(self, found),
+        }
+    }
+
+    /// dt p/m of the momenta in the state, in whole units of the box fraction, rounded half to even.
+    fn drift(&self, particle: usize) -> [i64; 3] {
+        let momentum = self.model.units.momentum(self.state.momenta[particle]);
+        std::array::from_fn(|axis| {
+            let distance = self.model.time_step * momentum[axis] / self.masses[particle];
+            let units = (distance / self.model.units.lengths[axis] * 4_294_967_296.0).round_ties_even();
+            units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
+        })
+    }
+
+    /// vᵢ - vⱼ of a pair.
+    fn relative_velocity(&self, momenta: &[[i64; 3]], pair: &Pair) -> [f64; 3] {
+        let scale_i = self.model.units.momentum / self.masses[pair.first];
+        let scale_j = self.model.units.momentum / self.masses[pair.second];
+        let (momentum_i, momentum_j) = (momenta[pair.first], momenta[pair.second]);
+        std::array::from_fn(|axis| momentum_i[axis] as f64 * scale_i - momentum_j[axis] as f64 * scale_j)
+    }
+
+    fn narrow(&self, momenta: &[[i64; 3]]) -> Result<Vec<[i32; 3]>, Unstable> {
+        let fits = |units: &i64| i32::try_from(*units).is_ok();
+        match momenta.iter().position(|momentum| !momentum.iter().all(fits)) {
+            Some(particle) => Err(Unstable::Momentum { step: self.state.step, particle }),
+            None => Ok(momenta.iter().map(|momentum| momentum.map(|units| units as i32)).collect()),
+        }
+    }
+}
+
+/// Momenta with room for sums.
+fn widen(momenta: &[[i32; 3]]) -> Vec<[i64; 3]> {
+    momenta.iter().map(|momentum| momentum.map(i64::from)).collect()
+}
+
+fn add(sums: &mut [[i64; 3]], terms: &[[i64; 3]]) {
+    for (sum, term) in sums.iter_mut().zip(terms) {
+        for axis in 0..3 {
+            sum[axis] += term[axis];
+        }
+    }
+}

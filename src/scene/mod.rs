@@ -9,6 +9,7 @@ mod load;
 mod nearest;
 mod overrides;
 mod path;
+pub mod placement;
 mod semantics;
 mod shape;
 mod text;

@@ -1,0 +1,123 @@
+//! What is measured of a state at one step, as raw sums, and what follows from them.
+
+/// Raw sums over particles and pairs at the report point of one step.
+///
+/// Whoever fills this in, the reference or a GPU, computes sums only; everything derived from them is here, once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observables {
+    /// The step.
+    pub step: u64,
+    /// Number of particles.
+    pub particles: u64,
+    /// Number of dimensions, 2 or 3.
+    pub dimension: usize,
+    /// Volume of the box (area in two dimensions).
+    pub volume: f64,
+    /// Mass of all particles.
+    pub mass: f64,
+    /// Σ p²/2m.
+    pub kinetic_energy: f64,
+    /// Σ V over pairs.
+    pub potential_energy: f64,
+    /// Σ |∇V|² over particles.
+    pub gradient_squared: f64,
+    /// Σ ∇²V over particles.
+    pub laplacian: f64,
+    /// Σ r·F over pairs, of conservative forces only.
+    pub conservative_virial: f64,
+    /// Σ r·F over pairs, of all forces of the step: conservative, friction and noise.
+    pub total_virial: f64,
+    /// Total momentum.
+    pub momentum: [f64; 3],
+}
+
+impl Observables {
+    /// Kinetic and potential energy.
+    #[must_use]
+    pub fn total_energy(&self) -> f64 {
+        self.kinetic_energy + self.potential_energy
+    }
+
+    /// Velocity of the centre of mass; NaN without particles.
+    #[must_use]
+    pub fn centre_of_mass_velocity(&self) -> [f64; 3] {
+        if self.particles == 0 { [f64::NAN; 3] } else { self.momentum.map(|momentum| momentum / self.mass) }
+    }
+
+    /// Kinetic temperature kT about the centre-of-mass velocity; NaN for fewer than two particles.
+    #[must_use]
+    pub fn kinetic_temperature(&self) -> f64 {
+        if self.particles < 2 {
+            return f64::NAN;
+        }
+        let bulk = self.momentum.iter().map(|momentum| momentum * momentum).sum::<f64>() / (2.0 * self.mass);
+        2.0 * (self.kinetic_energy - bulk) / (self.dimension as f64 * (self.particles - 1) as f64)
+    }
+
+    /// Configurational temperature Σ|∇V|² / Σ∇²V of this one step; NaN where no pair interacts.
+    ///
+    /// An average over steps is the ratio of the averages of [`Self::gradient_squared`] and [`Self::laplacian`], not
+    /// the average of this ratio.
+    #[must_use]
+    pub fn configurational_temperature(&self) -> f64 {
+        self.gradient_squared / self.laplacian
+    }
+
+    /// Pressure from all forces; NaN for fewer than two particles.
+    #[must_use]
+    pub fn pressure(&self) -> f64 {
+        self.pressure_of(self.total_virial)
+    }
+
+    /// Pressure from conservative forces alone: friction and noise add nothing to it on average in equilibrium, but
+    /// widen its distribution. NaN for fewer than two particles.
+    #[must_use]
+    pub fn conservative_pressure(&self) -> f64 {
+        self.pressure_of(self.conservative_virial)
+    }
+
+    fn pressure_of(&self, virial: f64) -> f64 {
+        let density = self.particles as f64 / self.volume;
+        density * self.kinetic_temperature() + virial / (self.dimension as f64 * self.volume)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAIR: Observables = Observables {
+        step: 0,
+        particles: 2,
+        dimension: 3,
+        volume: 10.0,
+        mass: 3.0,
+        kinetic_energy: 5.0,
+        potential_energy: 2.0,
+        gradient_squared: 8.0,
+        laplacian: 4.0,
+        conservative_virial: 6.0,
+        total_virial: 12.0,
+        momentum: [0.0, 3.0, 0.0],
+    };
+
+    #[test]
+    fn derived_values_follow_from_the_sums() {
+        assert_eq!(PAIR.total_energy(), 7.0);
+        assert_eq!(PAIR.centre_of_mass_velocity(), [0.0, 1.0, 0.0]);
+        // Bulk motion holds 9 / 6 of the kinetic energy.
+        assert!((PAIR.kinetic_temperature() - 7.0 / 3.0).abs() < 1e-15);
+        assert_eq!(PAIR.configurational_temperature(), 2.0);
+        assert!((PAIR.conservative_pressure() - (7.0 / 15.0 + 0.2)).abs() < 1e-15);
+        assert!((PAIR.pressure() - (7.0 / 15.0 + 0.4)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_undefined_is_not_a_number() {
+        let single = Observables { particles: 1, gradient_squared: 0.0, laplacian: 0.0, ..PAIR };
+        assert!(single.kinetic_temperature().is_nan());
+        assert!(single.pressure().is_nan());
+        assert!(single.configurational_temperature().is_nan());
+        assert!(Observables { particles: 0, ..single }.centre_of_mass_velocity()[0].is_nan());
+    }
+}

@@ -1,0 +1,255 @@
+//! Where the particles of a scene start, and how fast.
+
+use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
+use crate::model::Model;
+use crate::noise::{self, stream};
+use crate::state::State;
+
+/// The state at step 0 of a scene: particles numbered group by group, each group in its own order.
+///
+/// `scene` has been checked and `model` was made from it. The words of random placements and velocities depend on
+/// the seed and the particle's number only, and always come from Threefry: what is drawn once may cost a little more.
+/// The net momentum of all thermal groups together is zero to the last bit, so a single thermal particle is at rest.
+#[must_use]
+pub fn initial_state(scene: &Scene, model: &Model) -> State {
+    let mut state = State::default();
+    let mut thermal = Vec::new();
+    let lattices = scene.particles.iter().filter(|group| group.placement == Placement::Lattice).count();
+    let mut lattice = 0;
+    for group in &scene.particles {
+        let first = state.len();
+        let count = group.resolved_count(scene.space.volume()) as usize;
+        place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
+        lattice += usize::from(group.placement == Placement::Lattice);
+        set_in_motion(&mut state, group, count, model);
+        let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
+        state.species.resize(first + count, species as u32);
+        if group.velocities == Velocities::Thermal {
+            thermal.extend(first..first + count);
+        }
+    }
+    bring_to_rest(&mut state, &thermal, model);
+    state
+}
+
+/// Appends the positions of a group; `shift` moves a lattice by this fraction of its spacing, so that the lattices of
+/// several groups do not fall on each other.
+fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, shift: f64) {
+    let dimension = model.units.dimension;
+    let first = state.len();
+    match &group.placement {
+        Placement::Random => {
+            let key = noise::step_key(model.seed, stream::POSITION, 0);
+            state.positions.extend((first..first + count).map(|id| {
+                let [x, y] = noise::words(Generator::Threefry2x32, key, [id as u32, 0]);
+                let [z, _] = noise::words(Generator::Threefry2x32, key, [id as u32, 1]);
+                if dimension == 3 { [x, y, z] } else { [x, y, 0] }
+            }));
+        }
+        Placement::Lattice => {
+            let sites = lattice_sites(count as u64, &model.units.lengths[..dimension]);
+            let all: u128 = sites.iter().map(|sites| u128::from(*sites)).product();
+            let offset = (0.5 + shift).fract();
+            state.positions.extend((0..count).map(|index| {
+                // Sites left empty are spread over the lattice instead of collecting at its end.
+                let mut site = index as u128 * all / count as u128;
+                std::array::from_fn(|axis| {
+                    if axis >= dimension {
+                        return 0;
+                    }
+                    let coordinate = (site % u128::from(sites[axis])) as f64;
+                    site /= u128::from(sites[axis]);
+                    ((coordinate + offset) / sites[axis] as f64 * 4_294_967_296.0).round() as u64 as u32
+                })
+            }));
+        }
+        Placement::Listed { positions } => {
+            state.positions.extend(positions.iter().map(|position| {
+                let position = std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0));
+                model.units.fraction(position)
+            }));
+        }
+    }
+}
+
+/// The numbers of lattice sites along each axis: the axis with the widest spacing is refined until all fit.
+fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
+    let mut sites = [1_u64; 3];
+    while sites.iter().map(|sites| u128::from(*sites)).product::<u128>() < u128::from(count) {
+        let mut widest = 0;
+        for axis in 1..lengths.len() {
+            if lengths[axis] / sites[axis] as f64 > lengths[widest] / sites[widest] as f64 {
+                widest = axis;
+            }
+        }
+        sites[widest] += 1;
+    }
+    sites
+}
+
+/// Appends the momenta of a group, rounded to integer units.
+fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: &Model) {
+    let dimension = model.units.dimension;
+    let first = state.momenta.len();
+    let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
+    match &group.velocities {
+        Velocities::Thermal => {
+            let key = noise::step_key(model.seed, stream::VELOCITY, 0);
+            let width = (group.mass * model.temperature).sqrt();
+            state.momenta.extend((first..first + count).map(|id| {
+                std::array::from_fn(|axis| {
+                    if axis >= dimension {
+                        return 0;
+                    }
+                    let words = noise::words(Generator::Threefry2x32, key, [id as u32, axis as u32]);
+                    to_units(width * noise::gaussian(words))
+                })
+            }));
+        }
+        Velocities::Rest => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Listed { velocities } => {
+            state.momenta.extend(velocities.iter().take(count).map(|velocity| {
+                std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))
+            }));
+            state.momenta.resize(first + count, [0; 3]);
+        }
+    }
+}
+
+/// Takes the common centre-of-mass velocity from the listed particles, to the last bit of their net momentum.
+fn bring_to_rest(state: &mut State, particles: &[usize], model: &Model) {
+    let mass = |species: u32| model.species[species as usize].mass;
+    let total_mass: f64 = particles.iter().map(|&particle| mass(state.species[particle])).sum();
+    for axis in 0..model.units.dimension {
+        let net: i64 = particles.iter().map(|&particle| i64::from(state.momenta[particle][axis])).sum();
+        let mut left = net;
+        for &particle in particles {
+            let share = (net as f64 * (mass(state.species[particle]) / total_mass)).round_ties_even() as i64;
+            state.momenta[particle][axis] = (i64::from(state.momenta[particle][axis]) - share) as i32;
+            left -= share;
+        }
+        // What rounding the shares has left over is at most half a unit per particle.
+        for &particle in particles.iter().take(left.unsigned_abs() as usize) {
+            state.momenta[particle][axis] -= left.signum() as i32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::reference::Reference;
+    use serde_json::{Value, json};
+
+    fn start(seed: u64, lengths: &Value, particles: &Value) -> (Model, State) {
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "seed": seed, "space": {"box": lengths}, "time": {"step": 0.1, "steps": 1},
+            "temperature": 2.0, "particles": particles, "interactions": [{"type": "dpd"}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        (model, state)
+    }
+
+    #[test]
+    fn particles_are_numbered_group_by_group() {
+        let (_, state) = start(
+            1,
+            &json!([4.0, 5.0]),
+            &json!([{"species": "B", "count": 2}, {"species": "A", "number_density": 0.1}, {"species": "B", "count": 1}]),
+        );
+        assert_eq!(state.species, [0, 0, 1, 1, 0]);
+        assert_eq!((state.positions.len(), state.momenta.len(), state.step), (5, 5, 0));
+        assert!(state.positions.iter().all(|position| position[2] == 0));
+        assert!(state.momenta.iter().all(|momentum| momentum[2] == 0));
+        assert!(state.predicted.is_empty());
+    }
+
+    #[test]
+    fn thermal_groups_together_are_at_rest_and_at_temperature() {
+        let (model, state) = start(
+            1,
+            &json!([9.0, 9.0, 9.0]),
+            &json!([{"species": "A", "count": 3001}, {"species": "B", "count": 2000, "mass": 7.0},
+                {"species": "A", "velocities": {"type": "listed", "velocities": [[1.0, -2.0, 0.5]]},
+                 "placement": {"type": "listed", "positions": [[-1.0, 10.0, 4.5]]}}]),
+        );
+        let last = state.len() - 1;
+        assert_eq!(model.units.momentum(state.momenta[last]), [1.0, -2.0, 0.5]);
+        assert_eq!(state.positions[last], model.units.fraction([8.0, 1.0, 4.5]));
+        assert_eq!(state.total_momentum(), state.momenta[last].map(i64::from));
+        for (range, mass) in [(0..3001, 1.0_f64), (3001..5001, 7.0)] {
+            let count = range.len() as f64;
+            let momenta: Vec<f64> =
+                state.momenta[range].iter().flat_map(|momentum| model.units.momentum(*momentum)).collect();
+            let moment =
+                |power: i32| momenta.iter().map(|p| (p / mass.sqrt()).powi(power)).sum::<f64>() / (3.0 * count);
+            let width = (2.0 / (3.0 * count)).sqrt();
+            assert!((moment(2) / 2.0 - 1.0).abs() < 4.0 * width, "{}", moment(2));
+            // Maxwell's distribution: ⟨v⁴⟩ = 3 (kT/m)².
+            assert!((moment(4) / 12.0 - 1.0).abs() < 10.0 * width, "{}", moment(4));
+        }
+    }
+
+    #[test]
+    fn a_single_thermal_particle_is_at_rest() {
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 1}]));
+        assert_eq!(state.momenta, [[0; 3]]);
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 0}]));
+        assert!(state.is_empty());
+    }
+
+    #[test]
+    fn random_positions_are_uniform_and_follow_the_seed() {
+        let particles = json!([{"species": "A", "count": 8000}]);
+        let (_, state) = start(1, &json!([9.0, 7.0, 8.0]), &particles);
+        let mut octants = [0_u32; 8];
+        for [x, y, z] in &state.positions {
+            octants[(x >> 31 | (y >> 31) << 1 | (z >> 31) << 2) as usize] += 1;
+        }
+        // Expected 1000 ± 30 each.
+        assert!(octants.iter().all(|count| (880..1120).contains(count)), "{octants:?}");
+        assert_eq!(start(1, &json!([9.0, 7.0, 8.0]), &particles).1, state);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.positions, state.positions);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.momenta, state.momenta);
+    }
+
+    #[test]
+    fn lattices_are_even_and_do_not_coincide() {
+        let lattice = json!({"type": "lattice"});
+        let (model, state) =
+            start(1, &json!([8.0, 4.0, 4.0]), &json!([{"species": "A", "count": 1024, "placement": lattice}]));
+        // 16 × 8 × 8 sites, half a unit apart: each particle has its six neighbours.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.6, 1), [3 * 1024]);
+        assert_eq!(run.radial_distribution(0.49, 1), [0]);
+
+        let (model, state) = start(
+            1,
+            &json!([4.0, 4.0, 4.0]),
+            &json!([{"species": "A", "count": 64, "placement": lattice}, {"species": "B", "count": 64, "placement": lattice}]),
+        );
+        // Each at the centres of the other's cells, √¾ away.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.86, 1), [0]);
+        assert_eq!(run.radial_distribution(0.88, 1), [8 * 64]);
+
+        // Of 4³ sites for 50 particles, every half of the box holds 25.
+        let (_, state) =
+            start(1, &json!([4.0, 4.0, 4.0]), &json!([{"species": "A", "count": 50, "placement": lattice}]));
+        let lower = state.positions.iter().filter(|position| position[2] < 1 << 31).count();
+        assert!((24..=26).contains(&lower), "{lower}");
+    }
+
+    #[test]
+    fn lattices_follow_the_shape_of_the_box() {
+        assert_eq!(lattice_sites(1000, &[10.0, 10.0, 10.0]), [10, 10, 10]);
+        assert_eq!(lattice_sites(200, &[20.0, 10.0]), [20, 10, 1]);
+        assert_eq!(lattice_sites(100, &[0.01, 10.0, 10.0]), [1, 10, 10]);
+        assert_eq!(lattice_sites(28, &[3.0, 3.0, 3.0]), [4, 3, 3]);
+        assert_eq!(lattice_sites(0, &[3.0, 3.0]), [1, 1, 1]);
+    }
+}
