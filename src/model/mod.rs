@@ -53,10 +53,10 @@ impl Model {
                 None => species.push(Species { name: group.species.clone(), mass: group.mass, count }),
             }
         }
-        let pair_force = scene.interactions.iter().map(|interaction| match interaction {
+        let mut pair_force = scene.interactions.iter().map(|interaction| match interaction {
             Interaction::Dpd(dpd) => PairForce::new(dpd, &species),
         });
-        let pair_force = pair_force.last();
+        let pair_force = pair_force.next_back();
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         let momentum = momentum_unit(scene, &species, pair_force.as_ref());

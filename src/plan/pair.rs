@@ -353,7 +353,7 @@ impl Builder<'_> {
     }
 
     fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(16), contents: Contents::Zeros });
+        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(64), contents: Contents::Zeros });
     }
 
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
@@ -484,7 +484,7 @@ impl Builder<'_> {
         let copies = self.frame_capacity();
         let mut buffers = Vec::new();
         let mut add = |name, purpose, bytes: u64, contents| {
-            buffers.push(Buffer { name, purpose, bytes: bytes.max(16).next_multiple_of(16), contents });
+            buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
         };
         add("control", "clock, key of the step's random words, failures", 64, Contents::Zeros);
         add("particles", "particles in the order they were advanced", particle * self.particles, Contents::Zeros);
