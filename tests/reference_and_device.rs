@@ -47,7 +47,8 @@ const TWO_DIMENSIONS: &str = "space.box=[9,7]";
 const LEAPFROG: &str = r#"integrator={"type":"groot-warren"}"#;
 const PREDICTED: &str = r#"integrator={"type":"groot-warren","lambda":0.65}"#;
 const DISCRETE: &str = r#"integrator={"type":"cotter-reich"}"#;
-const MIXTURE: &str = r#"particles=[{"species":"A","number_density":2,"mass":1},{"species":"B","number_density":1,"mass":2.5}]"#;
+const MIXTURE: &str =
+    r#"particles=[{"species":"A","number_density":2,"mass":1},{"species":"B","number_density":1,"mass":2.5}]"#;
 const MIXTURE_FORCE: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["A","B"],"repulsion":40,"friction":9},{"between":["B","B"],"repulsion":0}]}]"#;
 
 fn both(changes: &[&str]) {

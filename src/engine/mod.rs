@@ -137,6 +137,16 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan.
     pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        let in_order: Vec<usize> = (0..state.len()).collect();
+        self.upload_in_order(state, &in_order)
+    }
+
+    /// The same with the particles stored in a given order of their ids, which changes no result: what a run has
+    /// shuffled its particles into is forgotten by a checkpoint, and may be.
+    ///
+    /// # Errors
+    /// [`EngineError::State`] if the number of particles is not that of the plan or the order is not one of all ids.
+    pub fn upload_in_order(&mut self, state: &State, order: &[usize]) -> Result<(), EngineError> {
         let refuse = |reason: String| Err(EngineError::State { reason });
         if state.len() as u64 != self.plan.particles {
             return refuse(format!("{} particles, where the plan has {}", state.len(), self.plan.particles));
@@ -144,9 +154,14 @@ impl<'a> Engine<'a> {
         if self.plan.predicted && state.step > 0 && state.predicted.len() != state.len() {
             return refuse("predicted momenta are missing".to_owned());
         }
+        let mut sorted_order = order.to_vec();
+        sorted_order.sort_unstable();
+        if !sorted_order.iter().copied().eq(0..state.len()) {
+            return refuse("the storage order is not an order of all particles".to_owned());
+        }
         let width = if self.plan.predicted { 12 } else { 8 };
         let mut words: Vec<u32> = Vec::with_capacity(width * state.len());
-        for id in 0..state.len() {
+        for &id in order {
             words.extend(state.positions[id]);
             words.push(id as u32);
             words.extend(state.momenta[id].map(|unit| unit as u32));
