@@ -132,7 +132,8 @@ impl<'a> Engine<'a> {
         self.step
     }
 
-    /// Replaces the state: positions, momenta and step.
+    /// Replaces the state: positions, momenta and step. Samples of the old state that have not been taken are lost, and
+    /// so are its failures: the engine begins anew.
     ///
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan.
@@ -180,7 +181,13 @@ impl<'a> Engine<'a> {
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.clear_buffer(&self.buffers["counts"], 0, None);
         self.record(&mut encoder, &self.plan.prepare.clone());
+        for sampler in &self.plan.samplers {
+            // Neither rows nor windows of the state before go on.
+            encoder.clear_buffer(&self.buffers[sampler.samples], 0, Some(8));
+        }
         self.gpu.queue.submit([encoder.finish()]);
+        self.in_flight.clear();
+        self.collected.clear();
         self.step = state.step;
         self.first_step = state.step;
         self.phase = Phase::Advanced;
@@ -191,8 +198,13 @@ impl<'a> Engine<'a> {
     /// `batch` steps. Returns before the device is done; see [`Self::finish`].
     ///
     /// # Errors
-    /// [`EngineError`] as soon as a finished batch shows a failure.
+    /// [`EngineError`] as soon as a finished batch shows a failure, or if the steps are more than can be numbered.
     pub fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
+        if steps > u64::MAX - self.step {
+            return Err(EngineError::State {
+                reason: format!("{steps} steps from step {} are more than can be numbered", self.step),
+            });
+        }
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));
