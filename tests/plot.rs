@@ -248,7 +248,8 @@ fn odd_data_is_drawn_without_complaint() {
                 let size = PlotStyle { width: 800, height: 600, ..PlotStyle::default() };
                 let picture = chart_picture(&format!("odd-{name}-{scale:?}-{style:?}"), &chart, &size);
                 assert!(ink(&picture, [0, 0, 800, 60]) > 100, "{name} {scale:?} {style:?} has no title");
-                let drawn = bounds(&picture, BLUE).is_some();
+                // Thin lines are not pure blue in a small picture.
+                let drawn = picture.pixels().any(|pixel| pixel[2] > pixel[0].saturating_add(60));
                 let expected = match (name, scale) {
                     ("none" | "nan", _) | ("zero" | "negative", Scale::Log) => Some(false),
                     ("one" | "constant" | "large" | "offset", _) => Some(true),
@@ -350,18 +351,21 @@ fn a_particle_in_the_middle_of_the_box_is_in_the_middle_of_the_view() {
         let picture = plotter().draw_particles(&picture, &Snapshot::default(), Theme::Light).unwrap();
         let picture = save(&format!("one-{dimension}"), picture);
         // Below the view are the legend and the scale bar: look for the disc above them.
-        let view = image::imageops::crop_imm(&picture, 0, 0, 1200, 1050).to_image();
-        let coloured = |pixel: &image::Rgba<u8>| pixel[2] > pixel[0].saturating_add(40);
+        let view = image::imageops::crop_imm(&picture, 0, 0, 1200, 1085).to_image();
+        let coloured = |pixel: &image::Rgba<u8>| pixel[2] > pixel[0].saturating_add(12);
         let disc: Vec<(u32, u32)> =
             view.enumerate_pixels().filter(|(_, _, p)| coloured(p)).map(|(x, y, _)| (x, y)).collect();
-        let mean =
-            |pick: fn(&(u32, u32)) -> u32| disc.iter().map(|p| f64::from(pick(p))).sum::<f64>() / disc.len() as f64;
-        let (x, y) = (mean(|p| p.0) + 0.5, mean(|p| p.1) + 0.5);
+        // Edges of the box cross the disc, so its extent is more telling than its mean.
+        let middle = |pick: fn(&(u32, u32)) -> u32| {
+            let (low, high) = (disc.iter().map(pick).min().unwrap(), disc.iter().map(pick).max().unwrap());
+            f64::from(low + high + 1) / 2.0
+        };
+        let (x, y) = (middle(|p| p.0), middle(|p| p.1));
         assert!((x - 600.0).abs() < 1.0, "{dimension} dimensions: disc at {x}");
         let outline = {
             let dark = |x: u32, y: u32| view.get_pixel(x, y)[0] < 130;
             let rows: Vec<u32> =
-                (0..1050).filter(|y| (0..1200).any(|x| dark(x, *y) && !coloured(view.get_pixel(x, *y)))).collect();
+                (0..1085).filter(|y| (0..1200).any(|x| dark(x, *y) && !coloured(view.get_pixel(x, *y)))).collect();
             f64::from(rows[0] + rows[rows.len() - 1]) / 2.0
         };
         assert!((y - outline).abs() < 3.0, "{dimension} dimensions: disc at height {y}, box at {outline}");
@@ -393,7 +397,7 @@ fn the_nearer_particle_hides_the_farther() {
             ParticlePicture { dimension: 3, lengths: [10.0; 3], species: &species, ..particle(&positions, &names) };
         let picture =
             save("occlusion", plotter().draw_particles(&picture, &Snapshot::default(), Theme::Light).unwrap());
-        let view = image::imageops::crop_imm(&picture, 0, 0, 1200, 1050).to_image();
+        let view = image::imageops::crop_imm(&picture, 0, 0, 1200, 1085).to_image();
         let (blue, orange) = view.pixels().fold((0, 0), |(blue, orange), p| {
             (blue + usize::from(p[2] > p[0].saturating_add(60)), orange + usize::from(p[0] > p[2].saturating_add(60)))
         });

@@ -77,7 +77,9 @@ fn fragment_sphere(in: Varying) -> Surface {
     let colour = mix(in.colour, lit, camera.look.z) * rim;
 
     var out: Surface;
-    out.colour = vec4f(mix(colour, camera.fog.rgb, camera.fog.a * farness), 1.0);
+    // Mixed in nearly perceptual steps: in linear light a little white would drown a dark colour.
+    let faded = mix(sqrt(colour), sqrt(camera.fog.rgb), camera.fog.a * farness);
+    out.colour = vec4f(faded * faded, 1.0);
     out.depth = farness;
     return out;
 }

@@ -21,7 +21,7 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Painted in order, the last on top.
+    /// In the order of the legend; the first is painted on top.
     pub series: Vec<Series>,
     /// Horizontal lines to compare with.
     pub references: Vec<ReferenceLine>,

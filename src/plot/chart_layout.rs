@@ -24,9 +24,11 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn new(style: &PlotStyle) -> Self {
+    fn new(style: &PlotStyle, panels: usize) -> Self {
         let natural = (f64::from(style.width) / 1600.0).min(f64::from(style.height) / 900.0);
-        let unit = style.scale.clamp(0.05, 64.0) * natural;
+        // Type never grows so large that it leaves the data no room.
+        let largest_label = (f64::from(style.height) / (9 + 5 * panels) as f64).min(f64::from(style.width) / 24.0);
+        let unit = (style.scale.max(0.05) * natural).min(largest_label / 32.0);
         Self {
             title: (42.0 * unit).max(8.0),
             label: (32.0 * unit).max(7.0),
@@ -104,9 +106,10 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
     let mut layout = Layout {
         canvas: Canvas::new(style.width, style.height, inks.paper)?,
         inks,
-        sizes: Sizes::new(style),
+        sizes: Sizes::new(style, chart.panels.len()),
         prepared: prepare(&chart.panels),
-        rough: Vec::new(),
+        rough: false,
+        legends_above: false,
     };
     layout.draw(chart);
     Ok(layout.canvas)
@@ -119,7 +122,10 @@ fn prepare(panels: &[Panel]) -> Vec<Prepared<'_>> {
         let shares = |panel: &&Panel| panel.x == panels[start].x;
         let count = panels[start..].iter().take_while(shares).count();
         let group = &panels[start..start + count];
-        let x = axis_map(&panels[start].x, group.iter().flat_map(x_values), 0.0);
+        // Lines end at the frame; markers must not be cut by it.
+        let lone = |series: &Series| matches!(series.style, SeriesStyle::Markers | SeriesStyle::LineMarkers);
+        let marked = group.iter().flat_map(|panel| &panel.series).any(lone);
+        let x = axis_map(&panels[start].x, group.iter().flat_map(x_values), if marked { 0.03 } else { 0.0 });
         for (index, panel) in group.iter().enumerate() {
             let log = |axis: &Axis, value: f64| axis.scale == Scale::Log && value <= 0.0;
             let points = || panel.series.iter().flat_map(|series| &series.points);
@@ -129,7 +135,9 @@ fn prepare(panels: &[Panel]) -> Vec<Prepared<'_>> {
                 y: axis_map(&panel.y, y_values(panel), 0.05),
                 shares_x_below: index + 1 < count,
                 left_out: points().filter(|point| log(&panel.x, point[0]) || log(&panel.y, point[1])).count(),
-                has_data: points().any(|point| point[0].is_finite() && point[1].is_finite()),
+                has_data: points().any(|point| {
+                    point.iter().all(|value| value.is_finite()) && !log(&panel.x, point[0]) && !log(&panel.y, point[1])
+                }),
             });
         }
         start += count;
@@ -217,8 +225,9 @@ struct Layout<'a> {
     inks: Inks,
     sizes: Sizes,
     prepared: Vec<Prepared<'a>>,
-    /// Panels whose lines are too jagged for dashes; set once the panels have their places.
-    rough: Vec<bool>,
+    /// Lines of the chart are too jagged for dashes; known once the panels have their places.
+    rough: bool,
+    legends_above: bool,
 }
 
 /// One line of a legend.
@@ -243,15 +252,16 @@ impl Layout<'_> {
             return;
         }
         // A legend stands inside a panel if all panels have room for theirs, else all stand above their panels.
-        let mut placed = self.place(frame, false);
+        let mut placed = self.place(frame);
         let mut corners: Vec<Option<Area>> =
             (0..self.prepared.len()).map(|index| self.legend_spot(index, &placed[index])).collect();
         let above = (0..self.prepared.len()).any(|index| self.entries(index).len() > 1 && corners[index].is_none());
         if above {
-            placed = self.place(frame, true);
+            self.legends_above = true;
+            placed = self.place(frame);
             corners = vec![None; self.prepared.len()];
         }
-        self.rough = placed.iter().zip(&self.prepared).map(|(place, p)| is_rough(p.panel, place)).collect();
+        self.rough = placed.iter().zip(&self.prepared).any(|(place, prepared)| is_rough(prepared.panel, place));
         for (index, place) in placed.iter().enumerate() {
             self.grid(place);
             self.series(index, place);
@@ -273,7 +283,7 @@ impl Layout<'_> {
             let plural = if left_out == 1 { "value" } else { "values" };
             let separator = if notes.is_empty() { "" } else { "; " };
             let count = grouped(left_out as u64);
-            notes.push_str(&format!("{separator}{count} {plural} ≤ 0 left out of a logarithmic axis"));
+            notes = format!("{notes}{separator}{count} {plural} ≤ 0 left out of a logarithmic axis");
         }
         let Sizes { title, label, .. } = self.sizes;
         let width = f64::from(self.canvas.width) - 2.0 * margin;
@@ -312,7 +322,7 @@ impl Layout<'_> {
     }
 
     /// Gives every panel its area.
-    fn place(&self, frame: Area, legends_above: bool) -> Vec<Placed> {
+    fn place(&self, frame: Area) -> Vec<Placed> {
         let Sizes { label, gap, rule, .. } = self.sizes;
         let setter = &self.canvas.typesetter;
         let text_width = |text: &str| setter.width(text, Weight::Regular, label);
@@ -323,12 +333,12 @@ impl Layout<'_> {
 
         // Heights: all panels alike after the axes, rows of legends and multipliers have had theirs.
         let rows = |index: usize, y_ticks: &Ticks| {
-            let lines = if legends_above { self.legend_rows(index, frame.width() * 0.8).len() } else { 0 };
+            let lines = if self.legends_above { self.legend_rows(index, frame.width() * 0.8).len() } else { 0 };
             let lines = lines.max(usize::from(y_ticks.multiplier.is_some()));
             if lines > 0 { line * lines as f64 + 0.5 * gap } else { 0.5 * CAPITAL_HEIGHT * label }
         };
         let count = self.prepared.len() as f64;
-        let y_count = |height: f64| ((height / (2.1 * label)) as usize).clamp(2, 8);
+        let y_count = |height: f64| ((height / (1.55 * label)) as usize).clamp(3, 9);
         let rough_height = frame.height() / count * 0.7;
         let rough: Vec<Ticks> =
             self.prepared.iter().map(|prepared| ticks(&prepared.y, y_count(rough_height))).collect();
@@ -385,9 +395,22 @@ impl Layout<'_> {
         placed
     }
 
+    /// The label of the y axis in lines that fit beside a panel of this height, the unit preferably in its own.
     fn y_label_lines(&self, panel: &Panel, height: f64) -> Vec<String> {
-        let room = height + 2.0 * self.sizes.gap;
-        self.canvas.typesetter.wrap(&panel.y.label, Weight::Regular, self.sizes.label, room, 2)
+        let Sizes { label, gap, .. } = self.sizes;
+        let setter = &self.canvas.typesetter;
+        let text = panel.y.label.as_str();
+        // Labels may reach into the row of the legend above the panel.
+        let room = height + 2.0 * gap + if self.legends_above { LINE_HEIGHT * label } else { 0.0 };
+        let fits = |text: &str| setter.width(text, Weight::Regular, label) <= room;
+        if !fits(text)
+            && let Some(unit) = text.rfind(" (")
+            && fits(&text[..unit])
+            && fits(&text[unit + 1..])
+        {
+            return vec![text[..unit].to_owned(), text[unit + 1..].to_owned()];
+        }
+        setter.wrap(text, Weight::Regular, label, room, 2)
     }
 
     fn grid(&mut self, place: &Placed) {
@@ -482,9 +505,9 @@ impl Layout<'_> {
     /// Draws the data of a panel, clipped to it.
     fn series(&mut self, index: usize, place: &Placed) {
         let panel = self.prepared[index].panel;
-        let rough = self.rough.get(index).copied().unwrap_or(false);
+        let rough = self.rough;
         self.canvas.clip(Some(place.area.grown(0.5 * self.sizes.rule)));
-        for (number, series) in panel.series.iter().enumerate() {
+        for (number, series) in panel.series.iter().enumerate().rev() {
             let colour = self.look(number).colour;
             match (&series.errors, series.style) {
                 (Some(errors), SeriesStyle::Band) => self.band(place, series, errors, colour),
@@ -492,31 +515,34 @@ impl Layout<'_> {
                 (None, _) => {}
             }
         }
+        let pieces: Vec<Vec<Run>> = panel
+            .series
+            .iter()
+            .map(|series| runs(&series.points, |point| place.pixel(point)).iter().map(|run| thinned(run)).collect())
+            .collect();
+        for (number, series) in panel.series.iter().enumerate().rev() {
+            let look = self.look(number);
+            let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
+            let dashes = if rough { &[] } else { look.dashes };
+            for run in pieces[number].iter().filter(|_| series.style != SeriesStyle::Markers) {
+                self.stroke(run, place, dashes, look.colour, width);
+            }
+        }
+        // Over the lines, or noise around a reference would hide it.
         for reference in &panel.references {
             if let Some(y) = place.y_pixel(reference.value) {
                 let run = [[place.area.left, y], [place.area.right, y]];
-                self.stroke(&run, place, REFERENCE_DASHES, self.inks.muted, 0.75 * self.sizes.line);
+                self.stroke(&run, place, REFERENCE_DASHES, self.inks.ink, 0.75 * self.sizes.line);
             }
         }
-        let single = panel.series.len() == 1;
-        for (number, series) in panel.series.iter().enumerate() {
+        for (number, series) in panel.series.iter().enumerate().rev() {
             let look = self.look(number);
-            let pieces: Vec<Run> =
-                runs(&series.points, |point| place.pixel(point)).iter().map(|run| thinned(run)).collect();
-            let lined = series.style != SeriesStyle::Markers;
-            if lined {
-                let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
-                for run in &pieces {
-                    let dashes = if rough { &[] } else { look.dashes };
-                    self.stroke(run, place, dashes, look.colour, width);
-                }
-            }
             match series.style {
                 SeriesStyle::Markers | SeriesStyle::LineMarkers => {
-                    self.markers(pieces.iter().flatten().copied(), place, look, panel);
+                    self.markers(pieces[number].iter().flatten().copied(), place, look, panel);
                 }
-                SeriesStyle::Line | SeriesStyle::Band if rough && !single => {
-                    self.sparse_markers(&pieces, place, look, panel.series.len());
+                SeriesStyle::Line | SeriesStyle::Band if rough && panel.series.len() > 1 => {
+                    self.sparse_markers(&pieces[number], place, look, panel.series.len());
                 }
                 SeriesStyle::Line | SeriesStyle::Band => {}
             }
@@ -782,9 +808,9 @@ impl Layout<'_> {
         let middle = [at[0] + 0.5 * width, at[1]];
         let run = [at, [at[0] + width, at[1]]];
         let around = Placed::empty(Area { left: at[0], top: at[1], right: at[0] + width, bottom: at[1] });
-        let rough = self.rough.get(index).copied().unwrap_or(false);
+        let rough = self.rough;
         match sample {
-            None => self.stroke(&run, &around, REFERENCE_DASHES, self.inks.muted, 0.75 * self.sizes.line),
+            None => self.stroke(&run, &around, REFERENCE_DASHES, self.inks.ink, 0.75 * self.sizes.line),
             Some((style, look)) => {
                 if style == SeriesStyle::Band {
                     let height = 1.1 * self.sizes.gap;

@@ -125,9 +125,10 @@ pub(super) fn lay_out(
     let inks = inks(theme);
     let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
     let page = Page::new(style);
-    let (top, bottom) = (page.headings(&mut canvas, picture, &inks), page.height - page.margin);
+    let top = if page.captioned { page.headings(&mut canvas, picture, &inks) } else { page.margin };
+    let bottom = page.height - page.margin;
     let colouring = Colouring::new(picture, style, &inks);
-    let footer = page.footer_height(&canvas, picture, &colouring);
+    let footer = if page.captioned { page.footer_height(&canvas, picture, &colouring) } else { 0.0 };
     let frame = Area { left: page.margin, top, right: page.width - page.margin, bottom: bottom - footer };
 
     let mut lengths = picture.lengths;
@@ -163,7 +164,9 @@ pub(super) fn lay_out(
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
         canvas.line(project(*from), project(*to), rule, inks.ink);
     }
-    page.footer(&mut canvas, picture, &colouring, &inks, outline, pixels_per_length);
+    if page.captioned {
+        page.footer(&mut canvas, picture, &colouring, &inks, outline, pixels_per_length);
+    }
 
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
@@ -181,7 +184,7 @@ pub(super) fn lay_out(
         radius,
         lighting: if flat { 0.3 } else { 1.0 },
         rim: if flat { 0.35 } else { 0.12 },
-        fog: if flat { 0.0 } else { 0.5 },
+        fog: if flat { 0.0 } else { 0.4 },
         paper: inks.paper,
         // More samples where they cost little.
         samples: if fragments < 4e6 { 4 } else { 2 },
@@ -292,6 +295,8 @@ struct Page {
     label: f64,
     rule: f64,
     gap: f64,
+    /// A thumbnail has no text: nobody could read it.
+    captioned: bool,
 }
 
 impl Page {
@@ -306,6 +311,7 @@ impl Page {
             label: (32.0 * unit).max(6.0),
             rule: (3.0 * unit).max(1.0),
             gap: 14.0 * unit,
+            captioned: width.min(height) >= 200.0,
         }
     }
 

@@ -73,6 +73,8 @@ pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64])
         .with_reference("ideal gas", 1.0);
     let highest = values.iter().copied().filter(|value| value.is_finite()).fold(1.0_f64, f64::max);
     panel.y.range = Some([0.0, 1.1 * highest]);
+    let farthest = distances.iter().copied().filter(|distance| distance.is_finite()).fold(0.0, f64::max);
+    panel.x.range = Some([0.0, farthest]);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }
 

@@ -185,7 +185,9 @@ impl Plotter {
                     },
                     wgpu::BindGroupEntry {
                         binding: 1,
-                        resource: wgpu::BindingResource::TextureView(&texture.create_view(&Default::default())),
+                        resource: wgpu::BindingResource::TextureView(
+                            &texture.create_view(&wgpu::TextureViewDescriptor::default()),
+                        ),
                     },
                 ],
             })
@@ -215,7 +217,7 @@ impl Plotter {
         atlas: &wgpu::BindGroup,
         clear: Option<wgpu::Color>,
     ) {
-        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("plot: shapes"),
@@ -263,7 +265,7 @@ impl Plotter {
                 usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
                 view_formats: &[],
             });
-            texture.create_view(&Default::default())
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let colour = texture("plot: particles", COLOUR_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
         let depth = texture("plot: depth of particles", DEPTH_FORMAT, wgpu::TextureUsages::empty());
@@ -278,7 +280,7 @@ impl Plotter {
         for tile_top in (top..top + height).step_by(tile as usize) {
             for tile_left in (left..left + width).step_by(tile as usize) {
                 let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];
-                let mut encoder = self.device.create_command_encoder(&Default::default());
+                let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let camera = camera(scene, [tile_left, tile_top], [texture_size.width, texture_size.height]);
                 self.enlarged_pass(&mut encoder, &camera, &buffers, &colour, &depth);
                 let placement =
@@ -374,7 +376,7 @@ impl Plotter {
             let bytes = u64::from(padded_row) * u64::from(rows);
             let (sender, receiver) = mpsc::channel();
             let submission = checked(&self.device, "copy of the picture", || {
-                let mut encoder = self.device.create_command_encoder(&Default::default());
+                let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let mut source = texture.as_image_copy();
                 source.origin.y = top;
                 let layout =
@@ -463,7 +465,7 @@ fn pipeline(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some(entry_points[0]),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: &buffers,
         },
         primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
@@ -471,14 +473,14 @@ fn pipeline(
             format: DEPTH_FORMAT,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: Default::default(),
-            bias: Default::default(),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
         }),
-        multisample: Default::default(),
+        multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(entry_points[1]),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: COLOUR_FORMAT,
                 blend,

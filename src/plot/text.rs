@@ -87,7 +87,7 @@ impl Typesetter {
             .iter()
             .map(|run| {
                 let font = self.font(weight).as_scaled(self.scale(weight, size * run.size));
-                run.text.chars().map(|c| f64::from(font.h_advance(font.glyph_id(c)))).sum::<f64>()
+                run.text.chars().map(|c| f64::from(font.h_advance(glyph_of(font.font, c)))).sum::<f64>()
             })
             .sum()
     }
@@ -103,7 +103,7 @@ impl Typesetter {
             for character in run.text.chars() {
                 let (glyph, advance) = {
                     let font = self.font(weight).as_scaled(scale);
-                    let glyph = font.glyph_id(character);
+                    let glyph = glyph_of(font.font, character);
                     (glyph, f64::from(font.h_advance(glyph)))
                 };
                 if let Some(entry) = self.entry(weight, glyph, scale) {
@@ -213,6 +213,19 @@ impl Typesetter {
     }
 }
 
+/// The glyph of a character, or of the nearest that the font has; a hollow box stands for all others.
+fn glyph_of(font: &FontRef<'static>, character: char) -> GlyphId {
+    let substitute = match character {
+        '⟨' => '‹',
+        '⟩' => '›',
+        '⋅' | '∙' => '·',
+        '∕' => '/',
+        '\t' | '\u{2009}' | '\u{202f}' => ' ',
+        _ => '□',
+    };
+    [character, substitute].into_iter().map(|c| font.glyph_id(c)).find(|glyph| glyph.0 != 0).unwrap_or(GlyphId(0))
+}
+
 struct Run<'a> {
     text: &'a str,
     /// Relative to the type size.
@@ -266,7 +279,7 @@ mod tests {
     #[test]
     fn the_signs_of_physics_are_in_the_font() {
         let setter = Typesetter::new().unwrap();
-        for sign in "ABCxyz0189−×·±≈≤≥√∞⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂αβγδελμνρστφωΔΣΩ→°½äöüéñ–—…()[]/".chars()
+        for sign in "ABCxyz0189−×·±≈≤≥√∞⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂αβγδελμνρστφωΔΣΩ→°½äöüéñ–—…()[]/‹›□".chars()
         {
             for weight in [Weight::Regular, Weight::SemiBold] {
                 assert_ne!(setter.font(weight).glyph_id(sign), GlyphId(0), "no glyph for {sign}");

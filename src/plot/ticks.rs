@@ -34,7 +34,7 @@ pub(super) struct Ticks {
     pub multiplier: Option<String>,
 }
 
-/// Ticks of an axis with room for about `count` labels.
+/// Ticks of an axis with room for at most `count` labels: as many as fit.
 pub(super) fn ticks(map: &AxisMap, count: usize) -> Ticks {
     match map.scale {
         Scale::Linear => linear_ticks(map.low, map.high, count),
@@ -68,8 +68,13 @@ fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
 
 fn linear_ticks(low: f64, high: f64, count: usize) -> Ticks {
     let span = high - low;
-    let (step, parts) = nice_step(span / count.max(1) as f64);
-    let values = multiples(low, high, step);
+    let count = count.max(2);
+    let (mut step, mut parts) = nice_step(span / (2 * count) as f64);
+    let mut values = multiples(low, high, step);
+    while values.len() > count {
+        (step, parts) = nice_step(1.5 * step);
+        values = multiples(low, high, step);
+    }
     let minor = multiples(low, high, step / f64::from(parts));
     let largest = low.abs().max(high.abs());
 
@@ -153,13 +158,11 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
 fn significant(value: f64, span: f64) -> String {
     let exponent = value.log10().floor() as i32;
     let last = span.log10().floor() as i32;
-    let mut text = if (-4..7).contains(&exponent) {
+    if (-4..7).contains(&exponent) {
         return trimmed(&number(value, (-last).max(0) as usize));
-    } else {
-        trimmed(&number(value / 10_f64.powi(exponent), (exponent - last).clamp(0, 16) as usize))
-    };
-    text.push_str(&format!("×10{}", superscript(exponent)));
-    text
+    }
+    let digits = trimmed(&number(value / 10_f64.powi(exponent), (exponent - last).clamp(0, 16) as usize));
+    format!("{digits}×10{}", superscript(exponent))
 }
 
 fn trimmed(text: &str) -> String {
@@ -231,24 +234,24 @@ mod tests {
 
     #[test]
     fn round_numbers() {
-        assert_eq!(labels(0.0, 1.0, 5).0, ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(0.0, 1.0, 7).0, ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels(-1.3, 1.2, 5).0, ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
-        assert_eq!(labels(0.0, 80.0, 4), (["0", "20", "40", "60", "80"].map(String::from).to_vec(), None));
+        assert_eq!(labels(0.0, 80.0, 5), (["0", "20", "40", "60", "80"].map(String::from).to_vec(), None));
     }
 
     #[test]
     fn large_and_small_numbers_share_a_power_of_ten() {
-        assert_eq!(labels(0.0, 4.0e5, 4).0, ["0", "1", "2", "3", "4"]);
-        assert_eq!(labels(0.0, 4.0e5, 4).1.as_deref(), Some("×10⁵"));
-        assert_eq!(labels(0.0, 2.0e-7, 4).1.as_deref(), Some("×10⁻⁷"));
-        assert_eq!(labels(0.0, 2.0e-7, 4).0, ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+        assert_eq!(labels(0.0, 4.0e5, 5).0, ["0", "1", "2", "3", "4"]);
+        assert_eq!(labels(0.0, 4.0e5, 5).1.as_deref(), Some("×10⁵"));
+        assert_eq!(labels(0.0, 2.0e-7, 5).1.as_deref(), Some("×10⁻⁷"));
+        assert_eq!(labels(0.0, 2.0e-7, 5).0, ["0.0", "0.5", "1.0", "1.5", "2.0"]);
     }
 
     #[test]
     fn a_narrow_range_far_from_zero_shows_differences() {
-        let (labels, multiplier) = labels(1_000_000.0, 1_000_000.004, 4);
-        assert_eq!(multiplier.as_deref(), Some("×10⁻³ + 1000000"));
-        assert_eq!(labels, ["0", "1", "2", "3", "4"]);
+        let (labels, multiplier) = labels(1_000_000.0, 1_000_000.004, 5);
+        assert_eq!(multiplier.as_deref(), Some("+ 1000000"));
+        assert_eq!(labels, ["0.000", "0.001", "0.002", "0.003", "0.004"]);
     }
 
     #[test]
@@ -268,7 +271,7 @@ mod tests {
                 let low = 1.7 * 10_f64.powi(exponent);
                 let high = low * (1.0 + width);
                 let ticks = linear_ticks(low, high, 5);
-                assert!((2..=8).contains(&ticks.major.len()), "{low} {high} {ticks:?}");
+                assert!((2..=5).contains(&ticks.major.len()), "{low} {high} {ticks:?}");
                 assert!(ticks.major.iter().all(|(_, label)| label.len() < 12), "{ticks:?}");
                 let distinct: std::collections::HashSet<_> = ticks.major.iter().map(|(_, label)| label).collect();
                 assert_eq!(distinct.len(), ticks.major.len(), "{low} {high} {ticks:?}");
