@@ -1,1 +1,4 @@
-//! Placeholder.
+//! From samples to averages with errors.
+
+pub mod correlation;
+pub mod statistics;
