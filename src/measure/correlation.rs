@@ -32,6 +32,7 @@ impl WindowedAverage {
     }
 
     /// The full windows; one that is not yet full is left out.
+    #[must_use]
     pub fn windows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.samples.chunks_exact(self.lags)
     }
@@ -157,7 +158,7 @@ pub struct WaveViscosity {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViscosityError {
-    /// There is no mode, or modes of the same wave number differ in length.
+    /// There is no mode, the modes differ in length, or one has no positive wave number.
     #[error("there are no complete time series of transverse momentum modes")]
     NoModes,
     /// All amplitudes are zero, or some are not finite.
@@ -223,7 +224,10 @@ pub fn shear_viscosity(
     let mut modes: Vec<&TransverseMode> = modes.iter().collect();
     modes.sort_by(|a, b| a.wave_number.total_cmp(&b.wave_number));
     let samples = modes.first().map_or(0, |mode| mode.amplitudes.len());
-    if samples < 2 || modes.iter().any(|mode| mode.amplitudes.len() != samples) {
+    if samples < 2
+        || modes.iter().any(|mode| mode.amplitudes.len() != samples || mode.wave_number.is_nan())
+        || modes[0].wave_number <= 0.0
+    {
         return Err(ViscosityError::NoModes);
     }
     let waves: Vec<&[&TransverseMode]> =
@@ -262,7 +266,8 @@ pub fn shear_viscosity(
             fit_from: decay.fit_from,
         });
     }
-    let replicates: Vec<f64> = without.iter().map(|values| weighted(values)).collect();
+    let complete = without.iter().filter(|values| values.len() == waves.len());
+    let replicates: Vec<f64> = complete.map(|values| weighted(values)).collect();
     let viscosity = Coefficient { value: weighted(&values), standard_error: jackknife_error(&replicates) };
     let kinematic_viscosity = Coefficient {
         value: viscosity.value / density,
@@ -310,7 +315,7 @@ impl Decay {
     }
 
     /// The rates that come out when one block of time origins after the other is left out, over the same lags and with
-    /// the same weights.
+    /// the same weights; empty where some of them cannot be taken.
     fn rates_without_blocks(&self, wave: &[&TransverseMode], blocks: usize) -> Vec<f64> {
         if blocks == 0 {
             return Vec::new();
@@ -325,7 +330,7 @@ impl Decay {
             .map(|lag| (0..blocks).map(|b| products(wave, *lag, edge(b, *lag), edge(b + 1, *lag))).collect())
             .collect();
         (0..blocks)
-            .filter_map(|left_out| {
+            .map(|left_out| {
                 let mean = |index: usize| {
                     let lag = used[index];
                     let count = samples - lag - (edge(left_out + 1, lag) - edge(left_out, lag));
@@ -338,7 +343,8 @@ impl Decay {
                 }
                 decay_rate(&replicate, self.fit_from, &self.autocorrelation)
             })
-            .collect()
+            .collect::<Option<Vec<f64>>>()
+            .unwrap_or_default()
     }
 }
 
@@ -415,9 +421,8 @@ mod tests {
         let amplitudes = (1..=samples)
             .map(|step| {
                 let sample = value;
-                for part in 0..2 {
-                    let kick = gaussian(2 * seed + part as u64, step);
-                    value[part] = memory * value[part] + (1.0 - memory * memory).sqrt() * kick;
+                for (part, stream) in value.iter_mut().zip(2 * seed..) {
+                    *part = memory * *part + (1.0 - memory * memory).sqrt() * gaussian(stream, step);
                 }
                 sample
             })
@@ -468,7 +473,9 @@ mod tests {
                     place += 0.02_f64.sqrt() * gaussian(axis, window * lags + lag);
                 }
             }
-            sums.into_iter().for_each(|sum| displacement.push(sum));
+            for sum in sums {
+                displacement.push(sum);
+            }
         }
         let found = diffusion_from_displacement(&displacement, 1.0, 2).unwrap();
         let error = found.standard_error.unwrap();
@@ -541,6 +548,10 @@ mod tests {
     #[test]
     fn what_cannot_be_fitted_is_named() {
         assert_eq!(shear_viscosity(&[], 1.0, 1.0, 10), Err(ViscosityError::NoModes));
+        for wave_number in [0.0, f64::NAN] {
+            let uniform = relaxing_mode(1, wave_number, 0.02, 100);
+            assert_eq!(shear_viscosity(&[uniform], 1.0, 1.0, 10), Err(ViscosityError::NoModes));
+        }
         let silent = TransverseMode { wave_number: 1.0, amplitudes: vec![[0.0; 2]; 100] };
         assert!(matches!(shear_viscosity(&[silent], 1.0, 1.0, 10), Err(ViscosityError::NoSignal { .. })));
         let mut broken = relaxing_mode(1, 1.0, 0.02, 1000);

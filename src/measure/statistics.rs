@@ -27,7 +27,7 @@ pub struct Estimate {
 ///
 /// The error is that of the blocking method of Flyvbjerg and Petersen, doi:10.1063/1.457480: neighbours are averaged
 /// in pairs again and again, and the apparent error of the mean rises to a plateau once a block is longer than the
-/// correlation. The block length is the smallest power of two B with B³ > 2n (s_B/s_1)⁴, where s_B is the apparent
+/// correlation. The block length is the smallest power of two B with B³ > 2n (s(B)/s(1))⁴, where s(B) is the apparent
 /// error with blocks of B samples: the rule of Lee et al., doi:10.1103/PhysRevE.83.066706, which balances the bias of
 /// short blocks against the noise of few blocks. If no length with at least 16 blocks satisfies it, the series is too
 /// short: the largest apparent error with at least 16 blocks (or without blocking, if it is shorter than that) is
@@ -41,7 +41,9 @@ pub fn estimate(series: &[f64]) -> Option<Estimate> {
     }
     // Averages of differences from one sample lose no digits where the mean is large and the scatter small.
     let origin = blocks[0];
-    blocks.iter_mut().for_each(|value| *value -= origin);
+    for value in &mut blocks {
+        *value -= origin;
+    }
     let mean = origin + blocks.iter().sum::<f64>() / samples as f64;
     let Some(first) = variance_of_mean(&blocks) else {
         return Some(Estimate { mean, standard_error: None, samples, correlation_samples: None, converged: false });

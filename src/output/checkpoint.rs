@@ -264,7 +264,9 @@ impl<'a> Reader<'a> {
     fn words(&mut self, count: u64) -> Option<Vec<u32>> {
         let bytes = self.take(count.checked_mul(4)?)?;
         let mut words: Vec<u32> = bytemuck::pod_collect_to_vec(bytes);
-        words.iter_mut().for_each(|word| *word = u32::from_le(*word));
+        for word in &mut words {
+            *word = u32::from_le(*word);
+        }
         Some(words)
     }
 

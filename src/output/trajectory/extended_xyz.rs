@@ -1,4 +1,5 @@
 //! Extended XYZ: text that most viewers read. Positions lie in `[0, L]`; real numbers have single precision.
+//! Species keep their names, which OVITO accepts; ASE reads the file only where they are chemical symbols.
 
 use super::Description;
 use crate::output::OutputError;

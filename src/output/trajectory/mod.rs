@@ -1,4 +1,4 @@
-//! Positions and velocities for other tools: OVITO, freud, MDAnalysis, ASE.
+//! Positions and velocities for other tools: OVITO, freud, `MDAnalysis`.
 
 mod extended_xyz;
 mod gsd;
@@ -18,7 +18,7 @@ pub struct TrajectoryWriter {
 
 #[derive(Debug)]
 enum Format {
-    Gsd(gsd::GsdTrajectory),
+    Gsd(Box<gsd::GsdTrajectory>),
     ExtendedXyz(extended_xyz::ExtendedXyz),
 }
 
@@ -64,7 +64,7 @@ impl TrajectoryWriter {
     /// [`OutputError::Io`] when the file cannot be created.
     pub fn create(path: &Path, format: TrajectoryFormat, model: &Model) -> Result<Self, OutputError> {
         let file = match format {
-            TrajectoryFormat::Gsd => Format::Gsd(gsd::GsdTrajectory::create(path)?),
+            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::create(path)?)),
             TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::create(path)?),
         };
         Ok(Self { description: Description::new(model), file })
@@ -79,7 +79,7 @@ impl TrajectoryWriter {
     /// [`OutputError::Io`] when it cannot be read or written.
     pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, step: u64) -> Result<Self, OutputError> {
         let file = match format {
-            TrajectoryFormat::Gsd => Format::Gsd(gsd::GsdTrajectory::resume(path, step)?),
+            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::resume(path, step)?)),
             TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::resume(path, step)?),
         };
         Ok(Self { description: Description::new(model), file })
