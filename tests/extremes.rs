@@ -11,8 +11,8 @@ use mesoscope::reference::Reference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use support::{
-    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, engine, fluid, gpu, largest_difference, observables, reference,
-    start,
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, gpu, largest_difference, observables,
+    reference, start,
 };
 
 const EVERY_STEP: &str = "output.energies.every=1";
@@ -54,7 +54,13 @@ fn series(engine: &mut Engine<'_>, scene: &Scene) -> Vec<Observables> {
 /// to the bit, observables to single precision.
 fn agrees(changes: &[&str], steps: u64, units: i64) {
     let scene = fluid(&[changes, &[EVERY_STEP]].concat());
-    let (_, state) = start(&scene);
+    let (model, state) = start(&scene);
+    // How many units of position a unit of momentum becomes in a step, at most.
+    let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    let shortest = model.units.lengths[..model.units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
+    let drift = model.time_step * model.units.momentum / lightest / shortest * 2_f64.powi(32);
+    // The device rounds the rates of relaxation to 2⁻¹⁶, the reference does not: an error of second order in the rate.
+    let rate_rounding = if changes.contains(&SPLITTING) { 10 } else { 1 };
     for traversal in traversals() {
         let mut device = engine(&scene, &state, options(traversal));
         let mut expected = reference(&scene, &state);
@@ -63,15 +69,21 @@ fn agrees(changes: &[&str], steps: u64, units: i64) {
             expected.step().unwrap();
             let found = device.state().unwrap();
             let (momentum, position) = largest_difference(&found, expected.state());
-            let allowed = units * step as i64;
+            let allowed = units * step as i64 * rate_rounding;
+            let moved = allowed + (allowed as f64 * drift) as i64;
             assert!(momentum <= allowed, "{traversal:?} step {step}: momenta differ by {momentum} ({changes:?})");
-            assert!(position <= allowed, "{traversal:?} step {step}: positions differ by {position} ({changes:?})");
+            assert!(position <= moved, "{traversal:?} step {step}: positions differ by {position} ({changes:?})");
             assert_eq!(found.total_momentum(), state.total_momentum(), "{traversal:?} step {step} ({changes:?})");
         }
         // Of the very same state: sums like the Laplacian's nearly cancel, and then tell of the last bit of a position.
         let found = device.state().unwrap();
         let found = reference(&scene, &found);
-        same_observables(&observables(&mut device, &scene), &found.observe(), jump_of_curvature(&found), changes);
+        same_observables(
+            &observables(&mut device, &scene),
+            &found.observe().unwrap(),
+            jump_of_curvature(&found),
+            changes,
+        );
     }
 }
 
@@ -285,14 +297,18 @@ fn the_first_failing_step_is_named() {
 /// Energy in units of E, length in L and mass in M, all powers of two: the integer state must not notice.
 #[test]
 fn powers_of_two_of_every_unit_leave_the_integers_alone() {
-    let run = |integrator: &str, energy: f64, length: f64, mass: f64| {
+    let run = |integrator: &str, energy: f64, length: f64, mass: f64, second: f64| {
         let time = length * (mass / energy).sqrt();
         let scene = fluid(&[
             integrator,
             &format!("space.box=[{0},{0},{0}]", 5.0 * length),
             &format!("time.step={:e}", 0.03125 * time),
             &format!("temperature={energy:e}"),
-            &format!(r#"particles=[{{"species":"A","count":375,"mass":{mass:e}}}]"#),
+            &format!(
+                r#"particles=[{{"species":"A","count":300,"mass":{mass:e}}},{{"species":"{}","count":75,"mass":{:e}}}]"#,
+                if second == 1.0 { "A" } else { "B" },
+                second * mass
+            ),
             &format!("interactions.0.cutoff={length:e}"),
             &format!("interactions.0.repulsion={:e}", 25.0 * energy / length),
             &format!("interactions.0.friction={:e}", 4.5 * mass / time),
@@ -313,13 +329,13 @@ fn powers_of_two_of_every_unit_leave_the_integers_alone() {
         (state, sums, model.units.momentum)
     };
     let two = |power: i32| 2_f64.powi(power);
-    for integrator in INTEGRATORS {
-        let (state, sums, unit) = run(integrator, 1.0, 1.0, 1.0);
+    for (integrator, second) in INTEGRATORS.iter().flat_map(|integrator| [(integrator, 1.0), (integrator, 2.5)]) {
+        let (state, sums, unit) = run(integrator, 1.0, 1.0, 1.0, second);
         // 2⁴⁰ is about 10¹².
         for (energy, length, mass) in
             [(40, 0, 0), (-40, 0, 0), (0, 20, 0), (0, -20, 0), (0, 0, 40), (0, 0, -40), (20, -4, 10)]
         {
-            let scaled = run(integrator, two(energy), two(length), two(mass));
+            let scaled = run(integrator, two(energy), two(length), two(mass), second);
             assert_eq!(scaled.2, unit * (two(energy) * two(mass)).sqrt(), "momentum unit");
             assert!(scaled.0 == state, "2^{energy} energy, 2^{length} length, 2^{mass} mass ({integrator})");
             assert_eq!(scaled.1, sums, "2^{energy}, 2^{length}, 2^{mass} ({integrator})");
@@ -389,7 +405,7 @@ fn without_heat_energy_only_falls() {
 fn a_thousand_neighbours() {
     // 4π/3 · 239 and π · 318 neighbours within the cutoff.
     for (box_, particles) in [("space.box=[2,2,2]", 1910), ("space.box=[3,3]", 2865)] {
-        for integrator in [GROOT_WARREN, COTTER_REICH] {
+        for integrator in [SPLITTING, COTTER_REICH] {
             agrees(&[integrator, box_, &count(particles), "time.step=0.0005"], 2, 300);
         }
     }
@@ -403,7 +419,10 @@ fn a_dilute_gas_and_one_pair_across_a_corner() {
         let changes = [integrator, "space.box=[100,100,100]", gas.as_str()];
         agrees(&changes, 5, 100);
         let (_, state) = start(&fluid(&changes));
-        assert!(reference(&fluid(&changes), &state).observe().potential_energy > 0.0, "the pair does not touch");
+        assert!(
+            reference(&fluid(&changes), &state).observe().unwrap().potential_energy > 0.0,
+            "the pair does not touch"
+        );
     }
 }
 
@@ -419,7 +438,7 @@ fn coincident_particles() {
             let scene = fluid(&[&changes[..], &[EVERY_STEP]].concat());
             let (_, state) = start(&scene);
             let measured = observables(&mut engine(&scene, &state, Options::default()), &scene);
-            same_observables(&measured, &reference(&scene, &state).observe(), 0.0, &changes);
+            same_observables(&measured, &reference(&scene, &state).observe().unwrap(), 0.0, &changes);
         }
     }
     // The same momenta in the same place: they never part, and nothing is ever not a number.
@@ -432,6 +451,9 @@ fn coincident_particles() {
     assert_eq!(found.momenta, state.momenta);
 }
 
+/// Where the sums of a report hold the momentum.
+const MOMENTUM: std::ops::Range<usize> = 2..5;
+
 /// The sums of a report are 64-bit integers: those of a hundred million particles, thrown down at random, have to fit.
 #[test]
 fn sums_of_a_hundred_million_particles_fit() {
@@ -443,8 +465,7 @@ fn sums_of_a_hundred_million_particles_fit() {
         let (_, state) = start(&scene);
         let mut engine = engine(&scene, &state, Options::default());
         let row = &engine.finish().unwrap()[0];
-        // Momenta add up to nothing here, and drift no further than they are given.
-        for (quantity, sum) in row.sums[..6].iter().enumerate() {
+        for (quantity, sum) in row.sums.iter().enumerate().filter(|(quantity, _)| !MOMENTUM.contains(quantity)) {
             let all = *sum as f64 * 1e8 / state.len() as f64;
             assert!(all.abs() < 2_f64.powi(63), "quantity {quantity}: {all:e} ({changes:?})");
             let resolved = sum.abs() > 1 << 20 || *sum == 0 && changes == ["interactions.0.repulsion=0"];
@@ -496,7 +517,7 @@ fn a_box_of_a_million_cutoffs() {
 fn elongated_boxes() {
     for box_ in ["[1000,2,2]", "[2,1000,2]", "[2,2,1000]", "[1000,3,3]", "[1000,2]", "[2,1000]"] {
         let box_ = format!("space.box={box_}");
-        for integrator in [GROOT_WARREN, PREDICTED] {
+        for integrator in [SPLITTING, PREDICTED] {
             agrees(&[integrator, &box_, &count(6000)], 1, 100);
         }
     }

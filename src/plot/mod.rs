@@ -1,1 +1,66 @@
-//! Placeholder.
+//! Pictures drawn off-screen by the GPU: charts of what was measured and snapshots of the particles.
+//!
+//! A [`Chart`] or a [`ParticlePicture`] is first laid out on the CPU as a list of shapes (lines, markers, letters),
+//! which needs no device, and then painted by a [`Plotter`] in a few draw calls. Coverage and blending are computed in
+//! linear light, so thin lines keep their weight on light and dark paper. Type and lines are sized for a picture that
+//! is shown 16 cm wide, whatever its number of pixels; [`PlotStyle::scale`](crate::scene::PlotStyle::scale) changes that.
+//!
+//! ```no_run
+//! use mesoscope::plot::{Chart, Panel, Plotter, Series};
+//! # fn device() -> (wgpu::Device, wgpu::Queue) { unimplemented!() }
+//! let (device, queue) = device();
+//! let points = (0..100).map(|i| [f64::from(i), f64::from(i).sqrt()]).collect();
+//! let panel = Panel::new("time", "distance").with(Series::line("root", points));
+//! let chart = Chart { title: "A square root".into(), subtitle: String::new(), panels: vec![panel] };
+//! let picture = Plotter::new(&device, &queue)?.draw_chart(&chart, &Default::default())?;
+//! picture.save("root.png")?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod canvas;
+mod chart;
+mod chart_layout;
+mod error;
+mod palette;
+mod particles;
+mod presets;
+mod renderer;
+mod series_path;
+mod text;
+mod ticks;
+
+pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesStyle};
+pub use error::PlotError;
+pub use particles::ParticlePicture;
+pub use presets::{EnergyTable, correlation_chart, energies_chart, radial_distribution_chart};
+pub use renderer::Plotter;
+
+use crate::scene::{PlotStyle, Snapshot, Theme};
+use image::RgbaImage;
+
+/// Draws one chart; [`Plotter`] is cheaper for several.
+///
+/// # Errors
+/// See [`Plotter::draw_chart`].
+pub fn draw_chart(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    chart: &Chart,
+    style: &PlotStyle,
+) -> Result<RgbaImage, PlotError> {
+    Plotter::new(device, queue)?.draw_chart(chart, style)
+}
+
+/// Draws one picture of the particles; [`Plotter`] is cheaper for several.
+///
+/// # Errors
+/// See [`Plotter::draw_particles`].
+pub fn draw_particles(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    picture: &ParticlePicture<'_>,
+    style: &Snapshot,
+    theme: Theme,
+) -> Result<RgbaImage, PlotError> {
+    Plotter::new(device, queue)?.draw_particles(picture, style, theme)
+}

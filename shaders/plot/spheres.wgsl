@@ -1,0 +1,85 @@
+// Particles as sphere impostors in parallel projection: one quad per particle, the surface and its depth found per
+// fragment. Drawn larger than the picture and averaged down by composite.wgsl.
+
+struct Camera {
+    // Unit vectors of the view in box coordinates; w of `right` is pixels per unit of length.
+    right: vec4f,
+    up: vec4f,
+    // Towards the viewer; w is half the depth that maps onto [0, 1].
+    toward: vec4f,
+    // Where the centre of the box lands, then the size of the target, both in pixels of the target.
+    centre_and_size: vec4f,
+    // Colour of the paper that distance fades into (linear), and how much of it the farthest point takes.
+    fog: vec4f,
+    // Radius in units of length, radius in pixels, strength of the lighting, darkness of the rim.
+    look: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> camera: Camera;
+
+struct Particle {
+    // Relative to the centre of the box.
+    @location(0) position: vec3f,
+    // sRGB.
+    @location(1) colour: vec4f,
+}
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) centre: vec2f,
+    @location(1) @interpolate(flat) height: f32,
+    @location(2) @interpolate(flat) colour: vec3f,
+}
+
+struct Surface {
+    @location(0) colour: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+fn linear_from_srgb(colour: vec3f) -> vec3f {
+    let low = colour / 12.92;
+    let high = pow((colour + 0.055) / 1.055, vec3f(2.4));
+    return select(high, low, colour <= vec3f(0.04045));
+}
+
+@vertex
+fn vertex_sphere(@builtin(vertex_index) vertex: u32, particle: Particle) -> Varying {
+    let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u)) * 2.0 - 1.0;
+    let across = dot(particle.position, camera.right.xyz);
+    let upward = dot(particle.position, camera.up.xyz);
+    let centre = camera.centre_and_size.xy + vec2f(across, -upward) * camera.right.w;
+    let pixel = centre + corner * (camera.look.y + 1.0);
+    var out: Varying;
+    out.position = vec4f(pixel / camera.centre_and_size.zw * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0), 0.5, 1.0);
+    out.centre = centre;
+    out.height = dot(particle.position, camera.toward.xyz);
+    out.colour = linear_from_srgb(particle.colour.rgb);
+    return out;
+}
+
+@fragment
+fn fragment_sphere(in: Varying) -> Surface {
+    let offset = (in.position.xy - in.centre) / camera.look.y;
+    let squared = dot(offset, offset);
+    if squared > 1.0 {
+        discard;
+    }
+    let normal = vec3f(offset.x, -offset.y, sqrt(1.0 - squared));
+    let height = in.height + normal.z * camera.look.x;
+    let farness = clamp(0.5 - 0.5 * height / camera.toward.w, 0.0, 1.0);
+
+    let light = normalize(vec3f(-0.45, 0.65, 0.75));
+    let half_way = normalize(light + vec3f(0.0, 0.0, 1.0));
+    let diffuse = 0.42 + 0.66 * max(dot(normal, light), 0.0);
+    let gloss = 0.16 * pow(max(dot(normal, half_way), 0.0), 32.0);
+    let lit = in.colour * diffuse + gloss;
+    let rim = 1.0 - camera.look.w * smoothstep(0.62, 0.95, squared);
+    let colour = mix(in.colour, lit, camera.look.z) * rim;
+
+    var out: Surface;
+    // Mixed in nearly perceptual steps: in linear light a little white would drown a dark colour.
+    let faded = mix(sqrt(colour), sqrt(camera.fog.rgb), camera.fog.a * farness);
+    out.colour = vec4f(faded * faded, 1.0);
+    out.depth = farness;
+    return out;
+}

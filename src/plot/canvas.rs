@@ -1,0 +1,202 @@
+//! The list of shapes that make up a picture, in the order in which they are painted. Pure data: no device needed.
+
+use super::error::PlotError;
+use super::palette::Colour;
+use super::text::{CAPITAL_HEIGHT, Typesetter, Weight};
+use bytemuck::{Pod, Zeroable};
+use std::ops::Range;
+
+/// One quad of `shapes.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct Shape {
+    pub ends: [f32; 4],
+    pub texels: [f32; 4],
+    pub radius: f32,
+    pub kind: u32,
+    pub colour: Colour,
+}
+
+const KIND_CAPSULE: u32 = 0;
+const KIND_RECTANGLE: u32 = 1;
+const KIND_POLYGON: u32 = 2;
+const KIND_GLYPH: u32 = 3;
+
+/// A rectangle in pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Area {
+    pub left: f64,
+    pub top: f64,
+    pub right: f64,
+    pub bottom: f64,
+}
+
+impl Area {
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub(super) fn centre(&self) -> [f64; 2] {
+        [0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom)]
+    }
+
+    pub(super) fn grown(&self, by: f64) -> Self {
+        Self { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
+    }
+
+    pub(super) fn contains(&self, point: [f64; 2]) -> bool {
+        point[0] >= self.left && point[0] <= self.right && point[1] >= self.top && point[1] <= self.bottom
+    }
+}
+
+/// Where the given point lies in a line of text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a line of text is set.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Type {
+    pub size: f64,
+    pub weight: Weight,
+    pub colour: Colour,
+}
+
+/// Shapes that share a clipping rectangle.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Batch {
+    pub shapes: Range<u32>,
+    pub clip: Option<Area>,
+}
+
+/// Shapes in painting order.
+pub(super) struct Canvas {
+    pub width: u32,
+    pub height: u32,
+    pub paper: Colour,
+    pub shapes: Vec<Shape>,
+    pub batches: Vec<Batch>,
+    /// Batches painted before the particles of a snapshot.
+    pub under_particles: usize,
+    pub typesetter: Typesetter,
+}
+
+impl Canvas {
+    /// # Errors
+    /// [`PlotError::Font`] if an embedded font cannot be read.
+    pub(super) fn new(width: u32, height: u32, paper: Colour) -> Result<Self, PlotError> {
+        let typesetter = Typesetter::new()?;
+        let batches = vec![Batch { shapes: 0..0, clip: None }];
+        Ok(Self { width, height, paper, shapes: Vec::new(), batches, under_particles: 0, typesetter })
+    }
+
+    /// What follows is painted only inside this area.
+    pub(super) fn clip(&mut self, clip: Option<Area>) {
+        let next = self.shapes.len() as u32;
+        self.batches.push(Batch { shapes: next..next, clip });
+    }
+
+    /// What follows is painted over the particles.
+    pub(super) fn end_of_background(&mut self) {
+        self.under_particles = self.batches.len();
+        self.clip(None);
+    }
+
+    fn push(&mut self, shape: Shape) {
+        self.shapes.push(shape);
+        let end = self.shapes.len() as u32;
+        if let Some(batch) = self.batches.last_mut() {
+            batch.shapes.end = end;
+        }
+    }
+
+    /// A line with round ends; both ends the same make a disc.
+    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], width: f64, colour: Colour) {
+        let ends = [from[0] as f32, from[1] as f32, to[0] as f32, to[1] as f32];
+        self.push(Shape { ends, texels: [0.0; 4], radius: 0.5 * width as f32, kind: KIND_CAPSULE, colour });
+    }
+
+    /// A filled disc.
+    pub(super) fn disc(&mut self, centre: [f64; 2], radius: f64, colour: Colour) {
+        self.line(centre, centre, 2.0 * radius, colour);
+    }
+
+    /// A filled rectangle.
+    pub(super) fn rectangle(&mut self, area: Area, colour: Colour) {
+        let ends = [area.left as f32, area.top as f32, area.right as f32, area.bottom as f32];
+        self.push(Shape { ends, texels: [0.0; 4], radius: 0.0, kind: KIND_RECTANGLE, colour });
+    }
+
+    /// A filled regular polygon; `angle` is that of its first corner, clockwise from the right.
+    pub(super) fn polygon(&mut self, centre: [f64; 2], radius: f64, sides: u32, angle: f64, colour: Colour) {
+        let ends = [centre[0] as f32, centre[1] as f32, angle as f32, sides as f32];
+        self.push(Shape { ends, texels: [0.0; 4], radius: radius as f32, kind: KIND_POLYGON, colour });
+    }
+
+    /// A horizontal rule whose edges fall on pixel edges.
+    pub(super) fn horizontal_rule(&mut self, from: f64, to: f64, y: f64, width: f64, colour: Colour) {
+        let (top, bottom) = snapped(y, width);
+        self.rectangle(Area { left: from, top, right: to, bottom }, colour);
+    }
+
+    /// A vertical rule whose edges fall on pixel edges.
+    pub(super) fn vertical_rule(&mut self, x: f64, from: f64, to: f64, width: f64, colour: Colour) {
+        let (left, right) = snapped(x, width);
+        self.rectangle(Area { left, top: from, right, bottom: to }, colour);
+    }
+
+    /// A line of text on the baseline through `at`.
+    pub(super) fn text(&mut self, text: &str, at: [f64; 2], anchor: Anchor, style: Type) {
+        let start = at[0] - self.shift(text, anchor, style);
+        self.glyphs(text, [start.round(), at[1].round()], [1.0, 0.0], style);
+    }
+
+    /// A line of text read upwards, on the vertical baseline through `at`.
+    pub(super) fn text_upwards(&mut self, text: &str, at: [f64; 2], anchor: Anchor, style: Type) {
+        let start = at[1] + self.shift(text, anchor, style);
+        self.glyphs(text, [at[0].round(), start.round()], [0.0, -1.0], style);
+    }
+
+    /// A line of text whose capitals are centred on the height of `at`.
+    pub(super) fn text_centred(&mut self, text: &str, at: [f64; 2], anchor: Anchor, style: Type) {
+        self.text(text, [at[0], at[1] + 0.5 * CAPITAL_HEIGHT * style.size], anchor, style);
+    }
+
+    fn shift(&self, text: &str, anchor: Anchor, style: Type) -> f64 {
+        let width = self.typesetter.width(text, style.weight, style.size);
+        match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * width,
+            Anchor::End => width,
+        }
+    }
+
+    fn glyphs(&mut self, text: &str, start: [f64; 2], along: [f64; 2], style: Type) {
+        let down = [-along[1], along[0]];
+        for glyph in self.typesetter.set(text, style.weight, style.size) {
+            let [right, below] = glyph.offset.map(f64::from);
+            let corner = [0, 1].map(|axis| (start[axis] + along[axis] * right + down[axis] * below) as f32);
+            self.push(Shape {
+                ends: [corner[0], corner[1], along[0] as f32, along[1] as f32],
+                texels: [glyph.texel[0], glyph.texel[1], glyph.size[0], glyph.size[1]].map(|texel| texel as f32),
+                radius: 0.0,
+                kind: KIND_GLYPH,
+                colour: style.colour,
+            });
+        }
+    }
+}
+
+/// The pixel edges between which a rule of about this width lies, centred as nearly as possible.
+fn snapped(centre: f64, width: f64) -> (f64, f64) {
+    let width = width.round().max(1.0);
+    let low = (centre - 0.5 * width).round();
+    (low, low + width)
+}

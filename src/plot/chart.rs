@@ -1,0 +1,143 @@
+//! What a chart shows: panels, axes, series. No layout and no colours.
+
+/// A chart: panels stacked above each other under one title.
+///
+/// Neighbouring panels whose x axes are alike (label, scale and range) share them.
+/// In every text `_{…}` sets an index and `^{…}` an exponent.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// One line that says what is shown.
+    pub title: String,
+    /// Conditions, in smaller type; may be empty.
+    pub subtitle: String,
+    /// From top to bottom.
+    pub panels: Vec<Panel>,
+}
+
+/// One coordinate system.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Panel {
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// In the order of the legend; the first is painted on top.
+    pub series: Vec<Series>,
+    /// Horizontal lines to compare with.
+    pub references: Vec<ReferenceLine>,
+}
+
+impl Panel {
+    /// An empty panel with two linear axes.
+    #[must_use]
+    pub fn new(x: &str, y: &str) -> Self {
+        Self { x: Axis::linear(x), y: Axis::linear(y), series: Vec::new(), references: Vec::new() }
+    }
+
+    /// The panel with one more series.
+    #[must_use]
+    pub fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// The panel with one more horizontal line at `value`.
+    #[must_use]
+    pub fn with_reference(mut self, label: &str, value: f64) -> Self {
+        self.references.push(ReferenceLine { label: label.to_owned(), value });
+        self
+    }
+}
+
+/// One axis of a panel.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Axis {
+    /// The quantity with its unit in parentheses.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Values at the two ends; left out, they follow from the data. A range that is empty, not finite, or not positive
+    /// on a logarithmic axis counts as left out.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// A linear axis that fits its data.
+    #[must_use]
+    pub fn linear(label: &str) -> Self {
+        Self { label: label.to_owned(), scale: Scale::Linear, range: None }
+    }
+
+    /// A logarithmic axis that fits its data; what is not positive is left out and the subtitle says so.
+    #[must_use]
+    pub fn log(label: &str) -> Self {
+        Self { label: label.to_owned(), scale: Scale::Log, range: None }
+    }
+}
+
+/// How values are laid along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Scale {
+    /// Equal differences take equal lengths (default).
+    #[default]
+    Linear,
+    /// Equal ratios take equal lengths.
+    Log,
+}
+
+/// Points of one quantity.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// Pairs x, y. A point that is not finite is a gap in the line.
+    pub points: Vec<[f64; 2]>,
+    /// Half length of the error bar (half width of a band) of every point, in units of y.
+    pub errors: Option<Vec<f64>>,
+    /// How the points are drawn.
+    pub style: SeriesStyle,
+}
+
+impl Series {
+    /// Points joined by a line.
+    #[must_use]
+    pub fn line(name: &str, points: Vec<[f64; 2]>) -> Self {
+        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Line }
+    }
+
+    /// Separate markers.
+    #[must_use]
+    pub fn markers(name: &str, points: Vec<[f64; 2]>) -> Self {
+        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Markers }
+    }
+
+    /// The series with an error for every point.
+    #[must_use]
+    pub fn with_errors(mut self, errors: Vec<f64>) -> Self {
+        self.errors = Some(errors);
+        self
+    }
+}
+
+/// How the points of a series are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SeriesStyle {
+    /// Joined by a line (default).
+    #[default]
+    Line,
+    /// A marker each.
+    Markers,
+    /// Markers joined by a line.
+    LineMarkers,
+    /// A line inside a shaded band as wide as the errors.
+    Band,
+}
+
+/// A horizontal line to compare with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReferenceLine {
+    /// Name in the legend.
+    pub label: String,
+    /// Where the line lies, in units of y.
+    pub value: f64,
+}

@@ -1,0 +1,447 @@
+//! Pictures of the particles: what is shown, and its layout around the view of the box.
+
+use super::canvas::{Anchor, Area, Canvas, Type};
+use super::chart::Scale;
+use super::error::PlotError;
+use super::palette::{Colour, Inks, inks, scale_colour};
+use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
+use super::ticks::{AxisMap, grouped, nice_length, short_number, ticks};
+use crate::scene::{Snapshot, SnapshotColor, Theme};
+use bytemuck::{Pod, Zeroable};
+
+/// The particles of one moment and what to write beside them.
+#[derive(Debug, Clone, Copy)]
+pub struct ParticlePicture<'a> {
+    /// Two or three; in two dimensions the third coordinates are ignored.
+    pub dimension: u32,
+    /// Edge lengths of the box, which spans from zero to these.
+    pub lengths: [f64; 3],
+    /// One position per particle, in units of length; what is not finite is left out.
+    pub positions: &'a [[f64; 3]],
+    /// One index into `species_names` per particle.
+    pub species: &'a [u32],
+    /// Names of the species.
+    pub species_names: &'a [String],
+    /// One speed per particle; needed only to colour by speed.
+    pub speeds: Option<&'a [f64]>,
+    /// Radius of the drawn discs in units of length.
+    pub radius: f64,
+    /// One line that says what is shown; may be empty.
+    pub title: &'a str,
+    /// Conditions, in smaller type; may be empty.
+    pub subtitle: &'a str,
+}
+
+/// One particle of `spheres.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct ParticleInstance {
+    /// Relative to the centre of the box.
+    pub position: [f32; 3],
+    pub colour: Colour,
+}
+
+/// Particles and the view of them.
+pub(super) struct SphereScene {
+    pub particles: Vec<ParticleInstance>,
+    pub right: [f64; 3],
+    pub up: [f64; 3],
+    pub toward: [f64; 3],
+    /// Half the depth of everything in view, in units of length.
+    pub half_depth: f64,
+    pub pixels_per_length: f64,
+    /// Where the centre of the box lies, in pixels.
+    pub centre: [f64; 2],
+    /// Part of the picture that particles may cover.
+    pub area: Area,
+    pub radius: f64,
+    pub lighting: f64,
+    pub rim: f64,
+    pub fog: f64,
+    pub paper: Colour,
+    /// Side of the square of samples per pixel.
+    pub samples: u32,
+}
+
+/// Compass bearing and height of the viewer of a three-dimensional box, in degrees.
+const AZIMUTH: f64 = -62.0;
+const ELEVATION: f64 = 20.0;
+
+fn view(dimension: u32) -> [[f64; 3]; 3] {
+    if dimension == 2 {
+        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    }
+    let (sin_a, cos_a) = AZIMUTH.to_radians().sin_cos();
+    let (sin_e, cos_e) = ELEVATION.to_radians().sin_cos();
+    [[-sin_a, cos_a, 0.0], [-sin_e * cos_a, -sin_e * sin_a, cos_e], [cos_e * cos_a, cos_e * sin_a, sin_e]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn check(picture: &ParticlePicture<'_>, style: &Snapshot) -> Result<(), PlotError> {
+    let count = picture.positions.len();
+    let refuse = |message: String| Err(PlotError::Input(message));
+    if picture.dimension != 2 && picture.dimension != 3 {
+        return refuse(format!("{} dimensions; there must be 2 or 3", picture.dimension));
+    }
+    if picture.species.len() != count {
+        return refuse(format!("{count} positions but {} species", picture.species.len()));
+    }
+    if let Some(species) = picture.species.iter().find(|species| **species as usize >= picture.species_names.len()) {
+        return refuse(format!("species {species} has no name"));
+    }
+    match picture.speeds {
+        Some(speeds) if speeds.len() != count => {
+            return refuse(format!("{count} positions but {} speeds", speeds.len()));
+        }
+        None if style.color == SnapshotColor::Speed => {
+            return refuse("colouring by speed needs the speeds".to_owned());
+        }
+        _ => {}
+    }
+    for (axis, length) in picture.lengths.iter().take(picture.dimension as usize).enumerate() {
+        if !(length.is_finite() && *length > 0.0) {
+            return refuse(format!("the box has length {length} along axis {axis}"));
+        }
+    }
+    if !(picture.radius.is_finite() && picture.radius > 0.0) {
+        return refuse(format!("the radius of the discs is {}", picture.radius));
+    }
+    Ok(())
+}
+
+/// Lays out a picture of the particles: shapes below and above them, and the view.
+///
+/// # Errors
+/// [`PlotError::Input`] if the lists differ in length or a length is not positive.
+pub(super) fn lay_out(
+    picture: &ParticlePicture<'_>,
+    style: &Snapshot,
+    theme: Theme,
+) -> Result<(Canvas, SphereScene), PlotError> {
+    check(picture, style)?;
+    let inks = inks(theme);
+    let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
+    let page = Page::new(style);
+    let top = if page.captioned { page.headings(&mut canvas, picture, &inks) } else { page.margin };
+    let bottom = page.height - page.margin;
+    let colouring = Colouring::new(picture, style, &inks);
+    let footer = if page.captioned { page.footer_height(&canvas, picture, &colouring) } else { 0.0 };
+    let frame = Area { left: page.margin, top, right: page.width - page.margin, bottom: bottom - footer };
+
+    let mut lengths = picture.lengths;
+    if picture.dimension == 2 {
+        lengths[2] = 0.0;
+    }
+    let [right, up, toward] = view(picture.dimension);
+    let extent = |axis: [f64; 3]| (0..3).map(|i| axis[i].abs() * lengths[i]).sum::<f64>();
+    // Spheres may stand out of a three-dimensional box; discs of a flat one are cut off at its edge.
+    let overhang = if picture.dimension == 3 { 2.0 * picture.radius.min(0.1 * extent(right)) } else { 0.0 };
+    let rule = page.rule;
+    let pixels_per_length = ((frame.width() - 2.0 * rule) / (extent(right) + overhang))
+        .min((frame.height() - 2.0 * rule) / (extent(up) + overhang))
+        .max(1e-9 / extent(right));
+    let centre = frame.centre();
+    let project = |corner: [f64; 3]| {
+        let relative = [0, 1, 2].map(|axis| (corner[axis] - 0.5) * lengths[axis]);
+        [centre[0] + dot(relative, right) * pixels_per_length, centre[1] - dot(relative, up) * pixels_per_length]
+    };
+    let half = [0.5 * extent(right) * pixels_per_length, 0.5 * extent(up) * pixels_per_length];
+    let outline = Area {
+        left: centre[0] - half[0],
+        top: centre[1] - half[1],
+        right: centre[0] + half[0],
+        bottom: centre[1] + half[1],
+    };
+
+    let edges = box_edges(picture.dimension, toward);
+    for (from, to, _) in edges.iter().filter(|(_, _, front)| !front) {
+        canvas.line(project(*from), project(*to), 0.8 * rule, inks.muted);
+    }
+    canvas.end_of_background();
+    for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
+        canvas.line(project(*from), project(*to), rule, inks.ink);
+    }
+    if page.captioned {
+        page.footer(&mut canvas, picture, &colouring, &inks, outline, pixels_per_length);
+    }
+
+    // A particle smaller than a pixel is drawn as large as one.
+    let radius = picture.radius.max(0.7 / pixels_per_length);
+    let particles = instances(picture, &colouring, lengths, radius);
+    let fragments = particles.len() as f64 * 3.2 * (radius * pixels_per_length).powi(2);
+    let flat = picture.dimension == 2;
+    let scene = SphereScene {
+        right,
+        up,
+        toward,
+        half_depth: 0.5 * extent(toward) + 1.01 * radius,
+        pixels_per_length,
+        centre,
+        area: if flat { outline } else { frame.grown(radius * pixels_per_length) },
+        radius,
+        lighting: if flat { 0.3 } else { 1.0 },
+        rim: if flat { 0.35 } else { 0.12 },
+        fog: if flat { 0.0 } else { 0.4 },
+        paper: inks.paper,
+        // More samples where they cost little.
+        samples: if fragments < 4e6 { 4 } else { 2 },
+        particles,
+    };
+    Ok((canvas, scene))
+}
+
+/// Edges of the unit box and whether they lie on its near side.
+fn box_edges(dimension: u32, toward: [f64; 3]) -> Vec<([f64; 3], [f64; 3], bool)> {
+    let mut edges = Vec::new();
+    for axis in 0..dimension as usize {
+        let others: Vec<usize> = (0..3).filter(|other| *other != axis).collect();
+        for corner in 0..4 {
+            let mut from = [0.0; 3];
+            from[others[0]] = f64::from(corner & 1);
+            from[others[1]] = f64::from(corner >> 1);
+            if dimension == 2 && from[2] > 0.0 {
+                continue;
+            }
+            let mut to = from;
+            to[axis] = 1.0;
+            // An edge is hidden if both faces that meet in it look away from the viewer.
+            let faces_viewer = |other: usize| (from[other] > 0.5) == (toward[other] > 0.0);
+            edges.push((from, to, dimension == 2 || others.iter().any(|other| faces_viewer(*other))));
+        }
+    }
+    edges
+}
+
+fn instances(
+    picture: &ParticlePicture<'_>,
+    colouring: &Colouring<'_>,
+    lengths: [f64; 3],
+    radius: f64,
+) -> Vec<ParticleInstance> {
+    let mut instances = Vec::with_capacity(picture.positions.len());
+    for (index, position) in picture.positions.iter().enumerate() {
+        if position.iter().take(picture.dimension as usize).any(|coordinate| !coordinate.is_finite()) {
+            continue;
+        }
+        let colour = colouring.colour(picture, index);
+        let mut relative = [0, 1, 2].map(|axis| position[axis] - 0.5 * lengths[axis]);
+        if picture.dimension == 3 {
+            instances.push(ParticleInstance { position: relative.map(|x| x as f32), colour });
+            continue;
+        }
+        relative[2] = 0.0;
+        // A disc that crosses an edge comes in again on the other side.
+        let images = [0, 1].map(|axis| {
+            let shift = lengths[axis];
+            let beyond = 0.5 * shift - radius;
+            if relative[axis] > beyond {
+                [0.0, -shift]
+            } else if relative[axis] < -beyond {
+                [0.0, shift]
+            } else {
+                [0.0, 0.0]
+            }
+        });
+        for (i, x) in images[0].iter().enumerate() {
+            for (j, y) in images[1].iter().enumerate() {
+                if (i == 1 && *x == 0.0) || (j == 1 && *y == 0.0) {
+                    continue;
+                }
+                let position = [(relative[0] + x) as f32, (relative[1] + y) as f32, 0.0];
+                instances.push(ParticleInstance { position, colour });
+            }
+        }
+    }
+    instances
+}
+
+/// What the colours mean.
+enum Colouring<'a> {
+    Species { colours: [Colour; 8], counts: Vec<u64> },
+    Speed { speeds: &'a [f64], map: AxisMap },
+}
+
+impl<'a> Colouring<'a> {
+    fn new(picture: &ParticlePicture<'a>, style: &Snapshot, inks: &Inks) -> Self {
+        if let (SnapshotColor::Speed, Some(speeds)) = (style.color, picture.speeds) {
+            let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
+            let high = if fastest > 0.0 { fastest } else { 1.0 };
+            return Self::Speed { speeds, map: AxisMap { scale: Scale::Linear, low: 0.0, high } };
+        }
+        let mut counts = vec![0; picture.species_names.len()];
+        for species in picture.species {
+            counts[*species as usize] += 1;
+        }
+        Self::Species { colours: inks.species, counts }
+    }
+
+    fn colour(&self, picture: &ParticlePicture<'_>, index: usize) -> Colour {
+        match self {
+            Self::Species { colours, .. } => colours[picture.species[index] as usize % colours.len()],
+            Self::Speed { speeds, map } => scale_colour(map.fraction(speeds[index]).unwrap_or(0.0)),
+        }
+    }
+}
+
+/// Sizes of everything around the box, in pixels.
+struct Page {
+    width: f64,
+    height: f64,
+    margin: f64,
+    title: f64,
+    label: f64,
+    rule: f64,
+    gap: f64,
+    /// A thumbnail has no text: nobody could read it.
+    captioned: bool,
+}
+
+impl Page {
+    fn new(style: &Snapshot) -> Self {
+        let (width, height) = (f64::from(style.width), f64::from(style.height));
+        let unit = width.min(height) / 1200.0;
+        Self {
+            width,
+            height,
+            margin: 28.0 * unit,
+            title: (42.0 * unit).max(7.0),
+            label: (32.0 * unit).max(6.0),
+            rule: (3.0 * unit).max(1.0),
+            gap: 14.0 * unit,
+            captioned: width.min(height) >= 200.0,
+        }
+    }
+
+    fn text(&self, colour: Colour) -> Type {
+        Type { size: self.label, weight: Weight::Regular, colour }
+    }
+
+    fn headings(&self, canvas: &mut Canvas, picture: &ParticlePicture<'_>, inks: &Inks) -> f64 {
+        let mut y = self.margin;
+        let width = self.width - 2.0 * self.margin;
+        for (text, size, weight, colour) in [
+            (picture.title, self.title, Weight::SemiBold, inks.ink),
+            (picture.subtitle, self.label, Weight::Regular, inks.muted),
+        ] {
+            for line in canvas.typesetter.wrap(text, weight, size, width, 2) {
+                let baseline = [self.margin, y + CAPITAL_HEIGHT * size];
+                canvas.text(&line, baseline, Anchor::Start, Type { size, weight, colour });
+                y += LINE_HEIGHT * size;
+            }
+        }
+        if y > self.margin { y + 0.5 * self.gap } else { y }
+    }
+
+    fn line(&self) -> f64 {
+        1.35 * self.label
+    }
+
+    /// Species in rows that leave room for the scale bar beside the first.
+    fn legend_rows(&self, canvas: &Canvas, picture: &ParticlePicture<'_>, counts: &[u64]) -> Vec<Vec<(String, f64)>> {
+        let room = 0.66 * (self.width - 2.0 * self.margin);
+        let mut rows: Vec<Vec<(String, f64)>> = Vec::new();
+        let mut used = f64::INFINITY;
+        for (name, count) in picture.species_names.iter().zip(counts) {
+            let text = format!("{name} ({})", grouped(*count));
+            let text = canvas.typesetter.shorten(&text, Weight::Regular, self.label, room - 1.2 * self.label);
+            let width = canvas.typesetter.width(&text, Weight::Regular, self.label) + 2.2 * self.label;
+            if used + width > room {
+                rows.push(Vec::new());
+                used = 0.0;
+            }
+            used += width;
+            if let Some(row) = rows.last_mut() {
+                row.push((text, width));
+            }
+        }
+        // A legend must not crowd out the picture.
+        rows.truncate(6);
+        rows
+    }
+
+    fn footer_height(&self, canvas: &Canvas, picture: &ParticlePicture<'_>, colouring: &Colouring<'_>) -> f64 {
+        let lines = match colouring {
+            Colouring::Species { counts, .. } => self.legend_rows(canvas, picture, counts).len().max(1) as f64,
+            Colouring::Speed { .. } => 1.0,
+        };
+        self.gap + (lines * self.line()).max(2.0 * self.line())
+    }
+
+    fn footer(
+        &self,
+        canvas: &mut Canvas,
+        picture: &ParticlePicture<'_>,
+        colouring: &Colouring<'_>,
+        inks: &Inks,
+        outline: Area,
+        pixels_per_length: f64,
+    ) {
+        let top = self.height - self.margin - self.footer_height(canvas, picture, colouring) + self.gap;
+        let style = self.text(inks.ink);
+        match colouring {
+            Colouring::Species { colours, counts } => {
+                let mut species = 0;
+                for (row, entries) in self.legend_rows(canvas, picture, counts).into_iter().enumerate() {
+                    let y = top + (row as f64 + 0.5) * self.line();
+                    let mut x = self.margin;
+                    for (text, width) in entries {
+                        let radius = 0.36 * self.label;
+                        canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
+                        canvas.text_centred(&text, [x + 1.1 * self.label, y], Anchor::Start, style);
+                        x += width;
+                        species += 1;
+                    }
+                }
+            }
+            Colouring::Speed { map, .. } => self.colour_bar(canvas, map, top, style),
+        }
+        self.scale_bar(canvas, top, outline, pixels_per_length, style);
+    }
+
+    fn colour_bar(&self, canvas: &mut Canvas, map: &AxisMap, top: f64, style: Type) {
+        let y = top + 0.5 * self.line();
+        let name = "speed";
+        let left = self.margin + canvas.typesetter.width(name, style.weight, style.size) + self.gap;
+        let width = 0.42 * (self.width - 2.0 * self.margin);
+        let height = 0.8 * self.label;
+        canvas.text_centred(name, [self.margin, y], Anchor::Start, style);
+        let columns = width.ceil().max(1.0) as u32;
+        for column in 0..columns {
+            let from = left.round() + f64::from(column);
+            let colour = scale_colour((f64::from(column) + 0.5) / f64::from(columns));
+            let (top, bottom) = ((y - 0.5 * height).round(), (y + 0.5 * height).round());
+            canvas.rectangle(Area { left: from, top, right: from + 1.0, bottom }, colour);
+        }
+        let marks = ticks(map, 4);
+        for (value, text) in &marks.major {
+            let x = left + map.fraction(*value).unwrap_or(0.0) * width;
+            let foot = y + 0.5 * height;
+            canvas.vertical_rule(x, foot, foot + 0.4 * self.gap, 0.7 * self.rule, style.colour);
+            let baseline = foot + 0.8 * self.gap + CAPITAL_HEIGHT * self.label;
+            canvas.text(text, [x, baseline], Anchor::Middle, style);
+        }
+        if let Some(multiplier) = &marks.multiplier {
+            canvas.text_centred(multiplier, [left + width + self.gap, y], Anchor::Start, style);
+        }
+    }
+
+    fn scale_bar(&self, canvas: &mut Canvas, top: f64, outline: Area, pixels_per_length: f64, style: Type) {
+        let room = 0.25 * (self.width - 2.0 * self.margin).min(outline.width().max(1.0) * 2.0);
+        let length = nice_length(room / pixels_per_length);
+        let unit = if length == 1.0 { "length unit" } else { "length units" };
+        let text = format!("{} {unit}", short_number(length));
+        let right = self.width - self.margin;
+        let (bar, text_width) = (length * pixels_per_length, canvas.typesetter.width(&text, style.weight, style.size));
+        let middle = right - 0.5 * bar.max(text_width);
+        let y = top + 0.3 * self.line();
+        let (from, to) = (middle - 0.5 * bar, middle + 0.5 * bar);
+        canvas.horizontal_rule(from, to, y, 1.3 * self.rule, style.colour);
+        for x in [from, to] {
+            canvas.vertical_rule(x, y - 0.55 * self.gap, y + 0.55 * self.gap, self.rule, style.colour);
+        }
+        canvas.text(&text, [middle, y + self.gap + CAPITAL_HEIGHT * self.label], Anchor::Middle, style);
+    }
+}

@@ -1,0 +1,296 @@
+//! Axis scales and their ticks: round numbers, readable powers of ten.
+
+use super::chart::Scale;
+
+/// Maps values to fractions of an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AxisMap {
+    pub scale: Scale,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl AxisMap {
+    /// Fraction of the axis, 0 at `low` and 1 at `high`; `None` where the axis has no place for the value.
+    pub(super) fn fraction(&self, value: f64) -> Option<f64> {
+        if !value.is_finite() {
+            return None;
+        }
+        match self.scale {
+            Scale::Linear => Some((value - self.low) / (self.high - self.low)),
+            Scale::Log if value > 0.0 => Some((value / self.low).log10() / (self.high / self.low).log10()),
+            Scale::Log => None,
+        }
+    }
+}
+
+/// Ticks of one axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Ticks {
+    /// Value and label.
+    pub major: Vec<(f64, String)>,
+    pub minor: Vec<f64>,
+    /// What every label is to be multiplied by and added to, such as `×10⁴`.
+    pub multiplier: Option<String>,
+}
+
+/// Ticks of an axis with room for at most `count` labels: as many as fit.
+pub(super) fn ticks(map: &AxisMap, count: usize) -> Ticks {
+    match map.scale {
+        Scale::Linear => linear_ticks(map.low, map.high, count),
+        Scale::Log if map.high / map.low < 4.0 => linear_ticks(map.low, map.high, count),
+        Scale::Log => log_ticks(map.low, map.high, count),
+    }
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `raw`, and the number of minor intervals in it.
+fn nice_step(raw: f64) -> (f64, u32) {
+    let power = 10_f64.powf(raw.log10().floor());
+    let lead = raw / power;
+    if lead <= 1.0 + 1e-9 {
+        (power, 5)
+    } else if lead <= 2.0 + 1e-9 {
+        (2.0 * power, 4)
+    } else if lead <= 5.0 + 1e-9 {
+        (5.0 * power, 5)
+    } else {
+        (10.0 * power, 5)
+    }
+}
+
+fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
+    let tolerance = 1e-6;
+    let first = (low / step - tolerance).ceil();
+    let last = (high / step + tolerance).floor();
+    let count = (last - first + 1.0).clamp(0.0, 1000.0) as usize;
+    (0..count).map(|index| (first + index as f64) * step).collect()
+}
+
+fn linear_ticks(low: f64, high: f64, count: usize) -> Ticks {
+    let span = high - low;
+    let count = count.max(2);
+    let (mut step, mut parts) = nice_step(span / (2 * count) as f64);
+    let mut values = multiples(low, high, step);
+    while values.len() > count {
+        (step, parts) = nice_step(1.5 * step);
+        values = multiples(low, high, step);
+    }
+    let minor = multiples(low, high, step / f64::from(parts));
+    let largest = low.abs().max(high.abs());
+
+    // Far from zero compared with the span: labels show the difference from a round number.
+    let offset = if largest > 2e4 * span {
+        let unit = 10_f64.powf(span.log10().ceil());
+        (0.5 * (low + high) / unit).round() * unit
+    } else {
+        0.0
+    };
+    let reach = (low - offset).abs().max((high - offset).abs());
+    let exponent = reach.log10().floor() as i32;
+    let factor_exponent = if (-3..5).contains(&exponent) { 0 } else { exponent };
+    let decimals = (factor_exponent - (step * 1.000_001).log10().floor() as i32).max(0) as usize;
+    let factor = 10_f64.powi(-factor_exponent.clamp(-300, 300));
+    let label = |value: f64| number((value - offset) * factor, decimals);
+
+    let mut multiplier = String::new();
+    if factor_exponent != 0 {
+        multiplier = format!("×10{}", superscript(factor_exponent));
+    }
+    if offset != 0.0 {
+        let sign = if offset < 0.0 { '−' } else { '+' };
+        let lead = if multiplier.is_empty() { String::new() } else { format!("{multiplier} ") };
+        multiplier = format!("{lead}{sign} {}", significant(offset.abs(), span));
+    }
+    Ticks {
+        major: values.into_iter().map(|value| (value, label(value))).collect(),
+        minor,
+        multiplier: (!multiplier.is_empty()).then_some(multiplier),
+    }
+}
+
+fn log_ticks(low: f64, high: f64, count: usize) -> Ticks {
+    let (first, last) = ((low.log10() - 1e-9).ceil() as i32, (high.log10() + 1e-9).floor() as i32);
+    let decades = (last - first + 1).max(0) as usize;
+    let every = decades.div_ceil(count.max(1)).max(1) as i32;
+    let mut ticks = Ticks::default();
+    for exponent in (first - 1)..=last {
+        let power = 10_f64.powi(exponent);
+        // With few decades in sight the twos and fives carry labels too.
+        for lead in 1..=9 {
+            let value = f64::from(lead) * power;
+            if value < low * (1.0 - 1e-9) || value > high * (1.0 + 1e-9) {
+                continue;
+            }
+            let labelled = match lead {
+                1 => exponent.rem_euclid(every) == 0,
+                2 | 5 => decades <= 2 && count >= 4,
+                _ => false,
+            };
+            if labelled {
+                ticks.major.push((value, power_label(lead, exponent)));
+            } else if every == 1 || lead == 1 {
+                ticks.minor.push(value);
+            }
+        }
+    }
+    ticks
+}
+
+fn power_label(lead: i32, exponent: i32) -> String {
+    if (-3..4).contains(&exponent) {
+        return number(f64::from(lead) * 10_f64.powi(exponent), (-exponent).max(0) as usize);
+    }
+    let power = format!("10{}", superscript(exponent));
+    if lead == 1 { power } else { format!("{lead}×{power}") }
+}
+
+/// A number with so many decimals and a real minus sign; never `−0`.
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().any(|c| c.is_ascii_digit() && c != '0') => format!("−{digits}"),
+        Some(digits) => digits.to_owned(),
+        None => text,
+    }
+}
+
+/// A positive number written to the precision of `span`.
+fn significant(value: f64, span: f64) -> String {
+    let exponent = value.log10().floor() as i32;
+    let last = span.log10().floor() as i32;
+    if (-4..7).contains(&exponent) {
+        return trimmed(&number(value, (-last).max(0) as usize));
+    }
+    let digits = trimmed(&number(value / 10_f64.powi(exponent), (exponent - last).clamp(0, 16) as usize));
+    format!("{digits}×10{}", superscript(exponent))
+}
+
+fn trimmed(text: &str) -> String {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
+}
+
+/// An exponent in raised digits.
+pub(super) fn superscript(exponent: i32) -> String {
+    exponent
+        .to_string()
+        .chars()
+        .map(|character| match character {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+        })
+        .collect()
+}
+
+/// A whole number with thin gaps between groups of three digits.
+pub(super) fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    if digits.len() < 5 {
+        return digits;
+    }
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
+pub(super) fn nice_length(limit: f64) -> f64 {
+    let power = 10_f64.powf(limit.log10().floor());
+    let lead = limit / power;
+    let nice = if lead >= 5.0 {
+        5.0
+    } else if lead >= 2.0 {
+        2.0
+    } else {
+        1.0
+    };
+    nice * power
+}
+
+/// A round number as short as it can be written.
+pub(super) fn short_number(value: f64) -> String {
+    let exponent = value.abs().log10().floor() as i32;
+    if value != 0.0 && !(-4..6).contains(&exponent) {
+        return format!("{}×10{}", trimmed(&number(value / 10_f64.powi(exponent), 6)), superscript(exponent));
+    }
+    trimmed(&number(value, 6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(low: f64, high: f64, count: usize) -> (Vec<String>, Option<String>) {
+        let ticks = linear_ticks(low, high, count);
+        (ticks.major.into_iter().map(|(_, label)| label).collect(), ticks.multiplier)
+    }
+
+    #[test]
+    fn round_numbers() {
+        assert_eq!(labels(0.0, 1.0, 7).0, ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+        assert_eq!(labels(-1.3, 1.2, 5).0, ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        assert_eq!(labels(0.0, 80.0, 5), (["0", "20", "40", "60", "80"].map(String::from).to_vec(), None));
+    }
+
+    #[test]
+    fn large_and_small_numbers_share_a_power_of_ten() {
+        assert_eq!(labels(0.0, 4.0e5, 5).0, ["0", "1", "2", "3", "4"]);
+        assert_eq!(labels(0.0, 4.0e5, 5).1.as_deref(), Some("×10⁵"));
+        assert_eq!(labels(0.0, 2.0e-7, 5).1.as_deref(), Some("×10⁻⁷"));
+        assert_eq!(labels(0.0, 2.0e-7, 5).0, ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+    }
+
+    #[test]
+    fn a_narrow_range_far_from_zero_shows_differences() {
+        let (labels, multiplier) = labels(1_000_000.0, 1_000_000.004, 5);
+        assert_eq!(multiplier.as_deref(), Some("+ 1000000"));
+        assert_eq!(labels, ["0.000", "0.001", "0.002", "0.003", "0.004"]);
+    }
+
+    #[test]
+    fn decades_and_their_parts() {
+        let map = AxisMap { scale: Scale::Log, low: 0.01, high: 1e6 };
+        let ticks = ticks(&map, 9);
+        assert_eq!(ticks.major.first(), Some(&(0.01, "0.01".to_owned())));
+        assert_eq!(ticks.major.last(), Some(&(1e6, "10⁶".to_owned())));
+        assert_eq!(ticks.major.len(), 9);
+        assert_eq!(ticks.minor.len(), 8 * 8);
+    }
+
+    #[test]
+    fn no_number_of_ticks_is_absurd_over_many_ranges() {
+        for exponent in -290..290 {
+            for width in [1e-9, 1e-3, 0.7, 1.0, 300.0] {
+                let low = 1.7 * 10_f64.powi(exponent);
+                let high = low * (1.0 + width);
+                let ticks = linear_ticks(low, high, 5);
+                assert!((2..=5).contains(&ticks.major.len()), "{low} {high} {ticks:?}");
+                assert!(ticks.major.iter().all(|(_, label)| label.len() < 12), "{ticks:?}");
+                let distinct: std::collections::HashSet<_> = ticks.major.iter().map(|(_, label)| label).collect();
+                assert_eq!(distinct.len(), ticks.major.len(), "{low} {high} {ticks:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn groups_of_digits() {
+        assert_eq!(grouped(1234), "1234");
+        assert_eq!(grouped(24_000), "24,000");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+    }
+
+    #[test]
+    fn nice_lengths_never_exceed_the_limit() {
+        assert_eq!(nice_length(4.9), 2.0);
+        assert_eq!(nice_length(5.0), 5.0);
+        assert_eq!(short_number(0.05), "0.05");
+        assert_eq!(short_number(2e7), "2×10⁷");
+    }
+}
