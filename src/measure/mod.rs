@@ -1,6 +1,8 @@
 //! Averages and derived quantities from raw sums.
 
+pub mod correlation;
 mod observables;
+pub mod statistics;
 mod sums;
 
 pub use observables::Observables;

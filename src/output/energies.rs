@@ -1,0 +1,122 @@
+//! The table of energies: a row per sample, for as long as the run lasts.
+
+use super::OutputError;
+use super::records::RecordFile;
+use super::table::{header_line, push_number};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+/// `energies.csv`, open for writing.
+///
+/// The first column is `step`; the others are named by the caller. Numbers have the fewest digits that give the same
+/// `f64` back, so equal values give equal bytes. Rows reach the disk at [`flush`](Self::flush), always whole.
+#[derive(Debug)]
+pub struct EnergiesFile {
+    records: RecordFile,
+    columns: usize,
+    line: Vec<u8>,
+}
+
+impl EnergiesFile {
+    /// Creates the table with its header: `step`, then `columns`.
+    ///
+    /// # Errors
+    /// [`OutputError::ColumnName`] for a name a table cannot hold; [`OutputError::Io`] when the file cannot be written.
+    pub fn create<S: AsRef<str>>(path: &Path, columns: &[S]) -> Result<Self, OutputError> {
+        let header = full_header(path, columns)?;
+        let mut records = RecordFile::create(path)?;
+        records.append(header.as_bytes())?;
+        records.flush()?;
+        Ok(Self { records, columns: columns.len(), line: Vec::new() })
+    }
+
+    /// Continues the table of an earlier run after the last row whose step is at most `step`. Those rows stay as they
+    /// are, byte for byte; later rows, and a last line that was never finished, are cut off.
+    ///
+    /// # Errors
+    /// [`OutputError::Columns`] when the header is another one, [`OutputError::Line`] when a row does not begin with
+    /// a step, [`OutputError::Io`] when the file cannot be read or written.
+    pub fn resume<S: AsRef<str>>(path: &Path, columns: &[S], step: u64) -> Result<Self, OutputError> {
+        let expected = full_header(path, columns)?;
+        let file = File::open(path).map_err(OutputError::io("continue", path))?;
+        let mut lines = BufReader::new(file);
+        let mut line = Vec::new();
+        let mut next = |line: &mut Vec<u8>| {
+            line.clear();
+            lines.read_until(b'\n', line).map_err(OutputError::io("read", path))
+        };
+        let mut kept = next(&mut line)? as u64;
+        if line != expected.as_bytes() {
+            return Err(OutputError::Columns {
+                path: path.to_path_buf(),
+                expected: expected.trim_end().to_owned(),
+                found: String::from_utf8_lossy(&line).trim_end().to_owned(),
+            });
+        }
+        let mut number = 1;
+        loop {
+            let length = next(&mut line)? as u64;
+            number += 1;
+            if line.last() != Some(&b'\n') {
+                break;
+            }
+            let cell = line.split(|byte| *byte == b',' || *byte == b'\n').next();
+            let found = cell.and_then(|cell| std::str::from_utf8(cell).ok()?.parse::<u64>().ok());
+            let found = found.ok_or_else(|| OutputError::Line {
+                path: path.to_path_buf(),
+                line: number,
+                problem: "expected a row that begins with a step".to_owned(),
+            })?;
+            if found > step {
+                break;
+            }
+            kept += length;
+        }
+        let records = RecordFile::resume(path, kept)?;
+        Ok(Self { records, columns: columns.len(), line: Vec::new() })
+    }
+
+    /// Adds a row. NaN leaves its cell empty: the quantity has no value at this step.
+    ///
+    /// # Errors
+    /// [`OutputError::RowLength`] unless there is one value for each column; [`OutputError::Io`] when a full buffer
+    /// cannot be written.
+    pub fn append(&mut self, step: u64, values: &[f64]) -> Result<(), OutputError> {
+        if values.len() != self.columns {
+            return Err(OutputError::RowLength {
+                path: self.records.path().to_path_buf(),
+                expected: self.columns,
+                found: values.len(),
+            });
+        }
+        self.line.clear();
+        self.line.extend_from_slice(step.to_string().as_bytes());
+        for value in values {
+            self.line.push(b',');
+            push_number(&mut self.line, *value);
+        }
+        self.line.push(b'\n');
+        self.records.append(&self.line)
+    }
+
+    /// Hands all rows to the operating system: call it at the end of a batch.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when they cannot be written; the file then ends with the rows of the last flush that worked.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.records.flush()
+    }
+
+    /// Flushes and waits for the disk: call it before a checkpoint that counts on these rows.
+    ///
+    /// # Errors
+    /// As [`flush`](Self::flush).
+    pub fn sync(&mut self) -> Result<(), OutputError> {
+        self.records.sync()
+    }
+}
+
+fn full_header<S: AsRef<str>>(path: &Path, columns: &[S]) -> Result<String, OutputError> {
+    header_line(path, std::iter::once("step").chain(columns.iter().map(AsRef::as_ref)))
+}

@@ -1,0 +1,98 @@
+//! What can go wrong with files.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A failure to write or read a file of a run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The operating system refused.
+    #[error("cannot {attempted} `{}`: {source}", path.display())]
+    Io {
+        /// What was attempted, as in "cannot create …".
+        attempted: &'static str,
+        /// The file or directory.
+        path: PathBuf,
+        /// The reason the system gives.
+        source: io::Error,
+    },
+    /// The directory holds a file of an earlier run.
+    #[error("`{}` is in the way: it belongs to an earlier run; pass --force to replace that run, or choose another directory with --out", path.display())]
+    InTheWay {
+        /// The first such file.
+        path: PathBuf,
+    },
+    /// A column name that a table cannot hold.
+    #[error("`{name}` cannot head a column of `{}`: names are not empty and hold no control characters", path.display())]
+    ColumnName {
+        /// The table.
+        path: PathBuf,
+        /// The name.
+        name: String,
+    },
+    /// A row that does not fit its table.
+    #[error("a row of {found} values does not fit the {expected} columns of `{}`", path.display())]
+    RowLength {
+        /// The table.
+        path: PathBuf,
+        /// Columns of the table.
+        expected: usize,
+        /// Values of the row.
+        found: usize,
+    },
+    /// A line of a text file that cannot be understood.
+    #[error("`{}`, line {line}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The file to continue has other columns than the run.
+    #[error("`{}` cannot be continued: it has the columns `{found}` and this run writes `{expected}`", path.display())]
+    Columns {
+        /// The table.
+        path: PathBuf,
+        /// The header this run writes.
+        expected: String,
+        /// The header in the file.
+        found: String,
+    },
+    /// A state that does not fit the model of the trajectory.
+    #[error("cannot write step {step} to `{}`: {problem}", path.display())]
+    State {
+        /// The trajectory.
+        path: PathBuf,
+        /// The step of the state.
+        step: u64,
+        /// What does not fit.
+        problem: &'static str,
+    },
+    /// A binary trajectory that cannot be continued.
+    #[error("`{}` is no trajectory this program can continue: {problem}", path.display())]
+    Trajectory {
+        /// The trajectory.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A value that JSON cannot hold.
+    #[error("cannot express the content of `{}` as JSON: {source}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: serde_json::Error,
+    },
+}
+
+impl OutputError {
+    /// Adds what was attempted, and on which path, to an error of the operating system.
+    pub(super) fn io(attempted: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io { attempted, path, source }
+    }
+}

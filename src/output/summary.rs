@@ -1,0 +1,111 @@
+//! The summary of a run, `run.json`.
+
+use super::{OutputError, write_atomically};
+use crate::measure::statistics::Estimate;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What a run did, on what, and what came out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of the program.
+    pub mesoscope_version: String,
+    /// The adapter the run computed on.
+    pub adapter: AdapterSummary,
+    /// Number of particles.
+    pub particles: u64,
+    /// Step of the last state.
+    pub steps: u64,
+    /// Wall-clock time of the steps, in seconds.
+    pub wall_seconds: f64,
+    /// Particles times steps over wall-clock time.
+    pub particle_steps_per_second: f64,
+    /// Mean of each column of the table of energies after equilibration, in the order of the table; null where a
+    /// column has no values.
+    pub means: serde_json::Map<String, serde_json::Value>,
+    /// Results of the analyses the scene asks for.
+    pub results: serde_json::Map<String, serde_json::Value>,
+    /// What is conserved to the last bit.
+    pub conserved_exactly: Vec<String>,
+    /// What the scheme does not conserve.
+    pub not_conserved: Vec<String>,
+    /// What the user should know before trusting the numbers.
+    pub warnings: Vec<String>,
+    /// The scene with every default filled in.
+    pub scene: Scene,
+}
+
+/// The adapter a run computed on.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct AdapterSummary {
+    /// Its name.
+    pub name: String,
+    /// Its driver, with the version.
+    pub driver: String,
+    /// The graphics interface it was reached through.
+    pub backend: String,
+}
+
+impl Summary {
+    /// A summary of a run that has not measured anything yet.
+    #[must_use]
+    pub fn new(scene: Scene, adapter: AdapterSummary, particles: u64) -> Self {
+        Self {
+            mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            adapter,
+            particles,
+            steps: 0,
+            wall_seconds: 0.0,
+            particle_steps_per_second: 0.0,
+            means: serde_json::Map::new(),
+            results: serde_json::Map::new(),
+            conserved_exactly: Vec::new(),
+            not_conserved: Vec::new(),
+            warnings: Vec::new(),
+            scene,
+        }
+    }
+
+    /// Sets the duration: `steps` steps of this process, which ended at step `last_step`, in `wall_seconds`.
+    pub fn set_duration(&mut self, last_step: u64, steps: u64, wall_seconds: f64) {
+        self.steps = last_step;
+        self.wall_seconds = wall_seconds;
+        let rate = self.particles as f64 * steps as f64 / wall_seconds;
+        self.particle_steps_per_second = if rate.is_finite() { rate } else { 0.0 };
+    }
+
+    /// Adds the mean of a column; `None` where the column has no values.
+    pub fn add_mean(&mut self, column: &str, estimate: Option<&Estimate>) {
+        // Plain numbers and nothing else: this conversion cannot fail.
+        let value = serde_json::to_value(estimate).unwrap_or_default();
+        self.means.insert(column.to_owned(), value);
+    }
+
+    /// Writes the summary as JSON for people, keys in the order of the fields.
+    ///
+    /// # Errors
+    /// [`OutputError::Json`] or [`OutputError::Io`] when it cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), OutputError> {
+        let mut text = serde_json::to_vec_pretty(self).map_err(|source| json_error(path, source))?;
+        text.push(b'\n');
+        write_atomically(path, |writer| writer.write_all(&text))
+    }
+
+    /// Reads the summary of an earlier run.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when the file cannot be read, [`OutputError::Line`] where it is not a summary.
+    pub fn load(path: &Path) -> Result<Self, OutputError> {
+        let text = std::fs::read(path).map_err(OutputError::io("read", path))?;
+        serde_json::from_slice(&text).map_err(|error| OutputError::Line {
+            path: path.to_path_buf(),
+            line: error.line() as u64,
+            problem: error.to_string(),
+        })
+    }
+}
+
+fn json_error(path: &Path, source: serde_json::Error) -> OutputError {
+    OutputError::Json { path: path.to_path_buf(), source }
+}

@@ -1,0 +1,185 @@
+//! Tables of numbers as comma-separated text.
+
+use super::{OutputError, write_atomically};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+
+/// A table of numbers; an empty cell is NaN.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Table {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// Rows, each with one number per column.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// The numbers in the column of this name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let index = self.columns.iter().position(|column| column == name)?;
+        Some(self.rows.iter().map(|row| row[index]).collect())
+    }
+}
+
+/// Reads a table: a header line, then one line of numbers per row.
+///
+/// # Errors
+/// [`OutputError::Line`] names the first line that is no row of the table; [`OutputError::Io`] when the file cannot
+/// be read.
+pub fn read_table(path: &Path) -> Result<Table, OutputError> {
+    let file = File::open(path).map_err(OutputError::io("read", path))?;
+    let wrong = |line: u64, problem: String| OutputError::Line { path: path.to_path_buf(), line, problem };
+    let mut table = Table::default();
+    for (line, number) in BufReader::new(file).lines().zip(1_u64..) {
+        let line = line.map_err(|source| match source.kind() {
+            std::io::ErrorKind::InvalidData => wrong(number, "expected text in UTF-8".to_owned()),
+            _ => OutputError::Io { attempted: "read", path: path.to_path_buf(), source },
+        })?;
+        if number == 1 {
+            table.columns =
+                split_header(&line).ok_or_else(|| wrong(1, "a quotation mark is never closed".to_owned()))?;
+            continue;
+        }
+        let row: Result<Vec<f64>, _> = line.split(',').map(|cell| number_of(cell).ok_or(cell)).collect();
+        let row = row.map_err(|cell| wrong(number, format!("`{cell}` is not a number")))?;
+        if row.len() != table.columns.len() {
+            let (expected, found) = (table.columns.len(), row.len());
+            return Err(wrong(number, format!("expected {expected} cells, found {found}")));
+        }
+        table.rows.push(row);
+    }
+    if table.columns.is_empty() {
+        return Err(wrong(1, "expected a header with the names of the columns, found nothing".to_owned()));
+    }
+    Ok(table)
+}
+
+/// Writes a whole table, which appears complete or not at all.
+///
+/// # Errors
+/// [`OutputError::ColumnName`] or [`OutputError::RowLength`] for what a table cannot hold, [`OutputError::Io`] when
+/// the file cannot be written.
+pub fn write_table(path: &Path, table: &Table) -> Result<(), OutputError> {
+    let mut text = header_line(path, table.columns.iter().map(String::as_str))?.into_bytes();
+    for row in &table.rows {
+        if row.len() != table.columns.len() {
+            let (expected, found) = (table.columns.len(), row.len());
+            return Err(OutputError::RowLength { path: path.to_path_buf(), expected, found });
+        }
+        for (index, value) in row.iter().enumerate() {
+            if index > 0 {
+                text.push(b',');
+            }
+            push_number(&mut text, *value);
+        }
+        text.push(b'\n');
+    }
+    write_atomically(path, |writer| writer.write_all(&text))
+}
+
+/// The header with its line end; a name with a comma or a quotation mark is quoted as in RFC 4180.
+pub(super) fn header_line<'a>(path: &Path, names: impl Iterator<Item = &'a str>) -> Result<String, OutputError> {
+    let mut header = String::new();
+    for name in names {
+        if name.is_empty() || name.contains(char::is_control) {
+            return Err(OutputError::ColumnName { path: path.to_path_buf(), name: name.escape_debug().to_string() });
+        }
+        if !header.is_empty() {
+            header.push(',');
+        }
+        if name.contains([',', '"']) {
+            header.push('"');
+            header.push_str(&name.replace('"', "\"\""));
+            header.push('"');
+        } else {
+            header.push_str(name);
+        }
+    }
+    header.push('\n');
+    Ok(header)
+}
+
+fn split_header(line: &str) -> Option<Vec<String>> {
+    let mut names = Vec::new();
+    let mut name = String::new();
+    let mut quoted = false;
+    let mut characters = line.trim_end_matches('\r').chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            // Inside quotation marks, two of them stand for one.
+            '"' if quoted && characters.next_if_eq(&'"').is_some() => name.push('"'),
+            '"' => quoted = !quoted,
+            ',' if !quoted => names.push(std::mem::take(&mut name)),
+            _ => name.push(character),
+        }
+    }
+    names.push(name);
+    (!quoted).then_some(names)
+}
+
+fn number_of(cell: &str) -> Option<f64> {
+    let cell = cell.trim();
+    if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }
+}
+
+/// Appends the shortest digits that read back as the same `f64`; nothing for NaN.
+pub(super) fn push_number(text: &mut Vec<u8>, value: f64) {
+    let magnitude = value.abs();
+    let written = if value.is_nan() {
+        Ok(())
+    } else if magnitude == 0.0 || magnitude.is_infinite() || (1e-5..1e16).contains(&magnitude) {
+        write!(text, "{value}")
+    } else {
+        write!(text, "{value:e}")
+    };
+    // Writing to memory does not fail.
+    debug_assert!(written.is_ok());
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_come_back_exactly() {
+        for (value, text) in [
+            (20.0, "20"),
+            (0.1, "0.1"),
+            (-0.0, "-0"),
+            (1e300, "1e300"),
+            (5e-324, "5e-324"),
+            (1.0 / 3.0, "0.3333333333333333"),
+            (f64::NEG_INFINITY, "-inf"),
+            (f64::NAN, ""),
+        ] {
+            let mut bytes = Vec::new();
+            push_number(&mut bytes, value);
+            assert_eq!(std::str::from_utf8(&bytes).unwrap(), text);
+            assert_eq!(number_of(text).unwrap().to_bits(), value.to_bits());
+        }
+        let mut bits = 1_u64;
+        for _ in 0..10_000 {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let value = f64::from_bits(bits);
+            if value.is_nan() {
+                continue;
+            }
+            let mut bytes = Vec::new();
+            push_number(&mut bytes, value);
+            assert_eq!(std::str::from_utf8(&bytes).unwrap().parse::<f64>().unwrap().to_bits(), value.to_bits());
+        }
+    }
+
+    #[test]
+    fn column_names_are_quoted_where_needed() {
+        let names = ["step", "energy of a,b", "the \"wall\"", "η", "\"q"];
+        let header = header_line(Path::new("t"), names.into_iter()).unwrap();
+        assert_eq!(split_header(header.trim_end_matches('\n')).unwrap(), names);
+        assert!(header_line(Path::new("t"), ["a\nb"].into_iter()).is_err());
+        assert!(header_line(Path::new("t"), [""].into_iter()).is_err());
+        assert_eq!(split_header("a,\"b"), None);
+    }
+}

@@ -1,0 +1,305 @@
+//! HOOMD's GSD, schema `hoomd` 1.4: <https://gsd.readthedocs.io/en/stable/schema-hoomd.html>.
+//!
+//! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it. What never
+//! changes (box, types, masses) is written in the first frame, from which readers take it for all others.
+
+use super::Description;
+use crate::output::OutputError;
+use crate::state::State;
+use hoomd_gsd::file_layer::{DecodeError, EncodeError, GsdFile, Mode, OpenError, SyncError, WriteError};
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// Bytes for the name of a type, with at least one zero at the end.
+const NAME: usize = 64;
+
+#[derive(Debug)]
+pub(super) struct GsdTrajectory {
+    path: PathBuf,
+    /// None after a failed write: the file layer would write again when dropped, at positions that no longer hold.
+    file: Option<GsdFile>,
+    empty: bool,
+}
+
+impl GsdTrajectory {
+    pub(super) fn create(path: &Path) -> Result<Self, OutputError> {
+        let file = create_file(path)?;
+        Ok(Self { path: path.to_path_buf(), file: Some(file), empty: true })
+    }
+
+    pub(super) fn resume(path: &Path, step: u64) -> Result<Self, OutputError> {
+        check_index(path)?;
+        let file = GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))?;
+        if file.schema() != "hoomd" {
+            return Err(OutputError::Trajectory {
+                path: path.to_path_buf(),
+                problem: format!("its schema is `{}`, not `hoomd`", file.schema()),
+            });
+        }
+        let mut kept = file.n_frames();
+        while kept > 0 && step_of(path, &file, kept - 1)? > step {
+            kept -= 1;
+        }
+        let file = if kept == file.n_frames() { file } else { copy_frames(path, file, kept)? };
+        Ok(Self { path: path.to_path_buf(), file: Some(file), empty: kept == 0 })
+    }
+
+    pub(super) fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
+        description.check(&self.path, state)?;
+        let first = self.empty;
+        self.attempt(|file| {
+            if first {
+                write_constants(file, description, state)?;
+            }
+            file.write_scalars("configuration/step", [state.step])?;
+            let positions = state.positions.iter().map(|position| centred(description, *position));
+            file.write_arrays("particles/position", positions)?;
+            let velocities =
+                (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
+            file.write_arrays("particles/velocity", velocities)?;
+            file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), state.step, error))
+        })?;
+        self.empty = false;
+        Ok(())
+    }
+
+    pub(super) fn flush(&mut self) -> Result<(), OutputError> {
+        self.attempt(|file| file.sync_all().map_err(|error| WriteError::Sync("frame".to_owned(), 0, error)))
+    }
+
+    fn attempt(&mut self, write: impl FnOnce(&mut GsdFile) -> Result<(), WriteError>) -> Result<(), OutputError> {
+        let Some(mut file) = self.file.take() else {
+            let problem = "an earlier write to it failed".to_owned();
+            return Err(OutputError::Trajectory { path: self.path.clone(), problem });
+        };
+        match write(&mut file) {
+            Ok(()) => {
+                self.file = Some(file);
+                Ok(())
+            }
+            Err(error) => {
+                std::mem::forget(file);
+                Err(write_error(&self.path, error))
+            }
+        }
+    }
+}
+
+fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
+    let application = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
+    GsdFile::create(path, application, "hoomd", (1, 4)).map_err(|error| open_error(path, "create", error))
+}
+
+fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
+    let mut lengths = description.units.lengths.map(|length| length as f32);
+    if description.units.dimension == 2 {
+        lengths[2] = 0.0;
+    }
+    let [x, y, z] = lengths;
+    file.write_scalars("configuration/box", [x, y, z, 0.0, 0.0, 0.0])?;
+    file.write_scalars("configuration/dimensions", [description.units.dimension as u8])?;
+    file.write_scalars("particles/N", [state.len() as u32])?;
+    file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
+    file.write_scalars("particles/typeid", state.species.iter().copied())?;
+    let masses = (0..state.len()).map(|particle| description.species_of(state, particle).mass as f32);
+    file.write_scalars("particles/mass", masses)
+}
+
+/// The position relative to the centre of the box. Where rounding to single precision would reach the upper face, the
+/// lower one is meant: the same place, inside the box.
+fn centred(description: &Description, position: [u32; 3]) -> [f32; 3] {
+    std::array::from_fn(|axis| {
+        if axis >= description.units.dimension {
+            return 0.0;
+        }
+        let length = description.units.lengths[axis];
+        let half = (length as f32) / 2.0;
+        let value = (f64::from((position[axis] ^ 0x8000_0000) as i32) * length / 4_294_967_296.0) as f32;
+        if value >= half { -half } else { value }
+    })
+}
+
+/// The bytes of a name, cut between characters if it is too long.
+fn type_name(name: &str) -> [i8; NAME] {
+    let end = (0..NAME.min(name.len() + 1)).rev().find(|end| name.is_char_boundary(*end)).unwrap_or(0);
+    let bytes = &name.as_bytes()[..end];
+    std::array::from_fn(|index| bytes.get(index).map_or(0, |byte| byte.cast_signed()))
+}
+
+/// The step of a frame; HOOMD takes a frame without one for step 0.
+fn step_of(path: &Path, file: &GsdFile, frame: u64) -> Result<u64, OutputError> {
+    if file.find_chunk(frame, "configuration/step").is_none() {
+        return Ok(0);
+    }
+    let wrong = |problem: String| OutputError::Trajectory { path: path.to_path_buf(), problem };
+    let mut steps = file.iter_scalars::<u64>(frame, "configuration/step").map_err(|error| wrong(error.to_string()))?;
+    steps.next().ok_or_else(|| wrong(format!("frame {frame} has an empty step")))
+}
+
+/// Copies the first frames to a new file and puts it in the place of the old one: the file layer cannot take frames
+/// away.
+fn copy_frames(path: &Path, old: GsdFile, frames: u64) -> Result<GsdFile, OutputError> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(".tmp");
+    let temporary = PathBuf::from(temporary);
+    let copied = copy_into(path, &old, &temporary, frames);
+    // Some systems do not replace a file that is open.
+    drop(old);
+    let replaced = copied.and_then(|()| {
+        std::fs::rename(&temporary, path).map_err(OutputError::io("replace", path))?;
+        GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))
+    });
+    if replaced.is_err() {
+        let _ = std::fs::remove_file(&temporary);
+    }
+    replaced
+}
+
+fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Result<(), OutputError> {
+    let mut new = GsdTrajectory { path: temporary.to_path_buf(), file: Some(create_file(temporary)?), empty: true };
+    for frame in 0..frames {
+        let unreadable = |error: hoomd_gsd::file_layer::ReadError| OutputError::Trajectory {
+            path: path.to_path_buf(),
+            problem: error.to_string(),
+        };
+        macro_rules! copy {
+            (scalars $kind:ty, $name:expr) => {
+                if old.find_chunk(frame, $name).is_some() {
+                    let values = old.iter_scalars::<$kind>(frame, $name).map_err(unreadable)?;
+                    new.attempt(|file| file.write_scalars($name, values))?;
+                }
+            };
+            (arrays $kind:ty, $columns:expr, $name:expr) => {
+                if old.find_chunk(frame, $name).is_some() {
+                    let values = old.iter_arrays::<$kind, $columns>(frame, $name).map_err(unreadable)?;
+                    new.attempt(|file| file.write_arrays($name, values))?;
+                }
+            };
+        }
+        copy!(scalars f32, "configuration/box");
+        copy!(scalars u8, "configuration/dimensions");
+        copy!(scalars u32, "particles/N");
+        copy!(arrays i8, NAME, "particles/types");
+        copy!(scalars u32, "particles/typeid");
+        copy!(scalars f32, "particles/mass");
+        copy!(scalars u64, "configuration/step");
+        copy!(arrays f32, 3, "particles/position");
+        copy!(arrays f32, 3, "particles/velocity");
+        new.attempt(|file| file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), frame, error)))?;
+        // One frame in memory at a time.
+        new.flush()?;
+    }
+    new.flush()
+}
+
+/// Makes sure that the header and the index of a file point inside it: the file layer takes that for granted.
+/// The layout is described in <https://gsd.readthedocs.io/en/stable/file-layer.html>.
+fn check_index(path: &Path) -> Result<(), OutputError> {
+    const ENTRY: u64 = 32;
+    let read = || -> io::Result<Option<&'static str>> {
+        let mut file = File::open(path)?;
+        let length = file.metadata()?.len();
+        if length < 256 {
+            return Ok(Some("it is shorter than a header"));
+        }
+        let mut header = [0_u64; 5];
+        file.read_exact(bytemuck::cast_slice_mut(&mut header))?;
+        let [magic, index, index_entries, names, name_entries] = header;
+        if magic != 0x65df_65df_65df_65df {
+            return Ok(Some("it is not a GSD file"));
+        }
+        let inside = |location: u64, count: u64, size: u64| {
+            count.checked_mul(size).and_then(|bytes| location.checked_add(bytes)).is_some_and(|end| end <= length)
+        };
+        if !inside(index, index_entries, ENTRY) || !inside(names, name_entries, 64) {
+            return Ok(Some("it was cut short"));
+        }
+        file.seek(SeekFrom::Start(names))?;
+        let mut list = Vec::new();
+        file.by_ref().take(name_entries * 64).read_to_end(&mut list)?;
+        let known = list.split(|byte| *byte == 0).take_while(|name| !name.is_empty()).count();
+        file.seek(SeekFrom::Start(index))?;
+        let mut entries = io::BufReader::new(file);
+        for _ in 0..index_entries {
+            let mut entry = [0_u8; 32];
+            entries.read_exact(&mut entry)?;
+            let word = |at: usize| bytemuck::pod_read_unaligned::<u64>(&entry[at..at + 8]);
+            let (frame, rows, location) = (word(0), word(8), word(16));
+            if location == 0 {
+                break;
+            }
+            let columns = bytemuck::pod_read_unaligned::<u32>(&entry[24..28]);
+            let name = bytemuck::pod_read_unaligned::<u16>(&entry[28..30]);
+            let size: u64 = match entry[30] {
+                1 | 5 | 11 => 1,
+                2 | 6 => 2,
+                3 | 7 | 9 => 4,
+                4 | 8 | 10 => 8,
+                _ => return Ok(Some("its index holds an unknown type")),
+            };
+            if !inside(location, rows.saturating_mul(u64::from(columns)), size) {
+                return Ok(Some("it was cut short"));
+            }
+            if frame >= index_entries || usize::from(name) >= known {
+                return Ok(Some("its index is damaged"));
+            }
+        }
+        Ok(None)
+    };
+    match read().map_err(OutputError::io("continue", path))? {
+        None => Ok(()),
+        Some(problem) => Err(OutputError::Trajectory { path: path.to_path_buf(), problem: problem.to_owned() }),
+    }
+}
+
+fn open_error(path: &Path, attempted: &'static str, error: OpenError) -> OutputError {
+    match error {
+        OpenError::IO(_, source) | OpenError::Decode(_, DecodeError::IO(source)) => {
+            OutputError::Io { attempted, path: path.to_path_buf(), source }
+        }
+        OpenError::Decode(_, error) => OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() },
+        error => OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() },
+    }
+}
+
+fn write_error(path: &Path, error: WriteError) -> OutputError {
+    let problem = match error {
+        WriteError::Sync(_, _, SyncError::IO(source)) => {
+            return OutputError::Io { attempted: "write", path: path.to_path_buf(), source };
+        }
+        WriteError::Sync(_, _, error) => error.to_string(),
+        WriteError::Encode(name, frame, error @ EncodeError::DuplicateChunkName(..)) => {
+            format!("frame {frame} has two chunks `{name}`: {error}")
+        }
+        error => error.to_string(),
+    };
+    OutputError::Trajectory { path: path.to_path_buf(), problem }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Units;
+
+    #[test]
+    fn long_names_are_cut_between_characters() {
+        let name = type_name(&"é".repeat(40));
+        assert_eq!((name[61] != 0, name[62], name[63]), (true, 0, 0));
+        assert_eq!(type_name("").iter().filter(|byte| **byte != 0).count(), 0);
+        assert_eq!(type_name(&"x".repeat(63))[62..], [i8::try_from(b'x').unwrap_or(0), 0]);
+    }
+
+    #[test]
+    fn positions_stay_below_the_upper_face() {
+        let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
+        let description = Description { units, time_step: 0.1, species: Vec::new() };
+        assert_eq!(centred(&description, [1 << 31; 3]), [0.0; 3]);
+        for fraction in [0, 1, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
+            for (value, length) in centred(&description, [fraction; 3]).into_iter().zip(units.lengths) {
+                let half = length as f32 / 2.0;
+                assert!(value >= -half && value < half, "{fraction}: {value} with L/2 = {half}");
+            }
+        }
+    }
+}

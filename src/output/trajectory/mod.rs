@@ -1,0 +1,111 @@
+//! Positions and velocities for other tools: OVITO, freud, `MDAnalysis`.
+
+mod extended_xyz;
+mod gsd;
+
+use super::OutputError;
+use crate::model::{Model, Species};
+use crate::scene::TrajectoryFormat;
+use crate::state::{State, Units};
+use std::path::Path;
+
+/// A trajectory, open for writing. Frames reach the disk at [`flush`](Self::flush), always whole.
+#[derive(Debug)]
+pub struct TrajectoryWriter {
+    description: Description,
+    file: Format,
+}
+
+#[derive(Debug)]
+enum Format {
+    Gsd(Box<gsd::GsdTrajectory>),
+    ExtendedXyz(extended_xyz::ExtendedXyz),
+}
+
+/// What a frame needs to know beside the state.
+#[derive(Debug, Clone)]
+struct Description {
+    units: Units,
+    time_step: f64,
+    species: Vec<Species>,
+}
+
+impl Description {
+    fn new(model: &Model) -> Self {
+        Self { units: model.units, time_step: model.time_step, species: model.species.clone() }
+    }
+
+    fn species_of(&self, state: &State, particle: usize) -> &Species {
+        &self.species[state.species[particle] as usize]
+    }
+
+    fn velocity(&self, state: &State, particle: usize) -> [f64; 3] {
+        let mass = self.species_of(state, particle).mass;
+        self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
+    }
+
+    /// Frames index the arrays of a state by particle and the species by the state: both must fit.
+    fn check(&self, path: &Path, state: &State) -> Result<(), OutputError> {
+        let wrong = |problem| OutputError::State { path: path.to_path_buf(), step: state.step, problem };
+        if state.momenta.len() != state.len() || state.species.len() != state.len() {
+            return Err(wrong("the arrays of the state differ in length"));
+        }
+        if state.species.iter().any(|index| *index as usize >= self.species.len()) {
+            return Err(wrong("a particle belongs to a species the model does not have"));
+        }
+        Ok(())
+    }
+}
+
+impl TrajectoryWriter {
+    /// Creates the trajectory; one that exists is emptied.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when the file cannot be created.
+    pub fn create(path: &Path, format: TrajectoryFormat, model: &Model) -> Result<Self, OutputError> {
+        let file = match format {
+            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::create(path)?)),
+            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::create(path)?),
+        };
+        Ok(Self { description: Description::new(model), file })
+    }
+
+    /// Continues the trajectory of an earlier run after its last frame whose step is at most `step`; later frames are
+    /// dropped. Extended XYZ is cut in place. A GSD file with later frames is copied without them and then replaced,
+    /// which takes its size once more on the disk for a moment.
+    ///
+    /// # Errors
+    /// [`OutputError::Trajectory`] or [`OutputError::Line`] when the file is not such a trajectory,
+    /// [`OutputError::Io`] when it cannot be read or written.
+    pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, step: u64) -> Result<Self, OutputError> {
+        let file = match format {
+            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::resume(path, step)?)),
+            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::resume(path, step)?),
+        };
+        Ok(Self { description: Description::new(model), file })
+    }
+
+    /// Adds a frame.
+    ///
+    /// # Errors
+    /// [`OutputError::State`] when the state does not fit the model; [`OutputError::Io`] when a full buffer cannot be
+    /// written.
+    pub fn append(&mut self, state: &State) -> Result<(), OutputError> {
+        match &mut self.file {
+            Format::Gsd(file) => file.append(&self.description, state),
+            Format::ExtendedXyz(file) => file.append(&self.description, state),
+        }
+    }
+
+    /// Hands all frames to the disk: call it at the end of a batch, and before a checkpoint that counts on them.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when they cannot be written; the file then ends with the frames of the last flush that
+    /// worked.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        match &mut self.file {
+            Format::Gsd(file) => file.flush(),
+            Format::ExtendedXyz(file) => file.flush(),
+        }
+    }
+}

@@ -1,0 +1,537 @@
+//! Files of a run: what they hold, what they survive, and how their failures read.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use hoomd_gsd::file_layer::{GsdFile, Mode};
+use mesoscope::measure::statistics;
+use mesoscope::model::Model;
+use mesoscope::output::checkpoint::{self, CheckpointError};
+use mesoscope::output::summary::AdapterSummary;
+use mesoscope::output::{
+    EnergiesFile, OutputError, RunDirectory, Summary, Table, TrajectoryWriter, files, read_table, write_atomically,
+    write_table,
+};
+use mesoscope::scene::{Scene, TrajectoryFormat};
+use mesoscope::state::State;
+use std::fs;
+use std::path::Path;
+
+fn scene(dimension: usize) -> Scene {
+    let lengths = &[4.0, 5.0, 6.1][..dimension];
+    serde_json::from_value(serde_json::json!({
+        "title": "two species",
+        "space": { "box": lengths },
+        "time": { "step": 0.01, "steps": 100 },
+        "temperature": 1.0,
+        "particles": [
+            { "species": "light", "count": 2 },
+            { "species": "heavy one", "count": 1, "mass": 4.0 },
+        ],
+    }))
+    .unwrap()
+}
+
+/// Three particles, at momenta that change with the step.
+fn state(step: u64, dimension: usize) -> State {
+    let flat = |vector: [u32; 3]| if dimension == 2 { [vector[0], vector[1], 0] } else { vector };
+    let flat_signed = |vector: [i32; 3]| if dimension == 2 { [vector[0], vector[1], 0] } else { vector };
+    State {
+        step,
+        positions: vec![flat([0, 1 << 30, 1 << 31]), flat([u32::MAX; 3]), flat([3 << 30, 7, 1 << 29])],
+        momenta: vec![flat_signed([1 << 24, -(1 << 23), step as i32]), [0; 3], flat_signed([i32::MIN, i32::MAX, 1])],
+        species: vec![0, 0, 1],
+        predicted: Vec::new(),
+    }
+}
+
+fn directory_listing(path: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("a/b/run");
+    let run = RunDirectory::create(&path, false).unwrap();
+    assert!(directory_listing(&path).is_empty());
+    fs::write(run.file("notes.txt"), "mine").unwrap();
+    RunDirectory::create(&path, false).unwrap();
+
+    for name in [files::SUMMARY, files::ENERGIES, &files::snapshot(12)] {
+        run.write(name, |writer| writer.write_all(b"old")).unwrap();
+    }
+    let error = RunDirectory::create(&path, false).unwrap_err();
+    assert!(matches!(&error, OutputError::InTheWay { path } if path.ends_with("energies.csv")), "{error}");
+    assert!(error.to_string().contains("--force"));
+    assert_eq!(fs::read(run.file(files::SUMMARY)).unwrap(), b"old");
+
+    RunDirectory::create(&path, true).unwrap();
+    assert_eq!(directory_listing(&path), ["notes.txt"]);
+}
+
+#[test]
+fn snapshots_a_resumed_run_takes_again_are_removed() {
+    let root = tempfile::tempdir().unwrap();
+    let run = RunDirectory::create(root.path(), false).unwrap();
+    for number in 1..=5 {
+        run.write(&files::snapshot(number), |writer| writer.write_all(b"p")).unwrap();
+    }
+    run.remove_snapshots_after(3).unwrap();
+    assert_eq!(directory_listing(root.path()), (1..=3).map(files::snapshot).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_directory_that_cannot_be_is_refused_with_the_reason() {
+    let root = tempfile::tempdir().unwrap();
+    let file = root.path().join("file");
+    fs::write(&file, "").unwrap();
+    for path in [file.clone(), file.join("below")] {
+        let error = RunDirectory::create(&path, true).unwrap_err();
+        assert!(matches!(&error, OutputError::Io { path: found, .. } if *found == path), "{error}");
+        assert!(error.to_string().starts_with("cannot create the directory"), "{error}");
+    }
+    assert!(RunDirectory::open(root.path().join("absent")).is_err());
+    assert!(RunDirectory::open(&file).is_err());
+    assert_eq!(fs::read(&file).unwrap(), b"");
+    #[cfg(target_os = "linux")]
+    {
+        // Nobody, not even root, makes files here.
+        let error = RunDirectory::create("/proc/self", false).unwrap_err();
+        assert!(error.to_string().starts_with("cannot write to the directory `/proc/self`"), "{error}");
+    }
+}
+
+#[test]
+fn a_file_appears_complete_or_not_at_all() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("run.json");
+    write_atomically(&path, |writer| writer.write_all(b"first")).unwrap();
+    let error = write_atomically(&path, |writer| {
+        writer.write_all(b"sec")?;
+        Err(std::io::Error::other("interrupted"))
+    })
+    .unwrap_err();
+    assert!(error.to_string().contains("interrupted"));
+    assert_eq!(fs::read(&path).unwrap(), b"first");
+    assert_eq!(directory_listing(root.path()), ["run.json"]);
+
+    // The final name is a directory: the move fails, and leaves nothing behind.
+    fs::create_dir(root.path().join("taken")).unwrap();
+    assert!(write_atomically(&root.path().join("taken"), |writer| writer.write_all(b"x")).is_err());
+    assert_eq!(directory_listing(root.path()), ["run.json", "taken"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_reported_as_such() {
+    use std::os::unix::fs::symlink;
+    let root = tempfile::tempdir().unwrap();
+    let is_full = |error: &OutputError| matches!(error, OutputError::Io { source, .. } if source.kind() == std::io::ErrorKind::StorageFull);
+
+    symlink("/dev/full", root.path().join("run.json.tmp")).unwrap();
+    let error = write_atomically(&root.path().join("run.json"), |writer| writer.write_all(b"x")).unwrap_err();
+    assert!(is_full(&error), "{error}");
+    assert!(directory_listing(root.path()).is_empty());
+
+    let full = Path::new("/dev/full");
+    let error = EnergiesFile::create(full, &["time"]).unwrap_err();
+    assert!(is_full(&error), "{error}");
+    assert!(error.to_string().starts_with("cannot write `/dev/full`: No space left"), "{error}");
+
+    let model = Model::new(&scene(3));
+    let error = TrajectoryWriter::create(full, TrajectoryFormat::Gsd, &model).unwrap_err();
+    assert!(is_full(&error), "{error}");
+    let mut trajectory = TrajectoryWriter::create(full, TrajectoryFormat::ExtendedXyz, &model).unwrap();
+    trajectory.append(&state(0, 3)).unwrap();
+    assert!(is_full(&trajectory.flush().unwrap_err()));
+}
+
+#[test]
+fn energies_hold_whole_rows_that_read_back_exactly() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::ENERGIES);
+    let mut energies = EnergiesFile::create(&path, &["time", "pressure"]).unwrap();
+    energies.append(0, &[0.0, f64::NAN]).unwrap();
+    energies.append(20, &[0.2, 23.635]).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "step,time,pressure\n");
+    energies.flush().unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "step,time,pressure\n0,0,\n20,0.2,23.635\n");
+    assert!(matches!(energies.append(40, &[1.0]), Err(OutputError::RowLength { expected: 2, found: 1, .. })));
+    drop(energies);
+
+    let table = read_table(&path).unwrap();
+    assert_eq!(table.columns, ["step", "time", "pressure"]);
+    assert_eq!(table.column("time").unwrap(), [0.0, 0.2]);
+    assert!(table.rows[0][2].is_nan());
+    assert_eq!(table.column("absent"), None);
+    assert!(matches!(EnergiesFile::create(&path, &["a\nb"]), Err(OutputError::ColumnName { .. })));
+}
+
+#[test]
+fn resumed_energies_continue_after_the_step_and_keep_earlier_rows() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::ENERGIES);
+    let mut energies = EnergiesFile::create(&path, &["x"]).unwrap();
+    for step in 0..10 {
+        energies.append(10 * step, &[1.0 / (step + 1) as f64]).unwrap();
+    }
+    energies.sync().unwrap();
+    drop(energies);
+    let whole = fs::read(&path).unwrap();
+
+    // As a killed process may leave it: the last row is not finished.
+    fs::write(&path, &whole[..whole.len() - 3]).unwrap();
+    let mut energies = EnergiesFile::resume(&path, &["x"], 1000).unwrap();
+    energies.append(90, &[0.1]).unwrap();
+    drop(energies);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+
+    let mut energies = EnergiesFile::resume(&path, &["x"], 55).unwrap();
+    for step in 6..10 {
+        energies.append(10 * step, &[1.0 / (step + 1) as f64]).unwrap();
+    }
+    drop(energies);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+
+    let error = EnergiesFile::resume(&path, &["y"], 55).unwrap_err();
+    assert!(matches!(&error, OutputError::Columns { found, .. } if found == "step,x"), "{error}");
+    fs::write(&path, "step,x\n0,1\nnonsense\n").unwrap();
+    assert!(matches!(EnergiesFile::resume(&path, &["x"], 55), Err(OutputError::Line { line: 3, .. })));
+    assert_eq!(fs::read(&path).unwrap(), b"step,x\n0,1\nnonsense\n");
+    assert!(matches!(EnergiesFile::resume(&root.path().join("no"), &["x"], 1), Err(OutputError::Io { .. })));
+}
+
+#[test]
+fn tables_say_which_line_is_wrong() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("t.csv");
+    let cases: [(&[u8], u64, &str); 6] = [
+        (b"", 1, "header"),
+        (b"a,b\n1,2\n1,x\n", 3, "`x`"),
+        (b"a,b\n1\n", 2, "expected 2 cells, found 1"),
+        (b"a,b\n1,2,3\n", 2, "found 3"),
+        (b"a,\"b\n1,2\n", 1, "quotation"),
+        (b"a,b\n1,\xff\n", 2, "UTF-8"),
+    ];
+    for (content, number, part) in cases {
+        fs::write(&path, content).unwrap();
+        let error = read_table(&path).unwrap_err();
+        assert!(matches!(error, OutputError::Line { line, .. } if line == number), "{error}");
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    assert!(matches!(read_table(&root.path().join("absent")), Err(OutputError::Io { .. })));
+    fs::write(&path, "a,b\r\n1,2\r\n").unwrap();
+    assert_eq!(read_table(&path).unwrap().rows, [[1.0, 2.0]]);
+
+    let table = Table { columns: vec!["r".into(), "g of A,B".into()], rows: vec![vec![0.05, 0.0], vec![0.15, 1e-9]] };
+    write_table(&path, &table).unwrap();
+    assert_eq!(read_table(&path).unwrap(), table);
+    let uneven = Table { columns: vec!["r".into()], rows: vec![vec![]] };
+    assert!(matches!(write_table(&path, &uneven), Err(OutputError::RowLength { .. })));
+}
+
+#[test]
+fn a_checkpoint_comes_back_to_the_last_bit() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::CHECKPOINT);
+    let mut scene = scene(3);
+    // Numbers that a hasty parser misses by the last bit.
+    scene.time.step = 0.1 + 0.2;
+    scene.temperature = 1.234_567_890_123_456_7e-7;
+    scene.space.lengths = vec![1.0 / 3.0, 2e-308, 9.007_199_254_740_993e15];
+    let sections = vec![("diffusion".to_owned(), vec![1, 2, 3]), ("größe".to_owned(), Vec::new())];
+    let mut state = state(u64::MAX - 1, 3);
+    for predicted in [Vec::new(), vec![[1, -2, 3]; 3]] {
+        state.predicted = predicted;
+        checkpoint::save(&path, &scene, &state, &sections).unwrap();
+        let loaded = checkpoint::load(&path).unwrap();
+        assert_eq!((&loaded.scene, &loaded.state, &loaded.sections), (&scene, &state, &sections));
+        let first = fs::read(&path).unwrap();
+        checkpoint::save(&path, &loaded.scene, &loaded.state, &loaded.sections).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), first);
+    }
+    checkpoint::save(&path, &scene, &State::default(), &[]).unwrap();
+    assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
+    assert_eq!(directory_listing(root.path()), [files::CHECKPOINT]);
+
+    state.momenta.pop();
+    assert!(matches!(checkpoint::save(&path, &scene, &state, &[]), Err(OutputError::Io { .. })));
+    assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::CHECKPOINT);
+    checkpoint::save(&path, &scene(2), &state(7, 2), &[("a".to_owned(), vec![9; 10])]).unwrap();
+    let whole = fs::read(&path).unwrap();
+    let load = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        checkpoint::load(&path)
+    };
+    assert!(load(&whole).is_ok());
+    for length in 0..whole.len() {
+        let error = load(&whole[..length]).unwrap_err();
+        let expected = if length == 0 {
+            matches!(error, CheckpointError::Magic { .. })
+        } else {
+            matches!(error, CheckpointError::Length { .. })
+        };
+        assert!(expected, "{length} bytes: {error}");
+    }
+    for place in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 0x10;
+        let error = load(&bytes).unwrap_err();
+        let expected = match place {
+            0..8 => matches!(error, CheckpointError::Magic { .. }),
+            8..12 => matches!(error, CheckpointError::Version { .. }),
+            12..20 => matches!(error, CheckpointError::Length { .. }),
+            _ => matches!(error, CheckpointError::Checksum { .. }),
+        };
+        assert!(expected, "byte {place}: {error}");
+    }
+    let longer = [&whole[..], b"x"].concat();
+    assert!(matches!(load(&longer), Err(CheckpointError::Length { .. })));
+    fs::remove_file(&path).unwrap();
+    assert!(matches!(checkpoint::load(&path), Err(CheckpointError::Output(_))));
+    assert!(matches!(checkpoint::load(root.path()), Err(CheckpointError::Output(_))));
+}
+
+/// A file whose checksum is right and whose lengths are not.
+#[test]
+fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::CHECKPOINT);
+    checkpoint::save(&path, &scene(2), &state(7, 2), &[("a".to_owned(), vec![9; 10])]).unwrap();
+    let whole = fs::read(&path).unwrap();
+    let payload = &whole[20..whole.len() - 8];
+    let sealed = |payload: &[u8]| {
+        let sum = payload
+            .iter()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
+        [&whole[..12], &(payload.len() as u64).to_le_bytes(), payload, &sum.to_le_bytes()].concat()
+    };
+    assert_eq!(sealed(payload), whole);
+    for place in 0..payload.len() - 7 {
+        for length in [u64::MAX, u64::MAX / 12, 1 << 40, 1 << 62] {
+            let mut altered = payload.to_vec();
+            altered[place..place + 8].copy_from_slice(&length.to_le_bytes());
+            fs::write(&path, sealed(&altered)).unwrap();
+            // Where the eight bytes are a position, a momentum or the step, the file is as good as before.
+            if let Err(error) = checkpoint::load(&path) {
+                assert!(matches!(error, CheckpointError::Malformed { .. }), "{place}: {error}");
+            }
+        }
+    }
+    for place in [0, 8 + u64::from_le_bytes(payload[..8].try_into().unwrap()) as usize + 8] {
+        let mut altered = payload.to_vec();
+        altered[place..place + 8].copy_from_slice(&(u64::MAX / 12).to_le_bytes());
+        fs::write(&path, sealed(&altered)).unwrap();
+        assert!(matches!(checkpoint::load(&path), Err(CheckpointError::Malformed { .. })));
+    }
+}
+
+fn steps_of(path: &Path) -> Vec<u64> {
+    let file = GsdFile::open(path, Mode::Read).unwrap();
+    (0..file.n_frames())
+        .map(|frame| file.iter_scalars::<u64>(frame, "configuration/step").unwrap().next().unwrap())
+        .collect()
+}
+
+#[test]
+fn gsd_holds_what_hoomd_expects() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::TRAJECTORY_GSD);
+    let model = Model::new(&scene(3));
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    for step in [0, 10] {
+        trajectory.append(&state(step, 3)).unwrap();
+    }
+    trajectory.flush().unwrap();
+    drop(trajectory);
+
+    let file = GsdFile::open(&path, Mode::Read).unwrap();
+    assert_eq!((file.schema(), file.schema_version(), file.n_frames()), ("hoomd", (1, 4), 2));
+    let numbers: Vec<f32> = file.iter_scalars(0, "configuration/box").unwrap().collect();
+    assert_eq!(numbers, [4.0, 5.0, 6.1, 0.0, 0.0, 0.0]);
+    let numbers: Vec<f32> = file.iter_scalars(0, "particles/mass").unwrap().collect();
+    assert_eq!(numbers, [1.0, 1.0, 4.0]);
+    assert_eq!(file.iter_scalars::<u32>(0, "particles/typeid").unwrap().collect::<Vec<_>>(), [0, 0, 1]);
+    assert_eq!(file.iter_scalars::<u32>(0, "particles/N").unwrap().collect::<Vec<_>>(), [3]);
+    let names: Vec<[i8; 64]> = file.iter_arrays(0, "particles/types").unwrap().collect();
+    let names: Vec<String> = names
+        .iter()
+        .map(|name| name.iter().map(|byte| char::from(byte.cast_unsigned())).take_while(|c| *c != '\0').collect())
+        .collect();
+    assert_eq!(names, ["light", "heavy one"]);
+    let positions: Vec<[f32; 3]> = file.iter_arrays(1, "particles/position").unwrap().collect();
+    assert_eq!(positions[0], [-2.0, -1.25, 0.0]);
+    assert_eq!(positions[1], [-2.0, -2.5, -3.05]);
+    let velocities: Vec<[f32; 3]> = file.iter_arrays(1, "particles/velocity").unwrap().collect();
+    let unit = model.units.momentum;
+    assert_eq!(velocities[0], [(unit * 16_777_216.0) as f32, (-unit * 8_388_608.0) as f32, (unit * 10.0) as f32]);
+    assert_eq!(velocities[2][0], (unit * f64::from(i32::MIN) / 4.0) as f32);
+
+    let flat = root.path().join("flat.gsd");
+    let model = Model::new(&scene(2));
+    let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model).unwrap();
+    trajectory.append(&state(0, 2)).unwrap();
+    drop(trajectory);
+    let file = GsdFile::open(&flat, Mode::Read).unwrap();
+    assert_eq!(file.iter_scalars::<u8>(0, "configuration/dimensions").unwrap().collect::<Vec<_>>(), [2]);
+    assert_eq!(file.iter_scalars::<f32>(0, "configuration/box").unwrap().collect::<Vec<_>>()[2], 0.0);
+    assert!(file.iter_arrays::<f32, 3>(0, "particles/position").unwrap().all(|position| position[2] == 0.0));
+}
+
+#[test]
+fn trajectories_resume_at_the_step() {
+    let root = tempfile::tempdir().unwrap();
+    let model = Model::new(&scene(3));
+    for (format, name) in
+        [(TrajectoryFormat::Gsd, files::TRAJECTORY_GSD), (TrajectoryFormat::ExtendedXyz, files::TRAJECTORY_XYZ)]
+    {
+        let straight = root.path().join("straight").with_extension(name);
+        let path = root.path().join(name);
+        for path in [&straight, &path] {
+            let mut trajectory = TrajectoryWriter::create(path, format, &model).unwrap();
+            for step in 0..50 {
+                trajectory.append(&state(10 * step, 3)).unwrap();
+            }
+            trajectory.flush().unwrap();
+        }
+        // Nothing to drop, some frames to drop, all frames to drop.
+        for last in [1000, 235, 0] {
+            let mut trajectory = TrajectoryWriter::resume(&path, format, &model, last).unwrap();
+            for step in (0..50).map(|step| 10 * step).filter(|step| *step > last) {
+                trajectory.append(&state(step, 3)).unwrap();
+            }
+            trajectory.flush().unwrap();
+            drop(trajectory);
+            if format == TrajectoryFormat::ExtendedXyz {
+                assert_eq!(fs::read(&path).unwrap(), fs::read(&straight).unwrap());
+            } else {
+                assert_eq!(steps_of(&path), (0..50).map(|step| 10 * step).collect::<Vec<_>>());
+                let file = GsdFile::open(&path, Mode::Read).unwrap();
+                let expected = GsdFile::open(&straight, Mode::Read).unwrap();
+                for frame in 0..50 {
+                    for chunk in ["particles/position", "particles/velocity"] {
+                        let found: Vec<[f32; 3]> = file.iter_arrays(frame, chunk).unwrap().collect();
+                        assert_eq!(found, expected.iter_arrays(frame, chunk).unwrap().collect::<Vec<[f32; 3]>>());
+                    }
+                }
+                assert!(file.find_chunk(0, "particles/mass").is_some());
+            }
+        }
+        assert!(!directory_listing(root.path()).iter().any(|name| name.contains(".tmp")));
+    }
+}
+
+#[test]
+fn damaged_trajectories_are_refused_and_left_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let model = Model::new(&scene(3));
+    let path = root.path().join(files::TRAJECTORY_GSD);
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    for step in 0..3 {
+        trajectory.append(&state(step, 3)).unwrap();
+    }
+    drop(trajectory);
+    let whole = fs::read(&path).unwrap();
+    for length in (0..whole.len()).step_by(7) {
+        fs::write(&path, &whole[..length]).unwrap();
+        let error = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 1).unwrap_err();
+        assert!(matches!(error, OutputError::Trajectory { .. }), "{length}: {error}");
+        assert_eq!(fs::read(&path).unwrap(), whole[..length]);
+    }
+    // Index entries that point elsewhere must be refused or harmless, never a panic.
+    for place in (0..256 + 32 * 20).chain(4352..4500) {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 0xff;
+        fs::write(&path, &bytes).unwrap();
+        let _ = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 1);
+    }
+
+    let path = root.path().join(files::TRAJECTORY_XYZ);
+    fs::write(&path, "three\n").unwrap();
+    let resume = || TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, 1);
+    assert!(matches!(resume(), Err(OutputError::Line { line: 1, .. })));
+    fs::write(&path, "1\nno step\nA 0 0 0 0 0 0\n").unwrap();
+    assert!(matches!(resume(), Err(OutputError::Line { line: 2, .. })));
+}
+
+#[test]
+fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::TRAJECTORY_XYZ);
+    let model = Model::new(&scene(2));
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model).unwrap();
+    trajectory.append(&state(0, 2)).unwrap();
+    trajectory.append(&state(5, 2)).unwrap();
+    let mut wrong = state(6, 2);
+    wrong.species[0] = 2;
+    assert!(matches!(trajectory.append(&wrong), Err(OutputError::State { step: 6, .. })));
+    trajectory.flush().unwrap();
+    drop(trajectory);
+    let text = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 10);
+    assert_eq!(lines[0], "3");
+    assert_eq!(
+        lines[6],
+        "Lattice=\"4 0 0 0 5 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3 pbc=\"T T F\" Step=5 Time=0.05"
+    );
+    assert!(lines[2].starts_with("light 0 1.25 0 "), "{}", lines[2]);
+    assert!(lines[4].starts_with("heavy_one 3 "), "{}", lines[4]);
+
+    fs::write(&path, &text[..text.len() - 2]).unwrap();
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, 5).unwrap());
+    assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 5);
+}
+
+#[test]
+fn a_trajectory_of_nothing_is_fine() {
+    let root = tempfile::tempdir().unwrap();
+    let mut empty = scene(3);
+    empty.particles.clear();
+    let model = Model::new(&empty);
+    for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
+        let path = root.path().join("t");
+        let mut trajectory = TrajectoryWriter::create(&path, format, &model).unwrap();
+        trajectory.append(&State::default()).unwrap();
+        trajectory.flush().unwrap();
+        drop(trajectory);
+        TrajectoryWriter::resume(&path, format, &model, 0).unwrap().flush().unwrap();
+    }
+}
+
+#[test]
+fn the_summary_keeps_its_order_and_reads_back() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::SUMMARY);
+    let adapter = AdapterSummary { name: "llvmpipe".into(), driver: "Mesa 22.3".into(), backend: "Vulkan".into() };
+    let mut summary = Summary::new(scene(3), adapter, 3);
+    summary.set_duration(200, 100, 0.5);
+    summary.add_mean("temperature", statistics::estimate(&[1.0, 1.2, 0.9]).as_ref());
+    summary.add_mean("bath_energy", None);
+    summary.results.insert("diffusion".into(), serde_json::json!({"value": 0.29}));
+    summary.warnings.push("short".into());
+    summary.save(&path).unwrap();
+    assert_eq!(Summary::load(&path).unwrap(), summary);
+    assert_eq!((summary.steps, summary.particle_steps_per_second), (200, 600.0));
+
+    let text = fs::read_to_string(&path).unwrap();
+    let keys = ["mesoscope_version", "adapter", "particle_steps_per_second", "temperature", "bath_energy", "scene"];
+    let places: Vec<usize> = keys.iter().map(|key| text.find(&format!("\"{key}\"")).unwrap()).collect();
+    assert!(places.is_sorted(), "{text}");
+    assert!(text.contains("\"bath_energy\": null") && text.contains("\"samples\": 3"));
+
+    // A run too short for the clock still makes valid JSON.
+    summary.set_duration(0, 0, 0.0);
+    summary.save(&path).unwrap();
+    assert_eq!(Summary::load(&path).unwrap().particle_steps_per_second, 0.0);
+    fs::write(&path, "{\n  \"steps\": oops").unwrap();
+    assert!(matches!(Summary::load(&path), Err(OutputError::Line { line: 2, .. })));
+}
