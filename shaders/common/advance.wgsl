@@ -17,10 +17,10 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
 }
 
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
-    check_particle(momentum, me.momentum.w, strain);
-    let word = momentum_word(momentum, me.momentum.w);
+    check_particle(momentum, species_of(me), strain);
+    let word = momentum_word(momentum, species_of(me));
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
-    let slot = cells[row_offset_index(row)] + index - row_begin(row);
+    let slot = unframed_index(row, index);
     particles[slot] = advanced_particle(position_word(fraction, me.position.w), word, kick);
     ranks[slot] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
 }

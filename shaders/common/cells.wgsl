@@ -10,3 +10,4 @@ fn row_end(row: u32) -> u32 { return cells[cell_index(row, CELLS_X - 1u) + 1u]; 
 
 // Number of particles in all rows before this one: where the row begins in an array without frames.
 fn row_offset_index(row: u32) -> u32 { return rows() * row_width() + 1u + row; }
+fn unframed_index(row: u32, index: u32) -> u32 { return cells[row_offset_index(row)] + index - row_begin(row); }

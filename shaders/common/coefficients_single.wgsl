@@ -14,6 +14,10 @@ fn inverse_mass_of(species: i32) -> f32 { return INVERSE_MASS; }
 fn drift_of(species: i32) -> f32 { return DRIFT; }
 fn kinetic_of(species: i32) -> f32 { return KINETIC; }
 
+// Rate of a pair among others; rates are per mass.
+fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
+    return 2.0 * own + (mine + theirs) * (0.5 / f32(DIMENSION));
+}
 // The difference of two momenta, exact in integers: odd under exchange to the last bit.
 fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
     return Vector(mine - theirs);

@@ -1,7 +1,6 @@
 // What is summed over all particles at a report, each in integers of a unit that the plan states.
 override PAIR_ENERGY: f32;  // potential energy of one end of a pair per impulse, over its quantum
 override PAIR_VIRIAL: f32;  // virial of one end of a pair per impulse and length, over its quantum
-override CLOSING_VIRIAL: f32; // the same for the impulse that closes the step, where it differs in weight
 override GRADIENT: f32;     // square of the force per square of an impulse, over its quantum
 override LAPLACIAN: f32;    // second derivative per impulse and inverse length, over its quantum
 
@@ -31,19 +30,23 @@ fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, co
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(magnitude * contact.distance * weight));
 }
 
-// Adds a particle with its momentum at the report, and leaves it where its id says for whoever wants the particles.
-fn observe_particle(me: Particle, momentum: Steps, sums: PairSums) {
+fn observe_motion(species: i32, momentum: Steps, virial: Sum64) {
     let p = Vector(momentum);
+    total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
+    total_add(1u, virial);
+    let word = momentum_word(momentum, species);
+    total_add(2u, sum64_of_i32(word.x));
+    total_add(3u, sum64_of_i32(word.y));
+    if (DIMENSION == 3u) { total_add(4u, sum64_of_i32(word.z)); }
+}
+fn observe_configuration(sums: PairSums) {
     let f = Vector(sums.force);
-    total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(me.momentum.w)));
-    total_add(1u, sums.energy);
-    total_add(2u, sums.conservative_virial);
-    total_add(3u, sums.virial);
-    total_add(4u, sum64_of_f32(dot(f, f) * GRADIENT));
-    total_add(5u, sums.laplacian);
-    let word = momentum_word(momentum, me.momentum.w);
-    total_add(6u, sum64_of_i32(word.x));
-    total_add(7u, sum64_of_i32(word.y));
-    if (DIMENSION == 3u) { total_add(8u, sum64_of_i32(word.z)); }
-    particles[me.position.w] = advanced_particle(me.position, word, Steps(0));
+    total_add(5u, sums.energy);
+    total_add(6u, sums.conservative_virial);
+    total_add(7u, sum64_of_f32(dot(f, f) * GRADIENT));
+    total_add(8u, sums.laplacian);
+}
+// The first five quantities are of the motion, the others of the configuration.
+fn reduce_quantities(group: u32, lane: u32, first: u32, end: u32) {
+    for (var quantity = first; quantity < end; quantity++) { reduce_quantity(group, lane, quantity, totals[quantity]); }
 }

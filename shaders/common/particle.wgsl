@@ -5,6 +5,8 @@ struct Particle {
     momentum: vec4<i32>,
 }
 
+// The rest of the word carries, within a step, what a pass leaves for the next.
+fn species_of(particle: Particle) -> i32 { return particle.momentum.w & 255; }
 fn friction_momentum(particle: Particle) -> Steps { return steps_of(particle.momentum); }
 fn advanced_particle(position: vec4<u32>, momentum: vec4<i32>, kick: Steps) -> Particle {
     return Particle(position, momentum);

@@ -28,6 +28,7 @@ fn visit(row: u32, index: u32) {
     var sums = pass_begin(me);
     var masks: array<u32, WORDS>;
     var bases: array<u32, WORDS>;
+    var word_number = 0u;
     var neighbour = 0u;
     var base = 0u;
     var end = 0u;
@@ -49,6 +50,8 @@ fn visit(row: u32, index: u32) {
             }
             let own = index - base;
             mask &= ~select(0u, 1u << (own & 31u), own < 32u);
+            keep_mask(row, index, word_number, mask);
+            word_number += 1u;
             masks[filled] = mask;
             bases[filled] = base;
             filled += select(0u, 1u, mask != 0u);

@@ -9,7 +9,7 @@ fn pass_begin(me: Particle) -> Sums {
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let other = sorted[other_index];
     let contact = contact_of(separation(me.position, other.position));
-    let c = coefficients_of(me.momentum.w, other.momentum.w);
+    let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
     let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
         + random_impulse(c, root, me, other);

@@ -11,7 +11,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let other = sorted[other_index];
     let contact = contact_of(separation(me.position, other.position));
     if (!contact.inside) { return; }
-    let c = coefficients_of(me.momentum.w, other.momentum.w);
+    let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
     let repulsion = repulsion_impulse(c, 1.0);
     let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
@@ -23,10 +23,10 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    observe_particle(me, steps_of(me.momentum) + control.closing * sums.kick, sums.pairs);
+    let momentum = steps_of(me.momentum) + control.closing * sums.kick;
+    observe_motion(species_of(me), momentum, sums.pairs.virial);
+    observe_configuration(sums.pairs);
+    // By id, for whoever wants the particles of the report.
+    particles[me.position.w] = advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0));
 }
-fn pass_finish(group: u32, lane: u32) {
-    for (var quantity = 0u; quantity < QUANTITIES; quantity++) {
-        reduce_quantity(group, lane, quantity, totals[quantity]);
-    }
-}
+fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, QUANTITIES); }

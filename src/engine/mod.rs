@@ -187,7 +187,9 @@ impl<'a> Engine<'a> {
                 let mut done = 0;
                 while done < now && self.room_for_samples() {
                     self.record_sample(&mut pass);
-                    for &kernel in &self.plan.advance {
+                    let reported = self.phase == Phase::Sorted { reported: true };
+                    let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
+                    for &kernel in kernels {
                         self.stages[kernel].dispatch(&mut pass);
                     }
                     self.phase = Phase::Advanced;

@@ -17,11 +17,11 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         volume: model.units.volume(),
         mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
         kinetic_energy: sum(0) * quanta.energy,
-        potential_energy: sum(1) * quanta.energy,
-        conservative_virial: sum(2) * quanta.energy,
-        total_virial: sum(3) * quanta.energy,
-        gradient_squared: sum(4) * quanta.force_squared,
-        laplacian: sum(5) * quanta.curvature,
-        momentum: [6, 7, 8].map(|index| sum(index) * model.units.momentum),
+        total_virial: sum(1) * quanta.energy,
+        momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),
+        potential_energy: sum(5) * quanta.energy,
+        conservative_virial: sum(6) * quanta.energy,
+        gradient_squared: sum(7) * quanta.force_squared,
+        laplacian: sum(8) * quanta.curvature,
     }
 }

@@ -73,6 +73,13 @@ impl Model {
         }
     }
 
+    /// Whether steps are split, friction apart from the conservative force. Without friction there is nothing to split.
+    #[must_use]
+    pub fn splits(&self) -> bool {
+        self.integrator == Integrator::Splitting {}
+            && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn particle_count(&self) -> u64 {

@@ -141,10 +141,12 @@ pub struct Plan {
     pub sort: Vec<usize>,
     /// Kernels between the ordering and the report.
     pub before_report: Vec<usize>,
-    /// The kernel that reports: sums of observables, and particles in order of id.
+    /// Kernels that report: sums of observables, and particles in order of id.
     pub report: Vec<usize>,
-    /// Kernels that finish a step.
+    /// Kernels that finish a step without a report.
     pub advance: Vec<usize>,
+    /// Kernels that finish a step after a report.
+    pub finish_report: Vec<usize>,
     /// The samplers; the first is that of the observables.
     pub samplers: Vec<Sampler>,
     /// Arithmetic operations a particle and step, an estimate from the density.

@@ -6,11 +6,14 @@ use crate::noise;
 use crate::scene::{Diffusion, Distribution, Generator, Integrator, Output, RadialDistribution, Viscosity};
 use crate::state::Units;
 
-/// Sums of a report, in order: kinetic energy, potential energy, conservative virial, virial, squared force, curvature,
-/// three components of momentum.
+/// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
+/// virial of the conservative force, squared force, curvature.
 const OBSERVABLES: usize = 9;
 /// Rows of samples kept on the device between two readbacks.
 const SAMPLE_ROWS: u64 = 1024;
+/// Words of 32 candidates kept for each particle between the two passes of a splitting step: room for all but the most
+/// crowded neighbourhoods of a fluid of density 3 to 4; a candidate that is not kept is looked at again.
+const KEPT_WORDS: u32 = 5;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
@@ -54,6 +57,7 @@ fn empty_plan(model: &Model, grid: Grid) -> Plan {
         before_report: Vec::new(),
         report: Vec::new(),
         advance: Vec::new(),
+        finish_report: Vec::new(),
         samplers: Vec::new(),
         operations_per_particle: 0.0,
     }
@@ -84,6 +88,17 @@ struct ParticleSampler {
     samples: &'static str,
     quantities: usize,
     every: u64,
+}
+
+/// What a traversal does with the hits of the prefilter.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Masks {
+    /// Finds and forgets them.
+    Unkept,
+    /// Finds and keeps them.
+    Keep,
+    /// Visits those that were kept.
+    Kept,
 }
 
 struct Builder<'a> {
@@ -142,7 +157,7 @@ impl Builder<'_> {
             ("DISPLACEMENT_LIMIT", cutoff),
             ("PAIR_ENERGY", to_force * cutoff / (4.0 * energy)),
             ("PAIR_VIRIAL", to_force / (2.0 * energy)),
-            ("CLOSING_VIRIAL", to_force / (4.0 * energy)),
+            ("KEPT_WORDS", f64::from(KEPT_WORDS)),
             ("GRADIENT", to_force * to_force / force_squared),
             ("LAPLACIAN", to_force / curvature),
         ]);
@@ -195,50 +210,69 @@ impl Builder<'_> {
         })
     }
 
-    /// Counting sort by cell.
     fn ordering(&mut self) {
         let bin = self.simple("bin", &["kernels/bin"], self.particles.div_ceil(64));
         self.plan.prepare.push(bin);
+        self.plan.sort = self.sorting("common/begin_step");
+    }
+
+    /// Counting sort by cell; `clock` begins the step, or does not.
+    fn sorting(&mut self, clock: &'static str) -> Vec<usize> {
+        let mut kernels = Vec::new();
+        let clock: &[&str] = if clock == "common/begin_step" {
+            &["common/begin_step", "common/threefry"]
+        } else {
+            &["common/same_step"]
+        };
         let rows = self.grid.rows();
-        let shared = ["common/row_scan", "common/workgroup_scan", "common/begin_step", "common/threefry"];
+        let shared = [&["common/row_scan", "common/workgroup_scan"], clock].concat();
         if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
             let scan = self.simple("scan", &[&shared[..], &["kernels/scan"]].concat(), 1);
-            self.plan.sort.push(scan);
+            kernels.push(scan);
         } else {
             let blocks = self.simple(
                 "scan_blocks",
                 &["common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"],
                 rows.div_ceil(256),
             );
-            let tops = self.simple(
-                "scan_tops",
-                &["common/workgroup_scan", "common/begin_step", "common/threefry", "kernels/scan_tops"],
-                1,
-            );
+            let tops =
+                self.simple("scan_tops", &[&["common/workgroup_scan"], clock, &["kernels/scan_tops"]].concat(), 1);
             let last = self.simple("scan_rows", &["common/row_scan", "kernels/scan_rows"], rows.div_ceil(64));
-            self.plan.sort.extend([blocks, tops, last]);
+            kernels.extend([blocks, tops, last]);
         }
         let scatter = self.simple(
             "scatter",
             &["common/sorted", "kernels/scatter"],
             self.particles.max(self.grid.count()).div_ceil(64),
         );
-        self.plan.sort.push(scatter);
+        kernels.push(scatter);
+        kernels
+    }
+
+    /// Whether steps are split: friction needs a second pass over the pairs.
+    fn splits(&self) -> bool {
+        self.model.splits()
     }
 
     /// Modules of the pair force.
     fn force_modules(&self) -> Vec<&'static str> {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        let mut modules = vec!["common/sorted", "common/contact", "common/drift"];
-        modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
+        let mut modules = vec!["common/sorted", "common/contact"];
+        modules.extend(if self.single() {
+            ["common/coefficients_single", "common/other_species_single"]
+        } else {
+            ["common/coefficients_table", "common/other_species_table"]
+        });
         modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         modules.push(match self.model.integrator {
             _ if !frictional => "common/friction_off",
+            Integrator::Splitting {} => "common/relaxation",
             Integrator::CotterReich {} => "common/friction_discrete_gradient",
-            _ => "common/friction_velocity",
+            Integrator::GrootWarren { .. } => "common/friction_velocity",
         });
+        modules.push(if self.splits() { "common/drift_halves" } else { "common/drift" });
         if frictional && self.model.temperature > 0.0 {
             modules.push("common/random_on");
             modules.push(match self.model.distribution {
@@ -256,24 +290,38 @@ impl Builder<'_> {
     }
 
     /// A kernel that visits all pairs.
-    fn traversal(&mut self, name: &'static str, traversal: Traversal, pass: &[&'static str]) -> usize {
+    fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &[&'static str]) -> usize {
         let mut modules = space(&self.model.units, self.plan.predicted);
         modules.extend(self.force_modules());
         modules.extend(pass);
-        let lanes = match traversal {
-            Traversal::Rows => {
-                modules.push("kernels/rows");
-                64
-            }
-            Traversal::Alone => {
+        modules.extend(match masks {
+            Masks::Unkept => &["common/keep_off"][..],
+            Masks::Keep => &["common/found", "common/keep_on"],
+            Masks::Kept => &["common/found", "common/kept_masks"],
+        });
+        let lanes = match (traversal, masks) {
+            (Traversal::Alone, _) => {
                 modules.push("kernels/alone");
                 64
             }
-            Traversal::Clusters => {
+            (Traversal::Rows, Masks::Kept) => {
+                modules.push("kernels/rows_kept");
+                64
+            }
+            (Traversal::Rows, _) => {
+                modules.push("kernels/rows");
+                64
+            }
+            (Traversal::Clusters, Masks::Kept) => {
+                modules.extend(["common/stretches", "kernels/clusters_kept"]);
+                8
+            }
+            (Traversal::Clusters, _) => {
                 modules.extend([
-                    "kernels/clusters",
+                    "common/stretches",
                     "common/eight_hits",
                     if self.grid.dimension == 3 { "common/shuffle3" } else { "common/shuffle2" },
+                    "kernels/clusters",
                 ]);
                 8
             }
@@ -293,13 +341,7 @@ impl Builder<'_> {
     }
 
     fn integration(&mut self, output: &Output) {
-        let observe = ["common/sum64", "common/reduce", "common/observation"];
-        let advance = self.traversal("leapfrog", self.traversal, &["common/advance", "passes/leapfrog"]);
-        self.plan.advance.push(advance);
-        let portable = if self.traversal == Traversal::Alone { Traversal::Alone } else { Traversal::Rows };
-        let report = self.traversal("report", portable, &[&observe[..], &["passes/observe_leapfrog"]].concat());
-        self.plan.report.push(report);
-        let groups = self.plan.kernels[report].workgroups;
+        let groups = if self.splits() { self.split_step() } else { self.leapfrog_step() };
         let record = self.kernel(Kernel {
             name: "record_observables",
             modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
@@ -317,19 +359,73 @@ impl Builder<'_> {
             capacity: SAMPLE_ROWS,
             needs_report: true,
         });
-        self.plan.buffers.push(Buffer {
-            name: "partial_sums",
-            purpose: "sums of each workgroup at a report",
-            bytes: 8 * OBSERVABLES as u64 * u64::from(groups),
-            contents: Contents::Zeros,
-        });
-        self.plan.buffers.push(Buffer {
-            name: "samples",
-            purpose: "rows of sums waiting to be read",
-            bytes: 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)),
-            contents: Contents::Zeros,
-        });
-        // Prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff.
+        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * OBSERVABLES as u64 * u64::from(groups));
+        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)));
+        self.plan.operations_per_particle = self.operations();
+    }
+
+    /// How the pairs are visited where speed is not what counts.
+    fn portable(&self) -> Traversal {
+        if self.traversal == Traversal::Alone { Traversal::Alone } else { Traversal::Rows }
+    }
+
+    /// One pass a step. Returns the number of workgroups of the report.
+    fn leapfrog_step(&mut self) -> u32 {
+        let pass = ["common/advance", "passes/leapfrog"];
+        let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
+        let report = self.traversal(
+            "report",
+            self.portable(),
+            Masks::Unkept,
+            &["common/sum64", "common/reduce", "common/observation", "passes/observe_leapfrog"],
+        );
+        self.plan.advance = vec![advance];
+        self.plan.report = vec![report];
+        self.plan.finish_report = vec![advance];
+        self.plan.kernels[report].workgroups
+    }
+
+    /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
+    /// it sorts the particles there, and the drift is finished afterwards.
+    fn split_step(&mut self) -> u32 {
+        let observe = ["common/sum64", "common/reduce", "common/observation"];
+        let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
+        let relax_pass = ["common/advance", "passes/relax"];
+        let relax = self.traversal("relax", self.traversal, Masks::Kept, &relax_pass);
+        self.plan.kernels[relax].constants.push(("HALVES", 2.0));
+        let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &relax_pass);
+        self.plan.kernels[relax_to_report].constants.push(("HALVES", 1.0));
+        let motion = self.traversal(
+            "report_motion",
+            Traversal::Rows,
+            Masks::Unkept,
+            &[&observe[..], &["passes/observe_motion"]].concat(),
+        );
+        let configuration = self.traversal(
+            "report_configuration",
+            Traversal::Rows,
+            Masks::Unkept,
+            &[&observe[..], &["passes/observe_configuration"]].concat(),
+        );
+        let coefficients = if self.single() { "common/coefficients_single" } else { "common/coefficients_table" };
+        let rest = self.simple(
+            "drift_rest",
+            &["common/drift_halves", coefficients, "kernels/drift_rest"],
+            self.particles.div_ceil(64),
+        );
+        for kernel in [motion, configuration, rest] {
+            self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
+        }
+        let again = self.sorting("common/same_step");
+        self.plan.before_report = vec![find];
+        self.plan.advance = vec![relax];
+        self.plan.report = [&[motion, relax_to_report][..], &again, &[configuration]].concat();
+        self.plan.finish_report = vec![rest];
+        self.plan.kernels[motion].workgroups
+    }
+
+    /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff.
+    fn operations(&self) -> f64 {
         let density = self.particles as f64 / self.model.units.volume();
         let cutoff = self.force.cutoff;
         let (candidates, pairs) = if self.grid.dimension == 3 {
@@ -337,7 +433,7 @@ impl Builder<'_> {
         } else {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
-        self.plan.operations_per_particle = 12.0 * candidates + 70.0 * pairs + 60.0;
+        12.0 * candidates + if self.splits() { 130.0 } else { 70.0 } * pairs + 60.0
     }
 
     fn analyses(&mut self, output: &Output) {
@@ -404,7 +500,8 @@ impl Builder<'_> {
             samples: "histogram_samples",
             quantities: bins as usize,
             capacity,
-            needs_report: false,
+            // Where a report moves the particles on, distances are counted there too.
+            needs_report: self.splits(),
         });
     }
 
@@ -495,6 +592,14 @@ impl Builder<'_> {
         add("ranks", "place of each particle in its cell", 4 * self.particles, Contents::Zeros);
         if self.plan.sort.len() > 2 {
             add("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)), Contents::Zeros);
+        }
+        if self.splits() {
+            add(
+                "found",
+                "pairs found by the first pass, one bit a candidate",
+                4 * u64::from(KEPT_WORDS) * self.particles,
+                Contents::Zeros,
+            );
         }
         if !self.single() {
             let count = self.model.species.len();

@@ -137,19 +137,32 @@ impl Reference {
         (0..steps).try_for_each(|_| self.step())
     }
 
-    /// Measures at the report point of the current step, without changing the state.
-    #[must_use]
-    pub fn observe(&self) -> Observables {
-        let found = self.pairs();
-        observables::observe(self, &found, &self.report(&found))
-    }
-
-    /// The state at the report point of the current step: r(n) and p(n). A momentum that belongs to the state between
-    /// steps is not what a user means by momentum; this is.
+    /// Measures at the report point of the current step, without changing the state: the motion at r(n), p(n), and the
+    /// configuration there too, but for a split step at [`Self::state_between_forces`].
     ///
     /// # Errors
-    /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
+    /// [`Unstable`] as [`Self::step`], of a split step only.
+    pub fn observe(&self) -> Result<Observables, Unstable> {
+        let found = self.pairs();
+        let report = self.report(&found);
+        let configuration = if self.model.splits() {
+            let range = self.model.pair_force.as_ref().map_or(0.0, |force| force.cutoff);
+            pairs::find_pairs(&self.model.units, &self.state_between_forces()?.positions, range)
+        } else {
+            found
+        };
+        Ok(observables::observe(self, &configuration, &report))
+    }
+
+    /// The state that a report shows: r(n) and p(n), full-step momenta; for a split step, which begins and ends there,
+    /// [`Self::state_between_forces`].
+    ///
+    /// # Errors
+    /// [`Unstable`] as [`Self::step`].
     pub fn reported_state(&self) -> Result<State, Unstable> {
+        if self.model.splits() {
+            return self.state_between_forces().map(|state| State { step: self.state.step, ..state });
+        }
         let momenta = self.narrow(&self.report(&self.pairs()).momenta)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }
@@ -168,7 +181,7 @@ impl Reference {
         let mut state = self.state.clone();
         for (particle, position) in state.positions.iter_mut().enumerate() {
             for (position, drift) in position.iter_mut().zip(ahead.drift(particle)) {
-                *position = position.wrapping_add((drift as f64 / 2.0).round_ties_even() as i64 as u32);
+                *position = position.wrapping_add((drift / 2) as u32);
             }
         }
         Ok(State { momenta: ahead.state.momenta, predicted: Vec::new(), ..state })
@@ -197,10 +210,12 @@ impl Reference {
     /// dt p/m of the momenta in the state, in whole units of the box fraction, rounded half to even.
     fn drift(&self, particle: usize) -> [i64; 3] {
         let momentum = self.model.units.momentum(self.state.momenta[particle]);
+        // A split step drifts in two equal halves, between which a report may fall.
+        let parts = if self.model.splits() { 2 } else { 1 };
         std::array::from_fn(|axis| {
-            let distance = self.model.time_step * momentum[axis] / self.masses[particle];
+            let distance = self.model.time_step * momentum[axis] / self.masses[particle] / parts as f64;
             let units = (distance / self.model.units.lengths[axis] * 4_294_967_296.0).round_ties_even();
-            units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
+            parts * units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
         })
     }
 

@@ -21,6 +21,14 @@ use crate::noise::{self, stream};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Relaxation {
+    /// Exponential relaxation in the mean field of all pairs that share a particle; the rule of the device.
+    ///
+    /// A pair alone relaxes at the rate g/μ, g = γω dt. All pairs act from the same velocities, so a pair's relative
+    /// velocity relaxes at the rate s that its particles feel from all their pairs, those other than itself counted with
+    /// the mean projection 1/d of one direction on another:
+    /// s = μ (g/μ² + (Γᵢ - g)/(d mᵢ²) + (Γⱼ - g)/(d mⱼ²)), Γᵢ the sum of g over the pairs of i. The impulse is
+    /// -g (1 - e⁻ˢ)/s u + √(kT g (1 - e⁻²ˢ)/s) ζ: for a pair alone the exact solution.
+    MeanField,
     /// Each pair by the exact solution for that pair alone, all from the same momenta.
     Exponential,
     /// The implicit midpoint rule for all pairs at once, by fixed-point iteration from the explicit rule.
@@ -32,7 +40,7 @@ pub enum Relaxation {
 
 impl Default for Relaxation {
     fn default() -> Self {
-        Self::Midpoint { corrections: 1 }
+        Self::MeanField
     }
 }
 
@@ -71,9 +79,14 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
         })
         .collect();
     let corrections = match reference.relaxation {
-        Relaxation::Exponential => 0,
+        Relaxation::MeanField | Relaxation::Exponential => 0,
         Relaxation::Midpoint { corrections } => corrections,
     };
+    let mut fields = vec![0.0; state.len()];
+    for (pair, &(rate, _)) in found.iter().zip(&couplings) {
+        fields[pair.first] += rate * model.time_step;
+        fields[pair.second] += rate * model.time_step;
+    }
     let mut seen = momenta.to_vec();
     let mut correction = 0;
     loop {
@@ -81,8 +94,17 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
         let mut virial = 0.0;
         for (pair, &(rate, noise)) in found.iter().zip(&couplings) {
             let approach = dot(pair.direction(), reference.relative_velocity(&seen, pair));
-            let reduced_mass = 1.0 / (1.0 / reference.masses[pair.first] + 1.0 / reference.masses[pair.second]);
-            let impulse = pair_relaxation(reference.relaxation, model, rate, reduced_mass, approach, noise);
+            let inverse = [1.0 / reference.masses[pair.first], 1.0 / reference.masses[pair.second]];
+            let reduced_mass = 1.0 / (inverse[0] + inverse[1]);
+            let impulse = if reference.relaxation == Relaxation::MeanField {
+                let own = rate * model.time_step;
+                let others = (fields[pair.first] - own) * inverse[0].powi(2)
+                    + (fields[pair.second] - own) * inverse[1].powi(2);
+                let among = reduced_mass * (own / reduced_mass.powi(2) + others / model.units.dimension as f64);
+                mean_field_relaxation(model.temperature, own, among, approach, noise)
+            } else {
+                pair_relaxation(reference.relaxation, model, rate, reduced_mass, approach, noise)
+            };
             pairs::exchange(
                 &mut sums,
                 pair,
@@ -103,6 +125,16 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
     }
 }
 
+/// The impulse along e of a pair with g = `own` that relaxes at the rate s = `among` with all others.
+fn mean_field_relaxation(temperature: f64, own: f64, among: f64, approach: f64, noise: f64) -> f64 {
+    if among == 0.0 {
+        return 0.0;
+    }
+    let relaxed = -(-among).exp_m1() / among;
+    let spread = -(-2.0 * among).exp_m1() / among;
+    -own * relaxed * approach + (temperature * own * spread).sqrt() * noise
+}
+
 /// The impulse along e that a pair with friction `rate` = γω gets from its velocity of approach u = e·(vᵢ - vⱼ) and
 /// its noise ζ.
 fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64, approach: f64, noise: f64) -> f64 {
@@ -114,7 +146,7 @@ fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64
             let spread = (model.temperature / reduced_mass * -(-2.0 * exponent).exp_m1()).sqrt();
             reduced_mass * (-decay * approach + spread * noise)
         }
-        Relaxation::Midpoint { .. } => {
+        Relaxation::MeanField | Relaxation::Midpoint { .. } => {
             let amplitude = (2.0 * rate * model.temperature * model.time_step).sqrt();
             -rate * model.time_step * approach + amplitude * noise
         }

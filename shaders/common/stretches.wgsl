@@ -1,0 +1,67 @@
+// Which candidates a cluster of eight particles has in common, for subgroups of eight lanes.
+// The candidates of a cluster, nine (three, one) stretches seen as one: the own row first.
+struct Stretches {
+    own: u32,
+    ends: array<u32, 8>,
+    shifts: array<u32, 8>,
+    total: u32,
+}
+
+fn resolve(s: Stretches, candidate: u32) -> u32 {
+    var shift = s.own;
+    if (neighbour_rows() > 1u) {
+        shift = select(shift, s.shifts[0], candidate >= s.ends[0]);
+        shift = select(shift, s.shifts[1], candidate >= s.ends[1]);
+    }
+    if (neighbour_rows() > 3u) {
+        shift = select(shift, s.shifts[2], candidate >= s.ends[2]);
+        shift = select(shift, s.shifts[3], candidate >= s.ends[3]);
+        shift = select(shift, s.shifts[4], candidate >= s.ends[4]);
+        shift = select(shift, s.shifts[5], candidate >= s.ends[5]);
+        shift = select(shift, s.shifts[6], candidate >= s.ends[6]);
+        shift = select(shift, s.shifts[7], candidate >= s.ends[7]);
+    }
+    return shift + candidate;
+}
+
+// Lane k holds the k-th neighbouring row's stretch; every lane learns them all.
+fn stretches_of(own: u32, own_length: u32, begin: u32, length: u32) -> Stretches {
+    var s: Stretches;
+    s.own = own;
+    s.ends[0] = own_length;
+    s.ends[1] = s.ends[0] + subgroupShuffle(length, 0u);
+    s.ends[2] = s.ends[1] + subgroupShuffle(length, 1u);
+    s.ends[3] = s.ends[2] + subgroupShuffle(length, 2u);
+    s.ends[4] = s.ends[3] + subgroupShuffle(length, 3u);
+    s.ends[5] = s.ends[4] + subgroupShuffle(length, 4u);
+    s.ends[6] = s.ends[5] + subgroupShuffle(length, 5u);
+    s.ends[7] = s.ends[6] + subgroupShuffle(length, 6u);
+    s.total = s.ends[7] + subgroupShuffle(length, 7u);
+    s.shifts[0] = subgroupShuffle(begin, 0u) - s.ends[0];
+    s.shifts[1] = subgroupShuffle(begin, 1u) - s.ends[1];
+    s.shifts[2] = subgroupShuffle(begin, 2u) - s.ends[2];
+    s.shifts[3] = subgroupShuffle(begin, 3u) - s.ends[3];
+    s.shifts[4] = subgroupShuffle(begin, 4u) - s.ends[4];
+    s.shifts[5] = subgroupShuffle(begin, 5u) - s.ends[5];
+    s.shifts[6] = subgroupShuffle(begin, 6u) - s.ends[6];
+    s.shifts[7] = subgroupShuffle(begin, 7u) - s.ends[7];
+    return s;
+}
+
+// The stretches of the cluster whose particles lie in columns `column`, in lanes from left to right.
+fn cluster_stretches(row: u32, lane: u32, column: u32) -> Stretches {
+    let others = neighbour_rows() - 1u;
+    let lane_row = min(lane + select(0u, 1u, lane >= others / 2u), others);
+    let lane_start = neighbour_row(row, lane_row) * row_width();
+    let own_start = row * row_width();
+    // A cluster that reaches all round the box sees each cell once: the row without its frame.
+    let leftmost = subgroupShuffle(column, 0u);
+    let rightmost = subgroupShuffle(column, 7u);
+    let whole = rightmost - leftmost + 1u + 2u * frame() > CELLS_X;
+    let from_cell = select(leftmost, frame(), whole);
+    let to_cell = select(rightmost + 1u + 2u * frame(), frame() + CELLS_X, whole);
+    let begin = cells[lane_start + from_cell];
+    let length = select(0u, cells[lane_start + to_cell] - begin, lane < others);
+    let own = cells[own_start + from_cell];
+    return stretches_of(own, cells[own_start + to_cell] - own, begin, length);
+}
