@@ -5,11 +5,13 @@ mod check;
 mod failure;
 mod plot;
 mod print;
+mod report;
 mod resume;
 mod run;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod table;
 
 use std::io::Write as _;
 use std::process::ExitCode;
