@@ -85,9 +85,9 @@ impl From<RunError> for Failure {
             RunError::Scene(error) => error.into(),
             RunError::Unstable { .. } => Self::unstable(error.to_string()),
             // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
-            RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => {
-                Self::usage(error.to_string())
-            }
+            RunError::Plot {
+                source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, ..
+            } => Self::usage(error.to_string()),
             RunError::Plot { .. } | RunError::Engine(_) => Self::no_adapter(error.to_string()),
             _ => Self::input_output(error.to_string()),
         }

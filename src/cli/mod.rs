@@ -2,6 +2,7 @@
 
 mod adapters;
 mod check;
+mod environment;
 mod failure;
 mod plot;
 mod print;
@@ -55,7 +56,11 @@ enum Command {
 
 /// Reads the command line, executes the command and turns a failure into a message and an exit code.
 pub fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
+        environment::quieten_drivers();
+    }
+    let result = match command {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Resume(arguments) => resume::execute(&arguments),

@@ -30,7 +30,9 @@ pub struct Arguments {
 
 /// Draws the plots.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    if let Some(other) = arguments.set.iter().find(|change| !LOOK.iter().any(|prefix| change.trim().starts_with(prefix))) {
+    if let Some(other) =
+        arguments.set.iter().find(|change| !LOOK.iter().any(|prefix| change.trim().starts_with(prefix)))
+    {
         return Err(Failure::usage(format!(
             "`--set {other}`: a plot can be drawn with another look, {}, but not of another run",
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
@@ -39,8 +41,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let directory = RunDirectory::open(&arguments.directory)?;
     let choice = AdapterChoice::parse(arguments.adapter.as_deref());
     let written = run::redraw(&directory, &choice, &arguments.set)?;
-    print(&format!("wrote {}/: {}
-", arguments.directory.display(), written.join(", ")))
+    print(&format!(
+        "wrote {}/: {}
+",
+        arguments.directory.display(),
+        written.join(", ")
+    ))
 }
 
 /// What of a scene is only about the look.

@@ -1,6 +1,7 @@
 //! What a run tells its user: a line at the start, progress, a table at the end.
 
 use std::io::{IsTerminal as _, Write as _};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::model::Model;
@@ -38,18 +39,29 @@ pub fn default_directory(arguments: &SceneArguments) -> String {
     stem.unwrap_or("run").to_owned()
 }
 
+/// A short run needs no lines of progress.
+const BETWEEN_LINES: Duration = Duration::from_secs(1);
+
 struct Reporter {
     scene: Scene,
     bar: Option<ProgressBar>,
     terminal: bool,
-    /// Tenths of the run already told on lines of their own.
+    /// Tenths of the run already told on lines of their own, and when the last was.
     told: u64,
+    told_at: Instant,
     first_step: u64,
 }
 
 impl Reporter {
     fn new(scene: Scene) -> Self {
-        Self { scene, bar: None, terminal: std::io::stderr().is_terminal(), told: 0, first_step: 0 }
+        Self {
+            scene,
+            bar: None,
+            terminal: std::io::stderr().is_terminal(),
+            told: 0,
+            told_at: Instant::now(),
+            first_step: 0,
+        }
     }
 
     fn line(&self, text: &str) {
@@ -110,8 +122,9 @@ impl Reporter {
         }
         let steps = (progress.last_step - self.first_step).max(1);
         let tenth = 10 * (progress.step - self.first_step) / steps;
-        if tenth > self.told && progress.step < progress.last_step {
+        if tenth > self.told && progress.step < progress.last_step && self.told_at.elapsed() > BETWEEN_LINES {
             self.told = tenth;
+            self.told_at = Instant::now();
             let percent = 100 * progress.step / progress.last_step.max(1);
             let (step, last) = (grouped(progress.step), grouped(progress.last_step));
             self.line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress)));
@@ -122,7 +135,7 @@ impl Reporter {
 fn describe(progress: &Progress) -> String {
     let mut parts = Vec::new();
     if progress.particle_steps_per_second > 0.0 {
-        parts.push(format!("{}particle-steps/s", prefixed(progress.particle_steps_per_second)));
+        parts.push(format!("{} particle-steps/s", prefixed(progress.particle_steps_per_second)));
     }
     if let Some(temperature) = progress.temperature {
         parts.push(format!("kT {temperature:.3}"));
@@ -144,9 +157,11 @@ fn duration(seconds: u64) -> String {
 fn results(outcome: &Outcome, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
-    for (column, label) in
-        [("temperature", "temperature"), ("configurational_temperature", "configurational temperature"), ("pressure", "pressure")]
-    {
+    for (column, label) in [
+        ("temperature", "temperature"),
+        ("configurational_temperature", "configurational temperature"),
+        ("pressure", "pressure"),
+    ] {
         if let Some(value) = mean(summary, column) {
             rows.push(vec![label.to_owned(), value]);
         }
@@ -170,7 +185,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     }
     if summary.particle_steps_per_second > 0.0 {
         let rate = prefixed(summary.particle_steps_per_second);
-        rows.push(vec!["speed".to_owned(), format!("{rate}particle-steps/s, {:.2} s", summary.wall_seconds)]);
+        rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
     }
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {

@@ -28,13 +28,19 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// A rate or an amount with three digits and a prefix: `7.04 M`.
+/// A rate with three digits and the prefix of its unit: `7.04 M`.
 pub fn prefixed(value: f64) -> String {
     let scales = [(1e12, " T"), (1e9, " G"), (1e6, " M"), (1e3, " k")];
     // Half a unit of the last digit early, so that 999 999 becomes 1 M and not 1000 k.
-    let (scale, prefix) = scales.into_iter().find(|(scale, _)| value >= 0.9995 * scale).unwrap_or((1.0, " "));
+    let (scale, prefix) = scales.into_iter().find(|(scale, _)| value >= 0.9995 * scale).unwrap_or((1.0, ""));
     let scaled = value / scale;
-    let digits = if scaled >= 99.95 { 0 } else if scaled >= 9.995 { 1 } else { 2 };
+    let digits = if scaled >= 99.95 {
+        0
+    } else if scaled >= 9.995 {
+        1
+    } else {
+        2
+    };
     format!("{scaled:.digits$}{prefix}")
 }
 
@@ -65,8 +71,8 @@ mod tests {
         assert_eq!(grouped(123_456), "123 456");
         assert_eq!(prefixed(7_041_000.0), "7.04 M");
         assert_eq!(prefixed(999_999.0), "1.00 M");
-        assert_eq!(prefixed(70.0), "70.0 ");
-        assert_eq!(prefixed(0.0), "0.00 ");
+        assert_eq!(prefixed(70.0), "70.0");
+        assert_eq!(prefixed(0.0), "0.00");
         assert_eq!(prefixed(125_000.0), "125 k");
         assert_eq!(bytes(512), "512 B");
         assert_eq!(bytes(1 << 20), "1.0 MiB");

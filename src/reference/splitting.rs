@@ -98,8 +98,8 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
             let reduced_mass = 1.0 / (inverse[0] + inverse[1]);
             let impulse = if reference.relaxation == Relaxation::MeanField {
                 let own = rate * model.time_step;
-                let others = (fields[pair.first] - own) * inverse[0].powi(2)
-                    + (fields[pair.second] - own) * inverse[1].powi(2);
+                let others =
+                    (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
                 let among = reduced_mass * (own / reduced_mass.powi(2) + others / model.units.dimension as f64);
                 mean_field_relaxation(model.temperature, own, among, approach, noise)
             } else {

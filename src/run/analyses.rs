@@ -132,7 +132,8 @@ impl Analyses {
     fn radial_distribution(&self, range: f64, samples: f64, counts: &[f64]) -> (Table, Result<Value, String>) {
         let width = range / counts.len() as f64;
         let pairs = 0.5 * self.particles * (self.particles - 1.0);
-        let ball = |radius: f64| if self.dimension == 3 { 4.0 / 3.0 * PI * radius.powi(3) } else { PI * radius * radius };
+        let ball =
+            |radius: f64| if self.dimension == 3 { 4.0 / 3.0 * PI * radius.powi(3) } else { PI * radius * radius };
         let mut rows = Vec::new();
         for (bin, count) in counts.iter().enumerate() {
             let inner = bin as f64 * width;
@@ -142,7 +143,9 @@ impl Analyses {
         let result = match peak(&rows) {
             _ if samples == 0.0 => Err("no sample was taken after equilibration".to_owned()),
             _ if pairs <= 0.0 => Err("there are no pairs of particles".to_owned()),
-            Some([distance, height]) => Ok(json!({ "samples": samples, "peak_distance": distance, "peak_height": height })),
+            Some([distance, height]) => {
+                Ok(json!({ "samples": samples, "peak_distance": distance, "peak_height": height }))
+            }
             None => Ok(json!({ "samples": samples, "peak_distance": null, "peak_height": null })),
         };
         (Table { columns: ["distance", "radial_distribution"].map(str::to_owned).to_vec(), rows }, result)
@@ -198,7 +201,9 @@ impl Analyses {
             let waves: Vec<Value> = found
                 .waves
                 .iter()
-                .map(|wave| json!({ "wave_number": wave.wave_number, "modes": wave.modes, "viscosity": wave.viscosity }))
+                .map(
+                    |wave| json!({ "wave_number": wave.wave_number, "modes": wave.modes, "viscosity": wave.viscosity }),
+                )
                 .collect();
             json!({
                 "shear_viscosity": found.viscosity,
@@ -267,7 +272,9 @@ impl Gathered {
                 let full = displacement.len() / window * window;
                 bytes(displacement[..full].iter().chain(&velocity[..full]).copied())
             }
-            Self::Viscosity { modes, .. } => bytes(modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied()),
+            Self::Viscosity { modes, .. } => {
+                bytes(modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied())
+            }
         }
     }
 
@@ -301,7 +308,8 @@ const PEAK_BINS: usize = 4;
 
 /// Place and height of the maximum of (x, y) rows; none without a positive value. At the edges the highest bin is taken.
 fn peak(rows: &[Vec<f64>]) -> Option<[f64; 2]> {
-    let highest = (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
+    let highest =
+        (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
     let plain = Some([rows[highest][0], rows[highest][1]]);
     let Some(first) = highest.checked_sub(PEAK_BINS) else { return plain };
     let Some(window) = rows.get(first..=highest + PEAK_BINS) else { return plain };
@@ -374,7 +382,9 @@ mod tests {
             restored.restore(&numbers(&gathered.section()));
             assert_eq!(restored.section(), gathered.section());
             match restored {
-                Gathered::RadialDistribution { samples, counts, .. } => assert_eq!((samples, counts), (2.0, vec![4.0, 24.0])),
+                Gathered::RadialDistribution { samples, counts, .. } => {
+                    assert_eq!((samples, counts), (2.0, vec![4.0, 24.0]))
+                }
                 Gathered::Diffusion { displacement, velocity, .. } => {
                     assert_eq!((displacement, velocity), (vec![1.0, 0.0], vec![1.0, 2.0]));
                 }

@@ -97,11 +97,7 @@ impl Simulation {
     /// # Errors
     /// [`RunError`]: no usable adapter, a run that became unstable, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
-    pub fn execute(
-        self,
-        choice: &AdapterChoice,
-        observer: &mut dyn FnMut(Event<'_>),
-    ) -> Result<Outcome, RunError> {
+    pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
         let Self { scene, directory, beginning } = self;
         let model = Model::new(&scene);
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
@@ -157,8 +153,7 @@ impl Simulation {
 
 /// Opens an adapter with room for the buffers of a scene.
 pub(super) fn open_adapter(scene: &Scene, model: &Model, choice: &AdapterChoice) -> Result<Gpu, RunError> {
-    let portable =
-        plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+    let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
     Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
 }
 
