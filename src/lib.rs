@@ -14,5 +14,6 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 pub mod reference;
+pub mod run;
 pub mod scene;
 pub mod state;

@@ -1,6 +1,14 @@
 //! `mesoscope check`: what a scene requires.
 
-use super::{Failure, SceneArguments};
+use std::fmt::Write as _;
+
+use mesoscope::gpu::{self, AdapterChoice, Gpu, GpuError, Requirements};
+use mesoscope::model::Model;
+use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::scene::{self, Integrator, Scene};
+
+use super::table::{aligned, bytes, grouped};
+use super::{Failure, SceneArguments, print};
 
 /// Check a scene: all mistakes at once, or else what it requires - kernels, buffers, bytes, expected cost
 #[derive(Debug, clap::Args)]
@@ -11,10 +19,231 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+
+    /// Adapter to plan for: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
+    /// [default: the best one]
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
 }
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    arguments.scene.load()?;
-    Err(Failure::usage("the scene is correct, but `check` cannot print its plan in this build"))
+    let scene = arguments.scene.load()?;
+    let model = Model::new(&scene);
+    let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+    let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
+    let requirements = Requirements { largest_buffer: planned(Hardware::default()).largest_buffer() };
+    let (hardware, adapter) = match Gpu::open(&AdapterChoice::parse(arguments.adapter.as_deref()), requirements) {
+        Ok(gpu) => (Hardware { subgroup_size: gpu.subgroup_size() }, gpu.description().name.clone()),
+        Err(error @ GpuError::NoSuchAdapter { .. }) => return Err(error.into()),
+        Err(GpuError::NoAdapter) => (Hardware::default(), "none here; the plan is the one for any adapter".to_owned()),
+        Err(error) => {
+            warnings.push(error.to_string());
+            (Hardware::default(), "none that could run it; the plan is the one for any adapter".to_owned())
+        }
+    };
+    let plan = planned(hardware);
+    let mut text = overview(&scene, &plan, &adapter);
+    let stages = [
+        ("Once, before the first step", &plan.prepare),
+        ("Every step: order the particles by cell", &plan.sort),
+        ("Every step: before anything is measured", &plan.before_report),
+        ("Every step without a measurement", &plan.advance),
+        ("Every step with a measurement: measure", &plan.report),
+        ("Every step with a measurement: go on", &plan.finish_report),
+    ];
+    let shared = Shared::of(&plan)?;
+    text.push_str("\nShared by all kernels that see particles\n");
+    wrapped(&mut text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
+    wrapped(&mut text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
+    let mut described = Vec::new();
+    for (heading, kernels) in stages {
+        section(&mut text, heading, &plan, kernels, &shared, &mut described)?;
+    }
+    for sampler in &plan.samplers {
+        let heading = format!("{}: {}", sampler.name, interval(sampler.first, sampler.every));
+        section(&mut text, &heading, &plan, &sampler.kernels, &shared, &mut described)?;
+    }
+    buffers(&mut text, &plan);
+    text.push_str(&outputs(&scene));
+    for warning in &warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    print(&text)
+}
+
+fn interval(first: u64, every: u64) -> String {
+    let every = if every == 1 { "every step".to_owned() } else { format!("every {} steps", grouped(every)) };
+    if first == 0 { every } else { format!("{every} from step {}", grouped(first)) }
+}
+
+fn overview(scene: &Scene, plan: &Plan, adapter: &str) -> String {
+    let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
+    let integrator = match scene.integrator {
+        Integrator::Splitting {} => "splitting".to_owned(),
+        Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
+        Integrator::CotterReich {} => "cotter-reich".to_owned(),
+    };
+    let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
+    let rows = [
+        (
+            "particles",
+            format!("{} in {} dimensions, box {}", grouped(plan.particles), lengths.len(), lengths.join(" × ")),
+        ),
+        ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
+        (
+            "cells",
+            plan.grid.cells[..lengths.len()]
+                .iter()
+                .map(|count| grouped((*count).into()))
+                .collect::<Vec<_>>()
+                .join(" × "),
+        ),
+        ("adapter", adapter.to_owned()),
+        ("memory", format!("{}, {per_particle:.1} bytes a particle", bytes(plan.bytes()))),
+        (
+            "arithmetic",
+            format!("about {} operations a particle and step", grouped(plan.operations_per_particle as u64)),
+        ),
+    ];
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
+    format!("{}\n{}", scene.title, aligned(&rows, "  "))
+}
+
+fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
+    let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
+    Some(format!("{name} = {}", short(*value)))
+}
+
+/// What all kernels that see particles have in common, so that it need not be said of each.
+struct Shared {
+    modules: Vec<&'static str>,
+    constants: Vec<String>,
+}
+
+impl Shared {
+    fn of(plan: &Plan) -> Result<Self, Failure> {
+        let mut shared: Option<Self> = None;
+        for kernel in plan
+            .kernels
+            .iter()
+            .filter(|kernel| kernel.modules.iter().any(|module| module.starts_with("common/particle")))
+        {
+            let constants = gpu::link(kernel.name, &kernel.modules)?.overrides;
+            // A constant that a kernel sets for itself is not shared.
+            let own = |name: &String| kernel.constants.iter().any(|(known, _)| known == name);
+            match &mut shared {
+                None => {
+                    let constants = constants.into_iter().filter(|name| !own(name)).collect();
+                    shared = Some(Self { modules: kernel.modules.clone(), constants });
+                }
+                Some(shared) => {
+                    shared.modules.retain(|module| kernel.modules.contains(module));
+                    shared.constants.retain(|name| constants.contains(name) && !own(name));
+                }
+            }
+        }
+        Ok(shared.unwrap_or(Self { modules: Vec::new(), constants: Vec::new() }))
+    }
+
+    /// Whether a kernel with these modules is one of those.
+    fn among(&self, modules: &[&'static str]) -> bool {
+        self.modules.iter().all(|module| modules.contains(module))
+    }
+}
+
+/// Kernels under a heading; one that has been described before is only named.
+fn section(
+    text: &mut String,
+    heading: &str,
+    plan: &Plan,
+    kernels: &[usize],
+    shared: &Shared,
+    described: &mut Vec<usize>,
+) -> Result<(), Failure> {
+    if kernels.is_empty() {
+        return Ok(());
+    }
+    let _ = writeln!(text, "\n{heading}");
+    for &index in kernels {
+        let kernel = &plan.kernels[index];
+        let noun = if kernel.workgroups == 1 { "workgroup" } else { "workgroups" };
+        let _ = writeln!(text, "  {}, {} {noun}", kernel.name, grouped(kernel.workgroups.into()));
+        if described.contains(&index) {
+            continue;
+        }
+        described.push(index);
+        let linked = gpu::link(kernel.name, &kernel.modules)?;
+        let own = |name: &&&'static str| !shared.among(&kernel.modules) || !shared.modules.contains(name);
+        wrapped(text, "modules", kernel.modules.iter().filter(own).map(|module| (*module).to_owned()));
+        // A kernel's own constants come before those of the plan, as in the engine.
+        let constants = [&kernel.constants[..], &plan.constants].concat();
+        let own =
+            linked.overrides.iter().filter(|name| !shared.among(&kernel.modules) || !shared.constants.contains(*name));
+        wrapped(text, "constants", own.filter_map(|name| constant(&constants, name)));
+        let buffer = |variable: &str| {
+            let renamed = kernel.renamed.iter().find(|(name, _)| *name == variable);
+            renamed.map_or(variable, |(_, buffer)| buffer).to_owned()
+        };
+        wrapped(text, "buffers", linked.bindings.iter().map(|binding| buffer(&binding.name)));
+    }
+    Ok(())
+}
+
+/// A label and a list, broken into lines of at most 110 characters.
+fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) {
+    let mut line = format!("      {label:<9} ");
+    let indent = line.len();
+    let mut items = items.peekable();
+    if items.peek().is_none() {
+        return;
+    }
+    while let Some(item) = items.next() {
+        if line.chars().count() > indent && line.chars().count() + item.chars().count() > 109 {
+            let _ = writeln!(text, "{}", line.trim_end());
+            line = " ".repeat(indent);
+        }
+        line.push_str(&item);
+        if items.peek().is_some() {
+            line.push_str(", ");
+        }
+    }
+    let _ = writeln!(text, "{line}");
+}
+
+/// Six digits are enough to recognise a constant.
+fn short(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == value.trunc() && magnitude < 1e15 {
+        format!("{value}")
+    } else if (1e-3..1e6).contains(&magnitude) {
+        format!("{value:.6}").trim_end_matches('0').to_owned()
+    } else {
+        format!("{value:.5e}")
+    }
+}
+
+fn buffers(text: &mut String, plan: &Plan) {
+    let rows: Vec<Vec<String>> = plan
+        .buffers
+        .iter()
+        .map(|buffer| vec![buffer.name.to_owned(), bytes(buffer.bytes), buffer.purpose.to_owned()])
+        .collect();
+    let _ = write!(text, "\nBuffers\n{}", aligned(&rows, "  "));
+}
+
+fn outputs(scene: &Scene) -> String {
+    let output = &scene.output;
+    let mut rows = vec![
+        ("energies.csv", format!("a row {}", interval(0, output.energies.every))),
+        ("checkpoint.bin", format!("{} and at the end", interval(0, output.checkpoint.every))),
+    ];
+    if output.snapshot.every > 0 {
+        rows.push(("snapshot-….png", interval(0, output.snapshot.every)));
+    }
+    if let Some(trajectory) = &output.trajectory {
+        rows.push(("trajectory", format!("a frame {}", interval(0, trajectory.every))));
+    }
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name.to_owned(), when]).collect();
+    format!("\nFiles\n{}", aligned(&rows, "  "))
 }

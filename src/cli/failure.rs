@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use mesoscope::gpu::GpuError;
+use mesoscope::output::OutputError;
+use mesoscope::plot::PlotError;
+use mesoscope::run::RunError;
 use mesoscope::scene::SceneError;
 
 /// Why a command failed.
@@ -18,13 +22,11 @@ impl Failure {
     }
 
     /// No adapter that could run this: exit code 3.
-    #[expect(dead_code, reason = "for the commands that open an adapter")]
     pub fn no_adapter(message: impl Into<String>) -> Self {
         Self { exit_code: 3, message: message.into() }
     }
 
     /// A run became unstable: exit code 4.
-    #[expect(dead_code, reason = "for the commands that run")]
     pub fn unstable(message: impl Into<String>) -> Self {
         Self { exit_code: 4, message: message.into() }
     }
@@ -55,6 +57,39 @@ impl From<SceneError> for Failure {
                 "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes dpd-fluid` a complete scene"
             )),
             _ => Self::usage(error.to_string()),
+        }
+    }
+}
+
+impl From<GpuError> for Failure {
+    fn from(error: GpuError) -> Self {
+        match error {
+            GpuError::NoSuchAdapter { .. } => {
+                Self::no_adapter(format!("{error}\nhint: `mesoscope adapters` describes them"))
+            }
+            _ => Self::no_adapter(error.to_string()),
+        }
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Self::input_output(error.to_string())
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Gpu(error) => error.into(),
+            RunError::Scene(error) => error.into(),
+            RunError::Unstable { .. } => Self::unstable(error.to_string()),
+            // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
+            RunError::Plot {
+                source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, ..
+            } => Self::usage(error.to_string()),
+            RunError::Plot { .. } | RunError::Engine(_) => Self::no_adapter(error.to_string()),
+            _ => Self::input_output(error.to_string()),
         }
     }
 }

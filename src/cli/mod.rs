@@ -2,14 +2,17 @@
 
 mod adapters;
 mod check;
+mod environment;
 mod failure;
 mod plot;
 mod print;
+mod report;
 mod resume;
 mod run;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod table;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -53,7 +56,11 @@ enum Command {
 
 /// Reads the command line, executes the command and turns a failure into a message and an exit code.
 pub fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let command = Arguments::parse().command;
+    if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
+        environment::quieten_drivers();
+    }
+    let result = match command {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Resume(arguments) => resume::execute(&arguments),

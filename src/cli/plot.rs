@@ -2,17 +2,25 @@
 
 use std::path::PathBuf;
 
-use super::Failure;
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::output::RunDirectory;
+use mesoscope::run;
+
+use super::{Failure, print};
 
 /// Draw the plots of a run again from the files it left
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   mesoscope plot dpd-fluid
-  mesoscope plot dpd-fluid --adapter software")]
+  mesoscope plot dpd-fluid --set output.plot.theme=dark --set output.plot.width=800")]
 pub struct Arguments {
     /// Directory of the run
     directory: PathBuf,
+
+    /// Change the look, as in a scene: `output.plot.width=800`, `output.snapshot.color=speed`; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
 
     /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
     /// [default: the best one]
@@ -21,6 +29,25 @@ pub struct Arguments {
 }
 
 /// Draws the plots.
-pub fn execute(_: &Arguments) -> Result<(), Failure> {
-    Err(Failure::usage("`plot` is not available in this build"))
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(other) =
+        arguments.set.iter().find(|change| !LOOK.iter().any(|prefix| change.trim().starts_with(prefix)))
+    {
+        return Err(Failure::usage(format!(
+            "`--set {other}`: a plot can be drawn with another look, {}, but not of another run",
+            LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
+        )));
+    }
+    let directory = RunDirectory::open(&arguments.directory)?;
+    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
+    let written = run::redraw(&directory, &choice, &arguments.set)?;
+    print(&format!(
+        "wrote {}/: {}
+",
+        arguments.directory.display(),
+        written.join(", ")
+    ))
 }
+
+/// What of a scene is only about the look.
+const LOOK: [&str; 2] = ["output.plot.", "output.snapshot."];

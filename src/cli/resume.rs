@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::Failure;
+use mesoscope::run::Simulation;
+
+use super::{Failure, print, report};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -29,6 +31,16 @@ pub struct Arguments {
 }
 
 /// Continues the run.
-pub fn execute(_: &Arguments) -> Result<(), Failure> {
-    Err(Failure::usage("`resume` is not available in this build"))
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let shown = arguments.directory.display().to_string();
+    let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
+    if simulation.is_finished() {
+        let step = simulation.first_step();
+        let text = format!(
+            "nothing to do: the run in {shown} is finished at step {step}; `--steps N` goes on to a later step
+"
+        );
+        return if arguments.quiet { Ok(()) } else { print(&text) };
+    }
+    report::execute(simulation, arguments.adapter.as_deref(), &shown, arguments.quiet)
 }

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::{Failure, SceneArguments};
+use mesoscope::run::Simulation;
+
+use super::{Failure, SceneArguments, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -36,6 +38,9 @@ pub struct Arguments {
 
 /// Simulates the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    arguments.scene.load()?;
-    Err(Failure::usage("the scene is correct, but `run` is not available in this build"))
+    let scene = arguments.scene.load()?;
+    let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
+    let shown = directory.display().to_string();
+    let simulation = Simulation::start(scene, directory, arguments.force);
+    report::execute(simulation, arguments.adapter.as_deref(), &shown, arguments.quiet)
 }

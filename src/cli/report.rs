@@ -1,0 +1,234 @@
+//! What a run tells its user: a line at the start, progress, a table at the end.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::model::Model;
+use mesoscope::output::Summary;
+use mesoscope::run::{Event, Outcome, Progress, Simulation};
+use mesoscope::scene::{self, Scene};
+
+use super::table::{aligned, grouped, prefixed};
+use super::{Failure, SceneArguments, print};
+
+/// Executes a run and reports on it, unless it is to be quiet.
+pub fn execute(simulation: Simulation, adapter: Option<&str>, directory: &str, quiet: bool) -> Result<(), Failure> {
+    let choice = mesoscope::gpu::AdapterChoice::parse(adapter);
+    if quiet {
+        simulation.execute(&choice, &mut |_| {})?;
+        return Ok(());
+    }
+    let mut reporter = Reporter::new(simulation.scene().clone());
+    for warning in scene::warnings(simulation.scene()) {
+        reporter.line(&format!("warning: {warning}"));
+    }
+    let result = simulation.execute(&choice, &mut |event| reporter.tell(event));
+    reporter.clear();
+    let outcome = result?;
+    let known: Vec<String> = scene::warnings(&outcome.summary.scene).iter().map(ToString::to_string).collect();
+    for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
+        reporter.line(&format!("warning: {warning}"));
+    }
+    print(&results(&outcome, directory))
+}
+
+/// The directory of a run whose user names none.
+pub fn default_directory(arguments: &SceneArguments) -> String {
+    let stem = std::path::Path::new(&arguments.scene).file_stem().and_then(|stem| stem.to_str());
+    stem.unwrap_or("run").to_owned()
+}
+
+/// A short run needs no lines of progress.
+const BETWEEN_LINES: Duration = Duration::from_secs(1);
+
+struct Reporter {
+    scene: Scene,
+    bar: Option<ProgressBar>,
+    terminal: bool,
+    /// Tenths of the run already told on lines of their own, and when the last was.
+    told: u64,
+    told_at: Instant,
+    first_step: u64,
+}
+
+impl Reporter {
+    fn new(scene: Scene) -> Self {
+        Self {
+            scene,
+            bar: None,
+            terminal: std::io::stderr().is_terminal(),
+            told: 0,
+            told_at: Instant::now(),
+            first_step: 0,
+        }
+    }
+
+    fn line(&self, text: &str) {
+        // Nobody is left to tell if standard error is closed.
+        let _ = writeln!(std::io::stderr().lock(), "{text}");
+    }
+
+    fn clear(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn tell(&mut self, event: Event<'_>) {
+        match event {
+            Event::Started { adapter, first_step, last_step } => {
+                let particles = Model::new(&self.scene).particle_count();
+                let noun = if particles == 1 { "particle" } else { "particles" };
+                let dimension = self.scene.space.lengths.len();
+                let (name, driver) = (&adapter.name, &adapter.driver);
+                let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
+                let title = &self.scene.title;
+                // A closed standard output will be noticed when the results are printed.
+                let _ = print(&format!(
+                    "{title}: {} {noun} in {dimension} dimensions{begin}, on {name} ({driver})\n",
+                    grouped(particles)
+                ));
+                self.first_step = first_step;
+                if self.terminal {
+                    let bar = ProgressBar::new(last_step).with_position(first_step);
+                    let style = ProgressStyle::with_template("step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
+                    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
+                    self.bar = Some(bar);
+                }
+            }
+            Event::Advanced(progress) => self.advanced(&progress),
+            Event::Repeating { from, reason } => {
+                let text = format!("note: {reason}; going on from step {} with more memory", grouped(from));
+                match &self.bar {
+                    Some(bar) => bar.suspend(|| self.line(&text)),
+                    None => self.line(&text),
+                }
+            }
+            Event::Finishing => {
+                if let Some(bar) = &self.bar {
+                    bar.set_message("writing results");
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn advanced(&mut self, progress: &Progress) {
+        if let Some(bar) = &self.bar {
+            bar.set_position(progress.step);
+            bar.set_message(describe(progress));
+            return;
+        }
+        let steps = (progress.last_step - self.first_step).max(1);
+        let tenth = 10 * (progress.step - self.first_step) / steps;
+        if tenth > self.told && progress.step < progress.last_step && self.told_at.elapsed() > BETWEEN_LINES {
+            self.told = tenth;
+            self.told_at = Instant::now();
+            let percent = 100 * progress.step / progress.last_step.max(1);
+            let (step, last) = (grouped(progress.step), grouped(progress.last_step));
+            self.line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress)));
+        }
+    }
+}
+
+fn describe(progress: &Progress) -> String {
+    let mut parts = Vec::new();
+    if progress.particle_steps_per_second > 0.0 {
+        parts.push(format!("{} particle-steps/s", prefixed(progress.particle_steps_per_second)));
+    }
+    if let Some(temperature) = progress.temperature {
+        parts.push(format!("kT {temperature:.3}"));
+    }
+    if let Some(remaining) = progress.remaining {
+        parts.push(format!("{} left", duration(remaining.as_secs())));
+    }
+    parts.join("  ")
+}
+
+fn duration(seconds: u64) -> String {
+    match seconds {
+        0..60 => format!("{seconds} s"),
+        60..3600 => format!("{} min {:02} s", seconds / 60, seconds % 60),
+        _ => format!("{} h {:02} min", seconds / 3600, seconds / 60 % 60),
+    }
+}
+
+fn results(outcome: &Outcome, directory: &str) -> String {
+    let summary = &outcome.summary;
+    let mut rows = Vec::new();
+    for (column, label) in [
+        ("temperature", "temperature"),
+        ("configurational_temperature", "configurational temperature"),
+        ("pressure", "pressure"),
+    ] {
+        if let Some(value) = mean(summary, column) {
+            rows.push(vec![label.to_owned(), value]);
+        }
+    }
+    for (label, path) in [
+        ("g(r) peak", ["radial_distribution", "peak_height"]),
+        ("diffusion (Einstein)", ["diffusion", "diffusion_einstein"]),
+        ("diffusion (Green-Kubo)", ["diffusion", "diffusion_green_kubo"]),
+        ("shear viscosity", ["viscosity", "shear_viscosity"]),
+    ] {
+        let Some(found) = summary.results.get(path[0]).and_then(|result| result.get(path[1])) else { continue };
+        let value = match (found.as_f64(), found["value"].as_f64()) {
+            (Some(height), _) => {
+                let distance = summary.results[path[0]]["peak_distance"].as_f64().unwrap_or(f64::NAN);
+                format!("{height:.3} at {distance:.3}")
+            }
+            (None, Some(value)) => with_error(value, found["standard_error"].as_f64()),
+            (None, None) => continue,
+        };
+        rows.push(vec![label.to_owned(), value]);
+    }
+    if summary.particle_steps_per_second > 0.0 {
+        let rate = prefixed(summary.particle_steps_per_second);
+        rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
+    }
+    let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
+    if outcome.snapshots > 0 {
+        files.push(format!("{} numbered snapshots", outcome.snapshots));
+    }
+    format!("{}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
+}
+
+fn mean(summary: &Summary, column: &str) -> Option<String> {
+    let mean = summary.means.get(column)?;
+    let text = with_error(mean["mean"].as_f64()?, mean["standard_error"].as_f64());
+    // An error that has not settled is a lower bound.
+    let unsettled = mean["converged"] == false && mean["standard_error"].is_number();
+    Some(if unsettled { format!("{text} (few samples: the error may be larger)") } else { text })
+}
+
+/// A value to the second digit of its error.
+fn with_error(value: f64, error: Option<f64>) -> String {
+    match error.filter(|error| error.is_finite() && *error > 0.0) {
+        Some(error) => {
+            let digits = (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize;
+            format!("{value:.digits$} ± {error:.digits$}")
+        }
+        None => format!("{value:.6}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_the_digits_their_errors_allow() {
+        assert_eq!(with_error(23.63512, Some(0.0213)), "23.635 ± 0.021");
+        assert_eq!(with_error(1234.5, Some(120.0)), "1234 ± 120");
+        assert_eq!(with_error(1.0, None), "1.000000");
+        assert_eq!(with_error(1.0, Some(0.0)), "1.000000");
+    }
+
+    #[test]
+    fn times_are_short() {
+        assert_eq!(duration(7), "7 s");
+        assert_eq!(duration(67), "1 min 07 s");
+        assert_eq!(duration(7267), "2 h 01 min");
+    }
+}

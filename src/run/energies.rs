@@ -1,0 +1,153 @@
+//! The table of energies of a run, and the means of its columns.
+
+use super::RunError;
+use crate::measure::Observables;
+use crate::measure::statistics::{Estimate, estimate};
+use crate::model::Model;
+use crate::output::{EnergiesFile, Summary, files, read_table};
+use crate::plot::EnergyTable;
+use crate::scene::Scene;
+use std::path::Path;
+
+type Cell = fn(&Observables, f64) -> f64;
+
+/// The columns of a model after `step`; those without meaning for it are left out.
+fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
+    let repulsive = model.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0);
+    let spatial = model.units.dimension == 3;
+    let all: [(&'static str, bool, Cell); 14] = [
+        ("time", true, |row, step| row.step as f64 * step),
+        ("kinetic_energy", true, |row, _| row.kinetic_energy),
+        ("potential_energy", repulsive, |row, _| row.potential_energy),
+        ("total_energy", true, |row, _| row.total_energy()),
+        ("temperature", true, |row, _| row.kinetic_temperature()),
+        (CONFIGURATIONAL, repulsive, |row, _| row.configurational_temperature()),
+        ("pressure", true, |row, _| row.pressure()),
+        ("pressure_conservative", repulsive, |row, _| row.conservative_pressure()),
+        ("momentum_x", true, |row, _| row.momentum[0]),
+        ("momentum_y", true, |row, _| row.momentum[1]),
+        ("momentum_z", spatial, |row, _| row.momentum[2]),
+        ("center_of_mass_velocity_x", true, |row, _| row.centre_of_mass_velocity()[0]),
+        ("center_of_mass_velocity_y", true, |row, _| row.centre_of_mass_velocity()[1]),
+        ("center_of_mass_velocity_z", spatial, |row, _| row.centre_of_mass_velocity()[2]),
+    ];
+    all.into_iter().filter(|(_, applies, _)| *applies).map(|(name, _, cell)| (name, cell)).collect()
+}
+
+const CONFIGURATIONAL: &str = "configurational_temperature";
+
+/// The rows so far, on disk and in memory.
+pub(super) struct EnergyRecorder {
+    file: EnergiesFile,
+    columns: Vec<(&'static str, Cell)>,
+    rows: Vec<Vec<f64>>,
+    /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
+    configuration: Vec<[f64; 2]>,
+    time_step: f64,
+    equilibration: u64,
+}
+
+impl EnergyRecorder {
+    /// Begins the table at step 0, or continues it before `step` with what [`Self::section`] returned there.
+    pub(super) fn open(
+        path: &Path,
+        scene: &Scene,
+        model: &Model,
+        step: u64,
+        section: Option<&[u8]>,
+    ) -> Result<Self, RunError> {
+        let columns = columns(model);
+        let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let (file, rows) = if step == 0 {
+            (EnergiesFile::create(path, &names)?, Vec::new())
+        } else {
+            let file = EnergiesFile::resume(path, &names, step - 1)?;
+            (file, read_table(path)?.rows)
+        };
+        let configuration = section.map(super::analyses::numbers).unwrap_or_default();
+        let configuration = configuration.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        let (time_step, equilibration) = (scene.time.step, scene.time.equilibration);
+        Ok(Self { file, columns, rows, configuration, time_step, equilibration })
+    }
+
+    /// What a checkpoint has to keep beside the table itself.
+    pub(super) fn section(&self) -> Vec<u8> {
+        super::analyses::bytes(self.configuration.iter().flatten().copied())
+    }
+
+    pub(super) fn add(&mut self, observables: &Observables) -> Result<(), RunError> {
+        let cells: Vec<f64> = self.columns.iter().map(|(_, cell)| cell(observables, self.time_step)).collect();
+        self.file.append(observables.step, &cells)?;
+        self.rows.push(std::iter::once(observables.step as f64).chain(cells).collect());
+        if observables.step >= self.equilibration {
+            self.configuration.push([observables.gradient_squared, observables.laplacian]);
+        }
+        Ok(())
+    }
+
+    pub(super) fn flush(&mut self) -> Result<(), RunError> {
+        Ok(self.file.flush()?)
+    }
+
+    pub(super) fn sync(&mut self) -> Result<(), RunError> {
+        Ok(self.file.sync()?)
+    }
+
+    /// Kinetic temperature of the last row.
+    pub(super) fn temperature(&self) -> Option<f64> {
+        let column = 1 + self.columns.iter().position(|(name, _)| *name == "temperature")?;
+        self.rows.last().map(|row| row[column]).filter(|temperature| temperature.is_finite())
+    }
+
+    /// Adds the means after equilibration to a summary.
+    pub(super) fn summarise(&self, summary: &mut Summary) {
+        for (index, (name, _)) in self.columns.iter().enumerate().filter(|(_, (name, _))| *name != "time") {
+            let mean = if *name == CONFIGURATIONAL {
+                ratio_of_means(&self.configuration)
+            } else {
+                let rows = self.rows.iter().filter(|row| row[0] >= self.equilibration as f64);
+                estimate(&rows.map(|row| row[index + 1]).collect::<Vec<_>>())
+            };
+            summary.add_mean(name, mean.as_ref());
+        }
+        if self.rows.iter().all(|row| row[0] < self.equilibration as f64) {
+            let text = format!("`{}` has no row after equilibration, so there are no means", files::ENERGIES);
+            summary.warnings.push(text);
+        }
+    }
+
+    /// The table for a plot.
+    pub(super) fn table(&self) -> EnergyTable {
+        let names = std::iter::once("step").chain(self.columns.iter().map(|(name, _)| *name));
+        EnergyTable { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
+    }
+}
+
+/// ⟨a⟩/⟨b⟩. Its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩, which blocking gives.
+fn ratio_of_means(pairs: &[[f64; 2]]) -> Option<Estimate> {
+    let total = |index: usize| pairs.iter().map(|pair| pair[index]).sum::<f64>();
+    let mean_below = total(1) / pairs.len() as f64;
+    let ratio = total(0) / total(1);
+    if !ratio.is_finite() {
+        return None;
+    }
+    let deviations: Vec<f64> = pairs.iter().map(|[above, below]| (above - ratio * below) / mean_below).collect();
+    estimate(&deviations).map(|error| Estimate { mean: ratio, ..error })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_mean_ratio_weighs_by_its_denominator() {
+        let found = ratio_of_means(&[[1.0, 1.0], [9.0, 3.0]]).unwrap();
+        assert_eq!(found.mean, 2.5);
+        // Deviations (1 - 2.5)/2 and (9 - 7.5)/2: ±0.75, whose mean has the error 0.75.
+        assert!((found.standard_error.unwrap() - 0.75).abs() < 1e-15);
+        assert_eq!(found.samples, 2);
+        assert_eq!(ratio_of_means(&[]), None);
+        assert_eq!(ratio_of_means(&[[0.0, 0.0]]), None);
+    }
+}

@@ -1,0 +1,57 @@
+//! What can go wrong with a run.
+
+use crate::engine::EngineError;
+use crate::gpu::GpuError;
+use crate::output::OutputError;
+use crate::output::checkpoint::CheckpointError;
+use crate::plot::PlotError;
+use crate::scene::SceneError;
+use std::path::PathBuf;
+
+/// A failure of a run.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The adapter cannot be used, or failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The simulation left the range where its numbers mean anything.
+    #[error("{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`", checkpoint.display())]
+    Unstable {
+        /// When, what, and a time step to try.
+        source: EngineError,
+        /// The file of the last good checkpoint.
+        checkpoint: PathBuf,
+        /// Its step.
+        checkpoint_step: u64,
+    },
+    /// The engine refuses the state, or has no room for its particles.
+    #[error(transparent)]
+    Engine(EngineError),
+    /// A file of the run cannot be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The checkpoint cannot be resumed from.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// A change to the scene of a run does not fit.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A picture cannot be drawn.
+    #[error("cannot draw `{name}`: {source}")]
+    Plot {
+        /// The file it would have become.
+        name: String,
+        /// The reason.
+        source: PlotError,
+    },
+}
+
+impl From<EngineError> for RunError {
+    fn from(error: EngineError) -> Self {
+        match error {
+            EngineError::Gpu(error) => Self::Gpu(error),
+            error => Self::Engine(error),
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Runs: from a checked scene to the files it leaves.
+//!
+//! A [`Simulation`] is started from a scene or resumed from a directory. It opens an adapter, advances the engine from
+//! one event to the next (a checkpoint, a snapshot, a frame, the end), and writes what the scene asks for. It prints
+//! nothing: an observer is told how far it is.
+//!
+//! ```no_run
+//! use mesoscope::gpu::AdapterChoice;
+//! use mesoscope::run::{Event, Simulation};
+//!
+//! let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+//! let outcome = Simulation::start(scene, "results", false).execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
+//!     if let Event::Advanced(progress) = event {
+//!         println!("step {} of {}", progress.step, progress.last_step);
+//!     }
+//! })?;
+//! println!("{:?}", outcome.summary.means.get("temperature"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod analyses;
+mod energies;
+mod error;
+mod pace;
+mod pictures;
+mod schedule;
+mod simulation;
+
+pub use error::RunError;
+pub use pictures::redraw;
+pub use simulation::{Outcome, Simulation};
+
+use crate::gpu::AdapterDescription;
+use std::time::Duration;
+
+/// What an observer of a run is told.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum Event<'a> {
+    /// The adapter is open and the files are ready.
+    Started {
+        /// The adapter.
+        adapter: &'a AdapterDescription,
+        /// The step the run begins with.
+        first_step: u64,
+        /// The step it will end with.
+        last_step: u64,
+    },
+    /// A batch of steps was handed to the device.
+    Advanced(Progress),
+    /// The run goes back to an earlier step, to repeat the steps since with more memory; results are the same.
+    Repeating {
+        /// The step it goes on from.
+        from: u64,
+        /// Why.
+        reason: &'a str,
+    },
+    /// All steps are done; tables and pictures follow.
+    Finishing,
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Steps handed to the device so far.
+    pub step: u64,
+    /// The step to end with.
+    pub last_step: u64,
+    /// Particle-steps per second since the run began; 0 as long as it is unknown.
+    pub particle_steps_per_second: f64,
+    /// Time that the rest will take at this rate.
+    pub remaining: Option<Duration>,
+    /// Kinetic temperature of the last row of the table of energies.
+    pub temperature: Option<f64>,
+}

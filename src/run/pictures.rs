@@ -1,0 +1,250 @@
+//! The pictures of a run, drawn from its tables and states.
+
+use super::RunError;
+use super::simulation::{open_adapter, plan_for};
+use crate::engine::Engine;
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::model::Model;
+use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table};
+use crate::plan::Options;
+use crate::plot::{
+    Axis, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Series, correlation_chart, energies_chart,
+    radial_distribution_chart,
+};
+use crate::scene::{self, Scene, SnapshotColor};
+use crate::state::State;
+use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png::PngEncoder};
+use std::io;
+
+/// Draws the pictures of a run again from the files it left, with changes to the look given as overrides of the scene
+/// (`output.plot.width=800`). Returns the names of the files written.
+///
+/// # Errors
+/// [`RunError`] when there is no finished run in the directory, an override does not fit, or a picture cannot be drawn.
+pub fn redraw(
+    directory: &RunDirectory,
+    choice: &AdapterChoice,
+    overrides: &[String],
+) -> Result<Vec<&'static str>, RunError> {
+    let summary = Summary::load(&directory.file(files::SUMMARY))?;
+    let text = serde_json::to_string(&summary.scene).unwrap_or_default();
+    let scene = scene::parse(files::SUMMARY, &text, overrides)?;
+    // The run's own scene for everything but the look.
+    let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
+    let model = Model::new(&checkpoint.scene);
+    let gpu = open_adapter(&checkpoint.scene, &model, choice)?;
+    let mut pictures = Pictures::new(&gpu, directory, &scene);
+    let table = read_table(&directory.file(files::ENERGIES))?;
+    pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
+    let mut written = vec![files::ENERGIES_PLOT];
+    for (name, plot) in ANALYSES {
+        if directory.file(name).exists() && pictures.analysis(name)? {
+            written.push(plot);
+        }
+    }
+    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default());
+    let state = Engine::new(&gpu, plan, &checkpoint.state)?.reported()?;
+    pictures.snapshot(files::SNAPSHOT, &state, &model)?;
+    written.push(files::SNAPSHOT);
+    Ok(written)
+}
+
+/// Tables of analyses and their plots.
+const ANALYSES: [(&str, &str); 3] = [
+    (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
+    (files::DIFFUSION, files::DIFFUSION_PLOT),
+    (files::VISCOSITY, files::VISCOSITY_PLOT),
+];
+
+/// Draws into the directory of a run; pipelines are made with the first picture.
+pub(super) struct Pictures<'a> {
+    gpu: &'a Gpu,
+    directory: &'a RunDirectory,
+    scene: &'a Scene,
+    plotter: Option<Plotter>,
+}
+
+impl<'a> Pictures<'a> {
+    pub(super) fn new(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene) -> Self {
+        Self { gpu, directory, scene, plotter: None }
+    }
+
+    pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
+        let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
+        chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
+        if show_settled(&mut chart, model.time_step * self.scene.time.equilibration as f64) {
+            chart.subtitle.push_str("; temperatures at the start are off the scale");
+        }
+        self.chart(files::ENERGIES_PLOT, &chart)
+    }
+
+    /// Draws the plots of all analyses whose tables are there.
+    pub(super) fn analyses(&mut self) -> Result<(), RunError> {
+        for (name, _) in ANALYSES {
+            if self.directory.file(name).exists() {
+                self.analysis(name)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the plot of one table; returns false when there is nothing in it.
+    fn analysis(&mut self, name: &str) -> Result<bool, RunError> {
+        let table = read_table(&self.directory.file(name))?;
+        if table.rows.is_empty() {
+            return Ok(false);
+        }
+        let column = |name: &str| table.column(name).unwrap_or_default();
+        let title = &self.scene.title;
+        let (plot, chart) = match name {
+            files::RADIAL_DISTRIBUTION => (
+                files::RADIAL_DISTRIBUTION_PLOT,
+                radial_distribution_chart(title, &column("distance"), &column("radial_distribution")),
+            ),
+            files::DIFFUSION => {
+                let [displacement, velocity] = ["mean_squared_displacement", "velocity_autocorrelation"].map(column);
+                (files::DIFFUSION_PLOT, correlation_chart(title, &column("time"), &displacement, &velocity))
+            }
+            _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
+        };
+        self.chart(plot, &chart)?;
+        Ok(true)
+    }
+
+    pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
+        let units = model.units;
+        let positions: Vec<[f64; 3]> = state.positions.iter().map(|position| units.position(*position)).collect();
+        let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
+        let speed = |(momentum, species): (&[i32; 3], &u32)| {
+            let mass = model.species.get(*species as usize).map_or(f64::NAN, |species| species.mass);
+            units.momentum(*momentum).iter().map(|component| component * component).sum::<f64>().sqrt() / mass
+        };
+        let speeds: Option<Vec<f64>> = by_speed.then(|| state.momenta.iter().zip(&state.species).map(speed).collect());
+        let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
+        let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+        let picture = ParticlePicture {
+            dimension: units.dimension as u32,
+            lengths: units.lengths,
+            positions: &positions,
+            species: &state.species,
+            species_names: &names,
+            speeds: speeds.as_deref(),
+            radius: self.scene.output.snapshot.radius.unwrap_or_else(|| radius(model)),
+            title: &self.scene.title,
+            subtitle: &subtitle,
+        };
+        let style = &self.scene.output.snapshot;
+        let theme = self.scene.output.plot.theme;
+        let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, style, theme));
+        self.save(name, drawn)
+    }
+
+    fn chart(&mut self, name: &str, chart: &Chart) -> Result<(), RunError> {
+        let style = &self.scene.output.plot;
+        let drawn = self.plotter().and_then(|plotter| plotter.draw_chart(chart, style));
+        self.save(name, drawn)
+    }
+
+    fn plotter(&mut self) -> Result<&Plotter, PlotError> {
+        let plotter = match self.plotter.take() {
+            Some(plotter) => plotter,
+            None => Plotter::new(self.gpu.device(), self.gpu.queue())?,
+        };
+        Ok(self.plotter.insert(plotter))
+    }
+
+    fn save(&self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+        let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
+        self.directory.write(name, |writer| {
+            PngEncoder::new(writer)
+                .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
+                .map_err(io::Error::other)
+        })?;
+        Ok(())
+    }
+}
+
+/// Gives the temperatures the range that they have once the run has settled: where particles start at random places,
+/// the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns whether
+/// anything is off that scale.
+fn show_settled(chart: &mut Chart, equilibration: f64) -> bool {
+    let Some(panel) = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature")) else {
+        return false;
+    };
+    let points = || panel.series.iter().flat_map(|series| &series.points).filter(|point| point[1].is_finite());
+    let end = points().map(|point| point[0]).fold(0.0, f64::max);
+    // At least a twentieth of the run, where the scene names no equilibration.
+    let settled = points().filter(|point| point[0] >= equilibration.max(0.05 * end)).map(|point| point[1]);
+    let references = panel.references.iter().map(|reference| reference.value);
+    let [low, high] =
+        settled.chain(references).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
+    let margin = 0.5 * (high - low);
+    let range = [low - margin, high + margin];
+    let off = points().any(|point| !(range[0]..=range[1]).contains(&point[1]));
+    if off && margin > 0.0 {
+        panel.y.range = Some(range);
+    }
+    off && margin > 0.0
+}
+
+/// A third of the cutoff, or, without one, of the distance between neighbours.
+fn radius(model: &Model) -> f64 {
+    let spacing = || {
+        let volume = model.units.volume() / model.particle_count().max(1) as f64;
+        volume.powf(1.0 / model.units.dimension as f64)
+    };
+    model.pair_force.as_ref().map_or_else(spacing, |force| force.cutoff) / 3.0
+}
+
+/// A time without the noise digits of a product: `0.3`, not `0.30000000000000004`.
+fn rounded(time: f64) -> f64 {
+    format!("{time:.12e}").parse().unwrap_or(time)
+}
+
+/// Autocorrelations of the transverse waves; on a logarithmic axis a viscous decay is a straight line.
+fn viscosity_chart(title: &str, table: &Table) -> Chart {
+    let mut panel = Panel::new("Lag (time units)", "Autocorrelation of transverse momentum waves");
+    panel.y = Axis::log("Autocorrelation of transverse momentum waves");
+    for wave in table.rows.chunk_by(|a, b| a[0] == b[0]) {
+        let points = wave.iter().map(|row| [row[1], row[2]]).collect();
+        panel.series.push(Series::line(&format!("k = {:.4}", wave[0][0]), points));
+    }
+    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_read_as_people_write_them() {
+        assert_eq!(rounded(0.1 * 3.0).to_string(), "0.3");
+        assert_eq!(rounded(1e-9 * 3.0).to_string(), "0.000000003");
+        assert_eq!(rounded(80.0).to_string(), "80");
+    }
+
+    #[test]
+    fn a_hot_start_does_not_set_the_scale() {
+        let columns = ["time", "temperature"].map(str::to_owned).to_vec();
+        let rows =
+            (0..100).map(|row| vec![f64::from(row), if row == 0 { 30.0 } else { 1.0 + 0.1 * f64::from(row % 2) }]);
+        let mut table = EnergyTable { columns, rows: rows.collect() };
+        let mut chart = energies_chart("hot", &table, 1, 1.0);
+        assert!(show_settled(&mut chart, 0.0));
+        assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.5 * (1.1 - 1.0), 1.1 + 0.5 * (1.1 - 1.0)]));
+        table.rows[0][1] = 1.0;
+        let mut chart = energies_chart("settled", &table, 1, 1.0);
+        assert!(!show_settled(&mut chart, 0.0));
+        assert_eq!(chart.panels[0].y.range, None);
+    }
+
+    #[test]
+    fn every_wave_is_a_series() {
+        let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
+        let rows = vec![vec![0.5, 0.0, 1.0], vec![0.5, 1.0, 0.8], vec![0.9, 0.0, 1.0]];
+        let chart = viscosity_chart("waves", &Table { columns, rows });
+        let series: Vec<(&str, usize)> =
+            chart.panels[0].series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
+        assert_eq!(series, [("k = 0.5000", 2), ("k = 0.9000", 1)]);
+    }
+}

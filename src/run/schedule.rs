@@ -1,0 +1,85 @@
+//! When a run has to stop for something.
+
+use crate::scene::Scene;
+
+/// The steps of checkpoints, snapshots and frames.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Schedule {
+    last: u64,
+    checkpoint: u64,
+    snapshot: Option<u64>,
+    frame: Option<u64>,
+}
+
+impl Schedule {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let output = &scene.output;
+        Self {
+            last: scene.time.steps,
+            checkpoint: output.checkpoint.every.max(1),
+            snapshot: (output.snapshot.every > 0).then_some(output.snapshot.every),
+            frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
+        }
+    }
+
+    /// The first event after a step.
+    pub(super) fn next(&self, step: u64) -> u64 {
+        let after = |every: u64| (step / every + 1).saturating_mul(every);
+        [Some(self.checkpoint), self.snapshot, self.frame].into_iter().flatten().map(after).fold(self.last, u64::min)
+    }
+
+    /// Whether to save a checkpoint; the start and the end always are.
+    pub(super) fn checkpoint(&self, step: u64) -> bool {
+        step == self.last || step.is_multiple_of(self.checkpoint)
+    }
+
+    /// The number of the snapshot to take.
+    pub(super) fn snapshot(&self, step: u64) -> Option<u64> {
+        self.snapshot.filter(|every| step.is_multiple_of(*every)).map(|every| step / every + 1)
+    }
+
+    /// Number of snapshots taken before a step.
+    pub(super) fn snapshots_before(&self, step: u64) -> u64 {
+        self.snapshot.map_or(0, |every| step.div_ceil(every))
+    }
+
+    /// Whether to add a frame to the trajectory.
+    pub(super) fn frame(&self, step: u64) -> bool {
+        self.frame.is_some_and(|every| step.is_multiple_of(every))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCHEDULE: Schedule = Schedule { last: 100, checkpoint: 40, snapshot: Some(30), frame: None };
+
+    #[test]
+    fn events_come_in_order_and_end_with_the_run() {
+        let mut step = 0;
+        let mut steps = Vec::new();
+        while step < SCHEDULE.last {
+            step = SCHEDULE.next(step);
+            steps.push(step);
+        }
+        assert_eq!(steps, [30, 40, 60, 80, 90, 100]);
+        assert_eq!(Schedule { snapshot: None, checkpoint: u64::MAX, ..SCHEDULE }.next(99), 100);
+    }
+
+    #[test]
+    fn snapshots_are_numbered_without_gaps() {
+        let numbers: Vec<u64> = (0..=100).filter_map(|step| SCHEDULE.snapshot(step)).collect();
+        assert_eq!(numbers, [1, 2, 3, 4]);
+        for step in 0..=100 {
+            let before = (0..step).filter(|earlier| SCHEDULE.snapshot(*earlier).is_some()).count() as u64;
+            assert_eq!(SCHEDULE.snapshots_before(step), before);
+        }
+    }
+
+    #[test]
+    fn the_ends_are_checkpoints() {
+        assert!(SCHEDULE.checkpoint(0) && SCHEDULE.checkpoint(80) && SCHEDULE.checkpoint(100));
+        assert!(!SCHEDULE.checkpoint(30));
+    }
+}

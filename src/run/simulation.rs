@@ -1,0 +1,371 @@
+//! One run from its first step to its summary.
+
+use super::analyses::Analyses;
+use super::energies::EnergyRecorder;
+use super::pace::Pace;
+use super::pictures::Pictures;
+use super::schedule::Schedule;
+use super::{Event, Progress, RunError};
+use crate::engine::{Engine, EngineError, Sample};
+use crate::gpu::{AdapterChoice, Gpu, Requirements};
+use crate::measure::observables_of;
+use crate::model::Model;
+use crate::output::summary::AdapterSummary;
+use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
+use crate::plan::{self, Hardware, Options, Plan};
+use crate::scene::{self, Scene, TrajectoryFormat, placement};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A run to be executed: a scene, where it begins and where its files go.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    scene: Scene,
+    directory: PathBuf,
+    beginning: Beginning,
+}
+
+#[derive(Debug, Clone)]
+enum Beginning {
+    New { force: bool },
+    Checkpoint(Box<Checkpoint>),
+}
+
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// What `run.json` says.
+    pub summary: Summary,
+    /// Names of the files of this run that are in its directory, sorted; numbered snapshots are counted instead.
+    pub files: Vec<&'static str>,
+    /// Number of numbered snapshots.
+    pub snapshots: u64,
+}
+
+impl Simulation {
+    /// A run of a checked scene from step 0 into a directory, which is created. With `force` the files of an earlier
+    /// run there are replaced.
+    #[must_use]
+    pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
+        Self { scene, directory: directory.into(), beginning: Beginning::New { force } }
+    }
+
+    /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given.
+    ///
+    /// # Errors
+    /// [`RunError::Checkpoint`] when there is no checkpoint or it is damaged.
+    pub fn resume(directory: impl Into<PathBuf>, steps: Option<u64>) -> Result<Self, RunError> {
+        let directory = directory.into();
+        let checkpoint = checkpoint::load(&directory.join(files::CHECKPOINT))?;
+        let mut scene = checkpoint.scene.clone();
+        if let Some(steps) = steps {
+            scene.time.steps = steps;
+        }
+        Ok(Self { scene, directory, beginning: Beginning::Checkpoint(Box::new(checkpoint)) })
+    }
+
+    /// The scene, with every default filled in.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The step the run begins with.
+    #[must_use]
+    pub fn first_step(&self) -> u64 {
+        match &self.beginning {
+            Beginning::New { .. } => 0,
+            Beginning::Checkpoint(checkpoint) => checkpoint.state.step,
+        }
+    }
+
+    /// Whether nothing is left to do: the last step is behind and its summary is written.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        let step = self.first_step();
+        step > self.scene.time.steps
+            || step == self.scene.time.steps
+                && Summary::load(&self.directory.join(files::SUMMARY)).is_ok_and(|summary| summary.steps == step)
+    }
+
+    /// Runs to the end and writes everything the scene asks for.
+    ///
+    /// The trajectory of states depends on scene, adapter and driver only: how often it was interrupted and resumed,
+    /// snapshots, checkpoints and the size of batches change no bit of it.
+    ///
+    /// # Errors
+    /// [`RunError`]: no usable adapter, a run that became unstable, files that cannot be written. What was measured
+    /// until then and the last good checkpoint are on disk.
+    pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
+        let Self { scene, directory, beginning } = self;
+        let model = Model::new(&scene);
+        // Before the directory: an adapter that is not there should not cost an earlier run its files.
+        let gpu = open_adapter(&scene, &model, choice)?;
+        let (directory, start) = match beginning {
+            Beginning::New { force } => {
+                let directory = RunDirectory::create(directory, force)?;
+                let state = placement::initial_state(&scene, &model);
+                (directory, Checkpoint { scene: scene.clone(), state, sections: Vec::new() })
+            }
+            Beginning::Checkpoint(checkpoint) => (RunDirectory::open(directory)?, *checkpoint),
+        };
+        let (first_step, last_step) = (start.state.step, scene.time.steps);
+        observer(Event::Started { adapter: gpu.description(), first_step, last_step });
+        let momentum = start.state.total_momentum();
+        let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
+        let mut pace = Pace::new(model.particle_count());
+        let mut attempt = start;
+        let mut options = Options::default();
+        let run = loop {
+            let plan = plan_for(&scene, &model, &gpu, options);
+            let mut engine = Engine::new(&gpu, plan, &attempt.state)?;
+            let mut run = Run::open(&scene, &model, &gpu, &directory, engine.plan(), attempt)?;
+            match run.to_the_end(&mut engine, &mut pace, observer) {
+                Ok(()) => break run,
+                Err(RunError::Engine(EngineError::Crowded { .. })) if options.copies.is_none() => {
+                    // Rare enough not to be paid for by every run, in memory for all that might ever be needed.
+                    let reason = "the particles crowd at the ends of the box";
+                    attempt = checkpoint::load(&directory.file(files::CHECKPOINT))?;
+                    options.copies = Some(model.particle_count());
+                    observer(Event::Repeating { from: attempt.state.step, reason });
+                }
+                Err(RunError::Engine(source @ EngineError::Unstable { .. })) => {
+                    run.energies.flush()?;
+                    let checkpoint = directory.file(files::CHECKPOINT);
+                    return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
+                }
+                Err(error) => return Err(error),
+            }
+        };
+        observer(Event::Finishing);
+        if first_step > 0 && run.analyses.restarts_windows() {
+            warnings.push(format!(
+                "resumed at step {first_step}: a window of `output.diffusion` was open there and is left out"
+            ));
+        }
+        if run.momentum != momentum {
+            warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
+        }
+        run.conclude(warnings, first_step, pace.done())
+    }
+}
+
+/// Opens an adapter with room for the buffers of a scene.
+pub(super) fn open_adapter(scene: &Scene, model: &Model, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+    Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
+}
+
+/// The plan of a scene on an adapter.
+pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
+    let hardware = Hardware { subgroup_size: gpu.subgroup_size() };
+    plan::plan(model, scene.time.equilibration, &scene.output, hardware, options)
+}
+
+/// A run under way: its open files and what it has gathered.
+struct Run<'a> {
+    scene: &'a Scene,
+    model: &'a Model,
+    gpu: &'a Gpu,
+    directory: &'a RunDirectory,
+    schedule: Schedule,
+    energies: EnergyRecorder,
+    analyses: Analyses,
+    trajectory: Option<TrajectoryWriter>,
+    pictures: Pictures<'a>,
+    /// Step of the checkpoint on disk.
+    saved_step: u64,
+    /// Total momentum at that step, in integer units.
+    momentum: [i64; 3],
+}
+
+impl<'a> Run<'a> {
+    /// Creates the files of a run at step 0, or cuts them back to what was there before the step of `start`.
+    fn open(
+        scene: &'a Scene,
+        model: &'a Model,
+        gpu: &'a Gpu,
+        directory: &'a RunDirectory,
+        plan: &Plan,
+        start: Checkpoint,
+    ) -> Result<Self, RunError> {
+        let step = start.state.step;
+        let schedule = Schedule::new(scene);
+        directory.remove_snapshots_after(schedule.snapshots_before(step))?;
+        let section = start.sections.iter().find(|(name, _)| name == CONFIGURATION).map(|(_, bytes)| bytes.as_slice());
+        let energies = EnergyRecorder::open(&directory.file(files::ENERGIES), scene, model, step, section)?;
+        let trajectory = match &scene.output.trajectory {
+            None => None,
+            Some(asked) => {
+                let path = directory.file(trajectory_name(asked.format));
+                Some(match step.checked_sub(1) {
+                    None => TrajectoryWriter::create(&path, asked.format, model)?,
+                    Some(before) => TrajectoryWriter::resume(&path, asked.format, model, before)?,
+                })
+            }
+        };
+        Ok(Self {
+            scene,
+            model,
+            gpu,
+            directory,
+            schedule,
+            energies,
+            analyses: Analyses::new(scene, model, plan, &start.sections),
+            trajectory,
+            pictures: Pictures::new(gpu, directory, scene),
+            saved_step: step,
+            momentum: start.state.total_momentum(),
+        })
+    }
+
+    fn to_the_end(
+        &mut self,
+        engine: &mut Engine<'_>,
+        pace: &mut Pace,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<(), RunError> {
+        let begun = pace.done();
+        let first = engine.step();
+        self.visit(engine, pace)?;
+        while engine.step() < self.scene.time.steps {
+            let event = self.schedule.next(engine.step());
+            pace.begin();
+            while engine.step() < event {
+                let steps = pace.batch().min(event - engine.step());
+                let advanced = engine.advance(steps, steps);
+                // A failure is found a few batches late: what came before it is good.
+                let samples = engine.take_samples();
+                self.record(&samples, engine.plan())?;
+                self.energies.flush()?;
+                advanced?;
+                pace.submitted(steps);
+                observer(Event::Advanced(self.progress(engine.step(), first, begun, pace)));
+            }
+            self.visit(engine, pace)?;
+        }
+        Ok(())
+    }
+
+    /// Does what is due at the current step: a checkpoint, then the samples, then pictures and frames.
+    fn visit(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+        let step = engine.step();
+        if self.schedule.checkpoint(step) {
+            let state = engine.state();
+            pace.finished();
+            let samples = engine.take_samples();
+            self.record(&samples, engine.plan())?;
+            let state = state?;
+            // The checkpoint counts on what is in the files before its step.
+            self.energies.sync()?;
+            if let Some(trajectory) = &mut self.trajectory {
+                trajectory.flush()?;
+            }
+            let mut sections = self.analyses.sections();
+            sections.push((CONFIGURATION.to_owned(), self.energies.section()));
+            checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
+            self.saved_step = step;
+            self.momentum = state.total_momentum();
+            pace.begin();
+        }
+        let samples = engine.finish()?;
+        pace.finished();
+        self.record(&samples, engine.plan())?;
+        self.energies.flush()?;
+        let number = self.schedule.snapshot(step);
+        let frame = self.schedule.frame(step);
+        let last = step == self.scene.time.steps;
+        if number.is_some() || frame || last {
+            let state = engine.reported()?;
+            if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
+                trajectory.append(&state)?;
+                trajectory.flush()?;
+            }
+            if let Some(number) = number {
+                self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+            }
+            if last {
+                self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
+        for sample in samples {
+            if sample.sampler == 0 {
+                self.energies.add(&observables_of(sample, plan, self.model))?;
+            } else {
+                self.analyses.add(sample);
+            }
+        }
+        Ok(())
+    }
+
+    fn progress(&self, step: u64, first: u64, begun: (u64, Duration), pace: &Pace) -> Progress {
+        let (done, spent) = pace.done();
+        let (done, spent) = (done - begun.0, (spent.saturating_sub(begun.1)).as_secs_f64());
+        let rate = if done > 0 && spent > 0.0 { done as f64 / spent } else { 0.0 };
+        let last_step = self.scene.time.steps;
+        let left = last_step.saturating_sub(first + done) as f64 / rate;
+        Progress {
+            step,
+            last_step,
+            particle_steps_per_second: rate * self.model.particle_count() as f64,
+            remaining: Duration::try_from_secs_f64(left).ok(),
+            temperature: self.energies.temperature(),
+        }
+    }
+
+    /// Writes tables, summary and plots.
+    fn conclude(
+        mut self,
+        warnings: Vec<String>,
+        first_step: u64,
+        (steps, spent): (u64, Duration),
+    ) -> Result<Outcome, RunError> {
+        let description = self.gpu.description();
+        let adapter = AdapterSummary {
+            name: description.name.clone(),
+            driver: description.driver.clone(),
+            backend: description.backend.clone(),
+        };
+        let mut summary = Summary::new(self.scene.clone(), adapter, self.model.particle_count());
+        let last_step = self.scene.time.steps;
+        debug_assert!(steps >= last_step - first_step);
+        summary.set_duration(last_step, steps, spent.as_secs_f64());
+        summary.warnings = warnings;
+        self.energies.summarise(&mut summary);
+        self.analyses.conclude(self.directory, &mut summary)?;
+        summary.conserved_exactly = vec!["mass".to_owned(), "total momentum, to the last bit".to_owned()];
+        summary.not_conserved = vec![energy_statement(self.model).to_owned()];
+        // Numbers first: they are worth more than pictures if the disk is full.
+        summary.save(&self.directory.file(files::SUMMARY))?;
+        self.pictures.energies(&self.energies.table(), self.model)?;
+        self.pictures.analyses()?;
+        let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
+        Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
+    }
+}
+
+/// Name of the section of a checkpoint that holds the sums behind the configurational temperature.
+const CONFIGURATION: &str = "configuration";
+
+fn trajectory_name(format: TrajectoryFormat) -> &'static str {
+    match format {
+        TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
+        TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
+    }
+}
+
+fn energy_statement(model: &Model) -> &'static str {
+    let frictional = model.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0);
+    if !frictional {
+        "total energy: only as well as the time step integrates the forces"
+    } else if model.temperature > 0.0 {
+        "total energy: exchanged with the heat bath"
+    } else {
+        "total energy: taken away by friction"
+    }
+}
