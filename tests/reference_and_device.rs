@@ -70,7 +70,7 @@ fn splitting() {
     both(&[SPLITTING, "interactions.0.friction=1e-6"]);
     both(&[SPLITTING, "interactions.0.friction=200"]);
     both(&[SPLITTING, "temperature=0", r#"particles.0.velocities={"type":"rest"}"#]);
-    both(&[SPLITTING, "space.box=[2,2,2]", r#"particles=[{"species":"A","count":400}]"#, "time.step=0.002"]);
+    both(&[SPLITTING, "space.box=[2,2,2]", r#"particles=[{"species":"A","count":100}]"#, "time.step=0.002"]);
 }
 
 #[test]

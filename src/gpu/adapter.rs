@@ -19,8 +19,7 @@ impl AdapterChoice {
     #[must_use]
     pub fn parse(text: Option<&str>) -> Self {
         match text {
-            None => Self::Best,
-            Some("best") => Self::Best,
+            None | Some("best") => Self::Best,
             Some("software") => Self::Software,
             Some(name) => Self::Named(name.to_owned()),
         }

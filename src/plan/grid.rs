@@ -28,9 +28,9 @@ impl Grid {
         let budget = (4.0 * particles as f64).max(27.0);
         let mut width = cutoff;
         loop {
-            for axis in 0..dimension {
+            for (axis, count) in cells.iter_mut().enumerate().take(dimension) {
                 let room = (units.lengths[axis] / width * (1.0 + 1e-12)).floor().min(1024.0) as u32;
-                cells[axis] = if room < 3 { 1 } else { room };
+                *count = if room < 3 { 1 } else { room };
             }
             if cells.iter().map(|count| f64::from(*count)).product::<f64>() <= budget {
                 break;

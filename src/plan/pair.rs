@@ -473,7 +473,7 @@ impl Builder<'_> {
             f64::from(if axis < self.grid.dimension { cells.min(self.grid.cells[axis]) } else { 1 })
         };
         let bins = asked.bins;
-        let constants = vec![
+        let constants = [
             ("BINS", f64::from(bins)),
             ("HISTOGRAM_RANGE", asked.range),
             ("SPAN_X", span(0)),

@@ -154,15 +154,12 @@ impl Reference {
         Ok(observables::observe(self, &configuration, &report))
     }
 
-    /// The state that a report shows: r(n) and p(n), full-step momenta; for a split step, which begins and ends there,
-    /// [`Self::state_between_forces`].
+    /// Positions and momenta of the motion at the report point of the current step, r(n) and p(n): full-step momenta,
+    /// for a split step those after the relaxation.
     ///
     /// # Errors
-    /// [`Unstable`] as [`Self::step`].
+    /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
     pub fn reported_state(&self) -> Result<State, Unstable> {
-        if self.model.splits() {
-            return self.state_between_forces().map(|state| State { step: self.state.step, ..state });
-        }
         let momenta = self.narrow(&self.report(&self.pairs()).momenta)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }

@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::noise::{self, stream};
 
 /// The rule by which O relaxes the velocities of pairs that share particles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Relaxation {
     /// Exponential relaxation in the mean field of all pairs that share a particle; the rule of the device.
@@ -28,6 +28,7 @@ pub enum Relaxation {
     /// the mean projection 1/d of one direction on another:
     /// s = μ (g/μ² + (Γᵢ - g)/(d mᵢ²) + (Γⱼ - g)/(d mⱼ²)), Γᵢ the sum of g over the pairs of i. The impulse is
     /// -g (1 - e⁻ˢ)/s u + √(kT g (1 - e⁻²ˢ)/s) ζ: for a pair alone the exact solution.
+    #[default]
     MeanField,
     /// Each pair by the exact solution for that pair alone, all from the same momenta.
     Exponential,
@@ -36,12 +37,6 @@ pub enum Relaxation {
         /// Number of corrections; none is the explicit rule.
         corrections: u32,
     },
-}
-
-impl Default for Relaxation {
-    fn default() -> Self {
-        Self::MeanField
-    }
 }
 
 /// Momenta after O and the kick that follows.

@@ -12,7 +12,7 @@ use mesoscope::reference::Reference;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-/// The adapter of the tests: the one named by MESOSCOPE_ADAPTER, or the best.
+/// The adapter of the tests: the one named by `MESOSCOPE_ADAPTER`, or the best.
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| {
