@@ -16,9 +16,10 @@ const FAILURE_MOMENTUM: u32 = 2u;  // a momentum came near the end of its range
 const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutoff in one step
 const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies
 
+// A loop, not a branch: software adapters execute both sides of a branch, atomics included, but leave a loop.
 fn raise(failure: u32) {
-    if (failure != 0u) {
-        atomicOr(&control.failures, failure);
+    for (var pending = failure; pending != 0u; pending = 0u) {
+        atomicOr(&control.failures, pending);
         atomicMin(&control.failure_elapsed, control.elapsed);
     }
 }

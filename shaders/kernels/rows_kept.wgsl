@@ -1,6 +1,8 @@
 // Visits the pairs that an earlier pass found, one invocation a particle. For any subgroup size.
 override SEGMENTS: u32; // workgroups that share a row
 
+const WORDS: u32 = 32u;
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
@@ -21,15 +23,15 @@ fn visit(row: u32, index: u32) {
     let last_column = column + 2u * frame();
     let slot = unframed_index(row, index);
     var sums = pass_begin(me);
-    var word = 0u;
+    var masks: array<u32, WORDS>;
+    var bases: array<u32, WORDS>;
+    var number = 0u;
     var neighbour = 0u;
     var base = 0u;
     var end = 0u;
-    var mask = 0u;
-    var mask_base = 0u;
-    // One loop over pairs and words, so that lanes with a short row need not wait for lanes with a long one.
     loop {
-        if (mask == 0u) {
+        var filled = 0u;
+        while (filled < WORDS) {
             if (base >= end) {
                 if (neighbour == neighbour_rows()) { break; }
                 let start = neighbour_row(row, neighbour) * row_width();
@@ -38,14 +40,26 @@ fn visit(row: u32, index: u32) {
                 neighbour += 1u;
                 continue;
             }
-            mask = kept_mask(slot, word, min(32u, end - base), index - base);
-            mask_base = base;
-            word += 1u;
+            let mask = kept_mask(slot, number, min(32u, end - base), index - base);
+            number += 1u;
+            masks[filled] = mask;
+            bases[filled] = base;
+            filled += select(0u, 1u, mask != 0u);
             base += 32u;
-            continue;
         }
-        pass_pair(&sums, me, mask_base + firstTrailingBit(mask));
-        mask &= mask - 1u;
+        var word = 0u;
+        var mask = masks[0];
+        var word_base = bases[0];
+        while (word < filled) {
+            pass_pair(&sums, me, word_base + firstTrailingBit(mask));
+            mask &= mask - 1u;
+            if (mask == 0u) {
+                word += 1u;
+                mask = masks[word & 31u];
+                word_base = bases[word & 31u];
+            }
+        }
+        if (base >= end && neighbour == neighbour_rows()) { break; }
     }
     pass_end(row, index, me, sums);
 }
