@@ -120,8 +120,8 @@ impl Simulation {
         let run = loop {
             let plan = plan_for(&scene, &model, &gpu, options);
             let mut engine = Engine::new(&gpu, plan, &attempt.state)?;
-            let mut run = Run::open(&scene, &model, &gpu, &directory, engine.plan(), attempt)?;
-            match run.to_the_end(&mut engine, &mut pace, observer) {
+            let mut run = Run::open(&scene, &model, &gpu, &directory, engine.plan(), &attempt)?;
+            match run.advance_to_end(&mut engine, &mut pace, observer) {
                 Ok(()) => break run,
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.copies.is_none() => {
                     // Rare enough not to be paid for by every run, in memory for all that might ever be needed.
@@ -188,7 +188,7 @@ impl<'a> Run<'a> {
         gpu: &'a Gpu,
         directory: &'a RunDirectory,
         plan: &Plan,
-        start: Checkpoint,
+        start: &Checkpoint,
     ) -> Result<Self, RunError> {
         let step = start.state.step;
         let schedule = Schedule::new(scene);
@@ -220,7 +220,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn to_the_end(
+    fn advance_to_end(
         &mut self,
         engine: &mut Engine<'_>,
         pace: &mut Pace,
