@@ -15,6 +15,7 @@ fn drift_of(species: i32) -> f32 { return DRIFT; }
 fn kinetic_of(species: i32) -> f32 { return KINETIC; }
 
 // Rate of a pair among others; rates are per mass.
+fn rate_scale_of(species: i32) -> f32 { return 1.0; } // the friction is one of momenta already
 fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
     return 2.0 * own + (mine + theirs) * (0.5 / f32(DIMENSION));
 }

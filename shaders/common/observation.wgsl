@@ -21,8 +21,9 @@ fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: 
     (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(magnitude * contact.w * PAIR_ENERGY));
     (*sums).conservative_virial =
         sum64_add((*sums).conservative_virial, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
+    // Two particles in the same place exert no force, and have no curvature either.
     let slope = contact.w / max(contact.distance, 1e-6 * CUTOFF);
-    let curvature = repulsion * (1.0 / CUTOFF - f32(DIMENSION - 1u) * slope);
+    let curvature = select(0.0, repulsion * (1.0 / CUTOFF - f32(DIMENSION - 1u) * slope), contact.distance > 0.0);
     (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(curvature * LAPLACIAN));
     (*sums).force += Steps(round(magnitude * contact.direction));
 }

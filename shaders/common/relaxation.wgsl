@@ -19,7 +19,9 @@ fn relaxed_share(s: f32) -> f32 {
 // Impulse along the line of centres that relaxes the pair and makes its noise.
 fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
     let rate = friction_rate(c, root);
-    let s = pair_rate(me, other, rate, max(rate_of(me) - rate, 0.0), max(rate_of(other) - rate, 0.0));
+    let mine = max(rate_of(me) - rate * rate_scale_of(species_of(me)), 0.0);
+    let theirs = max(rate_of(other) - rate * rate_scale_of(species_of(other)), 0.0);
+    let s = pair_rate(me, other, rate, mine, theirs);
     let share = relaxed_share(s);
     let motion = relative_motion(me, other, steps_of(me.momentum), steps_of(other.momentum));
     let noise = random_impulse(c, root, me, other) * sqrt(2.0 * share * (2.0 - s * share));

@@ -27,9 +27,11 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     probes[target_index] = probe;
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
         let copy = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)] + rank;
-        if (copy < CAPACITY) {
-            sorted[copy] = particle;
-            probes[copy] = probe;
+        if (copy >= CAPACITY) {
+            raise(FAILURE_FRAMES);
+            return;
         }
+        sorted[copy] = particle;
+        probes[copy] = probe;
     }
 }

@@ -10,7 +10,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let root = root_weight(contact.w);
     let kick = Steps(round(repulsion_impulse(c, contact.w) * contact.direction));
     (*sums).kick += select(Steps(0), kick, contact.inside);
-    (*sums).rate += select(0u, rate_units(friction_rate(c, root)), contact.inside);
+    (*sums).rate += select(0u, rate_units(friction_rate(c, root) * rate_scale_of(species_of(me))), contact.inside);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let momentum = steps_of(me.momentum) + control.closing * sums.kick;

@@ -132,11 +132,22 @@ impl<'a> Engine<'a> {
         self.step
     }
 
-    /// Replaces the state: positions, momenta and step.
+    /// Replaces the state: positions, momenta and step. Samples of the old state that have not been taken are lost, and
+    /// so are its failures: the engine begins anew.
     ///
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan.
     pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        let in_order: Vec<usize> = (0..state.len()).collect();
+        self.upload_in_order(state, &in_order)
+    }
+
+    /// The same with the particles stored in a given order of their ids, which changes no result: what a run has
+    /// shuffled its particles into is forgotten by a checkpoint, and may be.
+    ///
+    /// # Errors
+    /// [`EngineError::State`] if the number of particles is not that of the plan or the order is not one of all ids.
+    pub fn upload_in_order(&mut self, state: &State, order: &[usize]) -> Result<(), EngineError> {
         let refuse = |reason: String| Err(EngineError::State { reason });
         if state.len() as u64 != self.plan.particles {
             return refuse(format!("{} particles, where the plan has {}", state.len(), self.plan.particles));
@@ -144,9 +155,14 @@ impl<'a> Engine<'a> {
         if self.plan.predicted && state.step > 0 && state.predicted.len() != state.len() {
             return refuse("predicted momenta are missing".to_owned());
         }
+        let mut sorted_order = order.to_vec();
+        sorted_order.sort_unstable();
+        if !sorted_order.iter().copied().eq(0..state.len()) {
+            return refuse("the storage order is not an order of all particles".to_owned());
+        }
         let width = if self.plan.predicted { 12 } else { 8 };
         let mut words: Vec<u32> = Vec::with_capacity(width * state.len());
-        for id in 0..state.len() {
+        for &id in order {
             words.extend(state.positions[id]);
             words.push(id as u32);
             words.extend(state.momenta[id].map(|unit| unit as u32));
@@ -165,7 +181,13 @@ impl<'a> Engine<'a> {
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.clear_buffer(&self.buffers["counts"], 0, None);
         self.record(&mut encoder, &self.plan.prepare.clone());
+        for sampler in &self.plan.samplers {
+            // Neither rows nor windows of the state before go on.
+            encoder.clear_buffer(&self.buffers[sampler.samples], 0, Some(8));
+        }
         self.gpu.queue.submit([encoder.finish()]);
+        self.in_flight.clear();
+        self.collected.clear();
         self.step = state.step;
         self.first_step = state.step;
         self.phase = Phase::Advanced;
@@ -176,8 +198,13 @@ impl<'a> Engine<'a> {
     /// `batch` steps. Returns before the device is done; see [`Self::finish`].
     ///
     /// # Errors
-    /// [`EngineError`] as soon as a finished batch shows a failure.
+    /// [`EngineError`] as soon as a finished batch shows a failure, or if the steps are more than can be numbered.
     pub fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
+        if steps > u64::MAX - self.step {
+            return Err(EngineError::State {
+                reason: format!("{steps} steps from step {} are more than can be numbered", self.step),
+            });
+        }
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));

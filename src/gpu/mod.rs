@@ -9,5 +9,5 @@ mod shader_library;
 pub use adapter::{AdapterChoice, AdapterDescription, list_adapters};
 pub use device::{Gpu, Requirements};
 pub use error::GpuError;
-pub use shader::{Binding, LinkedShader, link};
+pub use shader::{Binding, LinkedShader, link, link_texts};
 pub use shader_library::{module_names, module_text};

@@ -32,14 +32,34 @@ pub struct LinkedShader {
 /// # Errors
 /// [`GpuError::Shader`] that names the file and the line.
 pub fn link(kernel: &str, modules: &[&str]) -> Result<LinkedShader, GpuError> {
+    let texts: Vec<(&str, &str)> = modules
+        .iter()
+        .map(|&name| match module_text(name) {
+            Some(text) => Ok((name, text)),
+            None => Err(GpuError::Shader {
+                kernel: kernel.to_owned(),
+                place: format!("shaders/{name}.wgsl"),
+                reason: "there is no such module".to_owned(),
+            }),
+        })
+        .collect::<Result<_, _>>()?;
+    link_texts(kernel, &texts)
+}
+
+/// The same for modules given as `(name, text)`.
+///
+/// # Errors
+/// [`GpuError::Shader`] that names the file and the line.
+pub fn link_texts(kernel: &str, modules: &[(&str, &str)]) -> Result<LinkedShader, GpuError> {
     let failure = |place: String, reason: String| GpuError::Shader { kernel: kernel.to_owned(), place, reason };
     let mut text = String::new();
     let mut starts = Vec::new();
-    for &name in modules {
-        let part = module_text(name)
-            .ok_or_else(|| failure(format!("shaders/{name}.wgsl"), "there is no such module".to_owned()))?;
+    for &(name, part) in modules {
         starts.push((text.lines().count() as u32, name));
         text.push_str(part);
+        if !part.ends_with('\n') {
+            text.push('\n');
+        }
     }
     let place = |line: u32| {
         let (start, name) = starts
@@ -47,7 +67,7 @@ pub fn link(kernel: &str, modules: &[&str]) -> Result<LinkedShader, GpuError> {
             .rev()
             .find(|(start, _)| *start < line)
             .copied()
-            .unwrap_or((0, modules.first().unwrap_or(&"")));
+            .unwrap_or((0, modules.first().map_or("", |(name, _)| name)));
         format!("shaders/{name}.wgsl:{}", line - start)
     };
     let module = naga::front::wgsl::parse_str(&text).map_err(|error| {

@@ -17,10 +17,10 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         volume: model.units.volume(),
         mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
         kinetic_energy: sum(0) * quanta.energy,
-        total_virial: sum(1) * quanta.energy,
+        total_virial: sum(1) * quanta.pair_energy,
         momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),
-        potential_energy: sum(5) * quanta.energy,
-        conservative_virial: sum(6) * quanta.energy,
+        potential_energy: sum(5) * quanta.pair_energy,
+        conservative_virial: sum(6) * quanta.pair_energy,
         gradient_squared: sum(7) * quanta.force_squared,
         laplacian: sum(8) * quanta.curvature,
     }

@@ -100,8 +100,10 @@ pub struct Sampler {
 /// Values of the integer units in which the observables are summed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quanta {
-    /// Energy.
+    /// Kinetic energy.
     pub energy: f64,
+    /// Energy and virial of pairs.
+    pub pair_energy: f64,
     /// Square of a force.
     pub force_squared: f64,
     /// Second derivative of the potential.

@@ -63,17 +63,28 @@ fn empty_plan(model: &Model, grid: Grid) -> Plan {
     }
 }
 
-/// Units of the sums: 2⁻³² of a typical value, so that one particle may hold two thousand million times the typical.
+/// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
+/// are counted in 2⁻³² of a typical one, which leaves room for 2³¹ times as much, and the squares of forces and the
+/// curvatures, which are hundreds of times as large as the scales they are made from, in 2⁻²⁴.
 fn quanta(model: &Model) -> Quanta {
     let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
     let lightest = if lightest.is_finite() { lightest } else { 1.0 };
+    let heaviest = model.species.iter().map(|species| species.mass).fold(lightest, f64::max);
     let typical_momentum = model.units.momentum * 2_f64.powi(24);
+    // The momentum of the heaviest in a bath belongs to an energy of kT, which the lightest has too. Momenta that come
+    // from elsewhere may all be those of the lightest.
+    let thermal = typical_momentum * typical_momentum <= 4.0 * heaviest * model.temperature;
+    let kinetic = typical_momentum * typical_momentum / if thermal { heaviest } else { lightest };
     let cutoff = model.pair_force.as_ref().map_or(1.0, |force| force.cutoff);
-    let energy = 2_f64.powi((typical_momentum * typical_momentum / lightest).log2().ceil() as i32 - 32);
+    let repulsive = model.pair_force.as_ref().map_or(0.0, |force| force.largest_repulsion() * cutoff);
+    let strongest = kinetic.max(repulsive);
+    let power_of_two = |value: f64| value.log2().ceil().exp2();
+    let energy = power_of_two(kinetic) * 2_f64.powi(-32);
     Quanta {
         energy,
-        force_squared: energy * energy / (cutoff * cutoff) * 2_f64.powi(32),
-        curvature: energy / (cutoff * cutoff),
+        pair_energy: power_of_two(strongest) * 2_f64.powi(-32),
+        force_squared: power_of_two(kinetic * strongest) * 2_f64.powi(-24) / (cutoff * cutoff),
+        curvature: power_of_two(strongest) * 2_f64.powi(-24) / (cutoff * cutoff),
         length_squared: cutoff * cutoff * 2_f64.powi(-32),
         velocity_squared: energy / lightest,
     }
@@ -129,7 +140,7 @@ impl Builder<'_> {
         let units = self.model.units;
         let half = 0.5 * self.model.time_step;
         let cutoff = self.force.cutoff;
-        let Quanta { energy, force_squared, curvature, .. } = self.plan.quanta;
+        let Quanta { energy, pair_energy, force_squared, curvature, .. } = self.plan.quanta;
         let to_force = units.momentum / half;
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         let exponent = self.force.weight_exponent;
@@ -155,8 +166,8 @@ impl Builder<'_> {
             ("WEIGHT_ROOT_EXPONENT", 0.5 * exponent),
             ("SPECIES", self.model.species.len() as f64),
             ("DISPLACEMENT_LIMIT", cutoff),
-            ("PAIR_ENERGY", to_force * cutoff / (4.0 * energy)),
-            ("PAIR_VIRIAL", to_force / (2.0 * energy)),
+            ("PAIR_ENERGY", to_force * cutoff / (4.0 * pair_energy)),
+            ("PAIR_VIRIAL", to_force / (2.0 * pair_energy)),
             ("KEPT_WORDS", f64::from(KEPT_WORDS)),
             ("GRADIENT", to_force * to_force / force_squared),
             ("LAPLACIAN", to_force / curvature),
@@ -186,6 +197,9 @@ impl Builder<'_> {
 
     /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity, noise.
     fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
+        if self.model.species.is_empty() {
+            return [0.0; 3];
+        }
         let half = 0.5 * self.model.time_step;
         let unit = self.model.units.momentum;
         let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
@@ -413,7 +427,7 @@ impl Builder<'_> {
             &["common/drift_halves", coefficients, "kernels/drift_rest"],
             self.particles.div_ceil(64),
         );
-        for kernel in [motion, configuration, rest] {
+        for kernel in [find, motion, configuration, rest] {
             self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
         }
         let again = self.sorting("common/same_step");

@@ -85,3 +85,14 @@ pub fn observables(engine: &mut Engine<'_>, scene: &Scene) -> Observables {
     let last = samples.iter().rev().find(|sample| sample.sampler == 0).expect("a sample");
     mesoscope::measure::observables_of(last, engine.plan(), &model)
 }
+
+/// Splitting with relaxation of the pair velocities, the default.
+pub const SPLITTING: &str = r#"integrator={"type":"splitting"}"#;
+/// Groot and Warren's integrator with λ = ½, whose friction sees the momenta themselves.
+pub const GROOT_WARREN: &str = r#"integrator={"type":"groot-warren"}"#;
+/// The same with predicted momenta.
+pub const PREDICTED: &str = r#"integrator={"type":"groot-warren","lambda":0.65}"#;
+/// Cotter and Reich's limit scheme.
+pub const COTTER_REICH: &str = r#"integrator={"type":"cotter-reich"}"#;
+/// Every integrator, each variant that has kernels of its own.
+pub const INTEGRATORS: &[&str] = &[SPLITTING, GROOT_WARREN, PREDICTED, COTTER_REICH];

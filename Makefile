@@ -1,0 +1,46 @@
+# Everything a fresh machine with Rust needs: `make run` for the main job, `make test` for all checks.
+
+SCENE ?= dpd-fluid
+OUT ?= runs/$(basename $(notdir $(SCENE)))
+ARGUMENTS ?=
+
+# Results of an earlier `make run` may go; those in a directory the user named may not.
+FORCE := $(if $(filter file,$(origin OUT)),--force)
+
+# Rust's installer puts cargo here, but not every shell has been started since.
+export PATH := $(PATH):$(HOME)/.cargo/bin
+
+# Mesa complains without a runtime directory.
+ifndef XDG_RUNTIME_DIR
+export XDG_RUNTIME_DIR := $(or $(TMPDIR),/tmp)/mesoscope-runtime-$(shell id -u)
+$(shell mkdir -p -m 700 "$(XDG_RUNTIME_DIR)")
+endif
+
+.DEFAULT_GOAL := help
+.PHONY: help run test validate bench adapter cargo
+
+help: ## this list
+	@echo 'make TARGET [SCENE=dpd-fluid] [OUT=directory] [ARGUMENTS="--set time.step=0.02"]'
+	@sed -n 's/^\([a-z]*\):.*## /  \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 14
+
+run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
+	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
+
+test: cargo adapter ## formatting, lints, all tests, documentation
+	cargo fmt --check
+	cargo clippy --locked --all-targets -- -D warnings
+	cargo test --locked
+	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
+
+validate: cargo adapter ## the long physics and conservation tests
+	cargo test --release --locked -- --ignored
+
+bench: cargo adapter ## cost per particle-step and per stage
+	cargo bench --locked
+
+adapter: ## a software Vulkan driver, where there is no Vulkan adapter
+	@sh tools/adapter.sh
+
+cargo:
+	@command -v cargo >/dev/null || { \
+		echo 'error: cargo was not found. Install Rust from https://rustup.rs, then open a new shell.' >&2; exit 1; }

@@ -1,0 +1,389 @@
+//! Every shader variant that any scene can ask for: linked, validated, and held against the plans and the host structs.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod support;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::mem::offset_of;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use mesoscope::engine::Control;
+use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
+use mesoscope::model::Model;
+use mesoscope::plan::{self, Hardware, Kernel, Options, Plan, Traversal};
+use mesoscope::scene::Scene;
+use support::{INTEGRATORS, fluid};
+
+/// WebGPU's core limits.
+const STORAGE_BUFFERS: usize = 8;
+const WORKGROUPS: u64 = 65_535 * 65_535;
+const WORKGROUP_BYTES: u32 = 16_384;
+
+const SAMPLERS: &[&str] = &[
+    "time.steps=1000",
+    r#"output.radial_distribution={"every":10,"range":1.1}"#,
+    r#"output.diffusion={"every":2,"window":8}"#,
+    r#"output.viscosity={"every":2,"window":8}"#,
+];
+
+fn plan_of(scene: &Scene, options: Options) -> Plan {
+    plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
+}
+
+/// One scene a combination of everything that chooses a module, with every way to visit pairs and to scan.
+fn plans() -> &'static [(String, Plan)] {
+    static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
+    PLANS.get_or_init(|| {
+        let mut choices: Vec<Vec<Vec<&str>>> = vec![INTEGRATORS.iter().map(|integrator| vec![*integrator]).collect()];
+        choices.push(vec![vec![], vec!["space.box=[9,7]"]]);
+        choices.push(vec![
+            vec![],
+            vec![
+                r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+                r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
+            ],
+        ]);
+        choices.push(vec![vec![], vec!["interactions.0.weight_exponent=0.5"]]);
+        choices.push(vec![vec![], vec!["interactions.0.repulsion=0", "interactions.0.pairs=[]"]]);
+        choices.push(vec![
+            vec![],
+            vec![r#"noise={"distribution":"gaussian"}"#],
+            vec![r#"noise={"generator":"threefry2x32-20"}"#],
+            vec![r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
+            vec!["temperature=0"],
+            vec!["interactions.0.friction=0"],
+            vec!["interactions=[]"],
+        ]);
+        choices.push(vec![vec![], SAMPLERS.to_vec()]);
+        let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+        for choice in choices {
+            combinations = combinations
+                .iter()
+                .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more.as_slice()].concat()))
+                .collect();
+        }
+        let mut plans = Vec::new();
+        for changes in combinations {
+            let free = changes.contains(&"interactions=[]");
+            // Without an interaction there is nothing inside it to change.
+            let changes: Vec<&str> =
+                changes.into_iter().filter(|change| !free || !change.starts_with("interactions.")).collect();
+            let scene = fluid(&changes);
+            for traversal in [Traversal::Rows, Traversal::Clusters] {
+                for many_level_scan in [false, true] {
+                    let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                    let plan = plan_of(&scene, options);
+                    plans
+                        .push((format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" ")), plan));
+                }
+            }
+        }
+        plans
+    })
+}
+
+/// All distinct kernels of all plans, linked.
+fn linked() -> &'static HashMap<Vec<&'static str>, Result<LinkedShader, String>> {
+    static LINKED: OnceLock<HashMap<Vec<&'static str>, Result<LinkedShader, String>>> = OnceLock::new();
+    LINKED.get_or_init(|| {
+        let mut linked = HashMap::new();
+        for kernel in plans().iter().flat_map(|(_, plan)| &plan.kernels) {
+            linked
+                .entry(kernel.modules.clone())
+                .or_insert_with(|| link(kernel.name, &kernel.modules).map_err(|error| error.to_string()));
+        }
+        linked
+    })
+}
+
+fn shader(kernel: &Kernel) -> &'static LinkedShader {
+    linked()[&kernel.modules].as_ref().expect("every_kernel_links lists what does not link")
+}
+
+/// The buffer that a kernel's variable is bound to.
+fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
+    kernel.renamed.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
+}
+
+/// Fails with all complaints, each once and with the first scene that caused it.
+fn report(complaints: &BTreeMap<String, String>) {
+    let list: Vec<String> =
+        complaints.iter().map(|(complaint, scene)| format!("{complaint}\n    in {scene}")).collect();
+    assert!(list.is_empty(), "{} complaints:\n{}", list.len(), list.join("\n"));
+}
+
+#[test]
+fn every_kernel_links() {
+    let failures: BTreeSet<&String> = linked().values().filter_map(|linked| linked.as_ref().err()).collect();
+    let list: Vec<&str> = failures.iter().map(|failure| failure.as_str()).collect();
+    assert!(list.is_empty(), "{} kernels do not link:\n{}", list.len(), list.join("\n"));
+    // The enumeration is what gives this test its meaning: it may grow, but must not shrink unnoticed.
+    assert!(linked().len() > 500, "only {} distinct kernels", linked().len());
+}
+
+#[test]
+fn every_module_is_embedded_and_can_be_asked_for() {
+    let mut files = BTreeSet::new();
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    for folder in ["common", "kernels", "passes"] {
+        for entry in std::fs::read_dir(shaders.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            assert_eq!(path.extension().and_then(|extension| extension.to_str()), Some("wgsl"), "{}", path.display());
+            let name = format!("{folder}/{}", path.file_stem().unwrap().to_str().unwrap());
+            assert_eq!(module_text(&name), Some(std::fs::read_to_string(&path).unwrap().as_str()), "{name}");
+            files.insert(name);
+        }
+    }
+    let known: BTreeSet<String> =
+        module_names().iter().filter(|name| !name.starts_with("plot/")).map(|name| (*name).to_owned()).collect();
+    assert_eq!(files, known);
+    let used: BTreeSet<&str> = linked().keys().flatten().copied().collect();
+    let unused: Vec<&String> = files.iter().filter(|name| !used.contains(name.as_str())).collect();
+    assert!(unused.is_empty(), "no scene can ask for {unused:?}");
+}
+
+#[test]
+fn every_constant_without_default_has_a_value_that_fits() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        for kernel in &plan.kernels {
+            let module = &shader(kernel).module;
+            for (_, constant) in module.overrides.iter() {
+                let name = constant.name.as_deref().unwrap_or("?");
+                let value = kernel.constants.iter().chain(&plan.constants).find(|(known, _)| *known == name);
+                let fits = match (value, &module.types[constant.ty].inner) {
+                    (None, _) => constant.init.is_some(),
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::F32)) => (*value as f32).is_finite(),
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::U32)) => {
+                        f64::from(*value as u32) == *value
+                    }
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::I32)) => {
+                        f64::from(*value as i32) == *value
+                    }
+                    (Some(_), other) => panic!("`{name}` has a type of its own: {other:?}"),
+                };
+                if !fits {
+                    complaints
+                        .entry(format!("`{name}` of kernel `{}` is {value:?}", kernel.name))
+                        .or_insert(scene.clone());
+                }
+            }
+        }
+        let mut seen = BTreeSet::new();
+        for (name, _) in &plan.constants {
+            if !seen.insert(name) {
+                complaints.entry(format!("constant `{name}` is given twice")).or_insert(scene.clone());
+            }
+        }
+    }
+    report(&complaints);
+}
+
+#[test]
+fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        let buffers: BTreeSet<&str> = plan.buffers.iter().map(|buffer| buffer.name).collect();
+        if buffers.len() != plan.buffers.len() {
+            complaints.entry("two buffers share a name".to_owned()).or_insert(scene.clone());
+        }
+        let mut bound = BTreeSet::new();
+        for kernel in &plan.kernels {
+            let bindings = &shader(kernel).bindings;
+            let mut complain = |complaint: String| {
+                complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
+            };
+            if bindings.len() > STORAGE_BUFFERS {
+                let names: Vec<&str> = bindings.iter().map(|binding| binding.name.as_str()).collect();
+                complain(format!("{} storage buffers: {}", bindings.len(), names.join(", ")));
+            }
+            if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
+                complain("two of its buffers share a number".to_owned());
+            }
+            for binding in bindings {
+                let name = buffer_name(kernel, &binding.name);
+                match buffers.get(name) {
+                    Some(name) => drop(bound.insert(*name)),
+                    None => complain(format!("the plan has no buffer `{name}`")),
+                }
+            }
+        }
+        for name in buffers.difference(&bound) {
+            complaints.entry(format!("no kernel uses buffer `{name}`")).or_insert(scene.clone());
+        }
+    }
+    report(&complaints);
+}
+
+#[test]
+fn every_kernel_of_a_plan_runs() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        let samplers = plan.samplers.iter().map(|sampler| &sampler.kernels);
+        let lists = [&plan.prepare, &plan.sort, &plan.before_report, &plan.report, &plan.finish_report, &plan.advance];
+        let run: BTreeSet<usize> = lists.into_iter().chain(samplers).flatten().copied().collect();
+        for (index, kernel) in plan.kernels.iter().enumerate().filter(|(index, _)| !run.contains(index)) {
+            complaints.entry(format!("kernel {index}, `{}`, is never run", kernel.name)).or_insert(scene.clone());
+        }
+    }
+    report(&complaints);
+}
+
+#[test]
+fn workgroup_memory_stays_within_the_core_limit() {
+    for (scene, plan) in plans() {
+        for kernel in &plan.kernels {
+            let module = &shader(kernel).module;
+            let context = module.to_ctx();
+            let bytes: u32 = module
+                .global_variables
+                .iter()
+                .filter(|(_, variable)| variable.space == naga::AddressSpace::WorkGroup)
+                .map(|(_, variable)| match &module.types[variable.ty].inner {
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Constant(length), .. } => {
+                        stride * length.get()
+                    }
+                    // The only array sized when the pipeline is made is the histogram's; 4096 bins are the most.
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(_), .. } => stride * 4096,
+                    other => other.size(context),
+                })
+                .sum();
+            assert!(bytes <= WORKGROUP_BYTES, "kernel `{}`: {bytes} bytes in {scene}", kernel.name);
+        }
+    }
+}
+
+#[test]
+fn host_structs_lie_as_in_the_shaders() {
+    let offset = |shader: &LinkedShader, structure: &str, member: &str| {
+        *shader
+            .layout
+            .get(&(structure.to_owned(), member.to_owned()))
+            .unwrap_or_else(|| panic!("no `{structure}.{member}`"))
+    };
+    let control = [
+        ("step", offset_of!(Control, step)),
+        ("next", offset_of!(Control, next)),
+        ("key", offset_of!(Control, key)),
+        ("seed_key", offset_of!(Control, seed_key)),
+        ("closing", offset_of!(Control, closing)),
+        ("elapsed", offset_of!(Control, elapsed)),
+        ("failures", offset_of!(Control, failures)),
+        ("failure_elapsed", offset_of!(Control, failure_elapsed)),
+        ("", size_of::<Control>()),
+    ];
+    let mut tables = 0;
+    for (scene, plan) in plans() {
+        // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
+        let stride = if plan.predicted { 48 } else { 32 };
+        let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
+        assert_eq!(bytes("particles").unwrap(), (u64::from(stride) * plan.particles).max(64), "{scene}");
+        for kernel in &plan.kernels {
+            let shader = shader(kernel);
+            let declared = |name: &str| shader.layout.contains_key(&(name.to_owned(), String::new()));
+            for (member, expected) in control {
+                assert_eq!(offset(shader, "Control", member) as usize, expected, "Control.{member}, `{}`", kernel.name);
+            }
+            assert_eq!(
+                shader.layout.keys().filter(|(structure, _)| structure == "Control").count(),
+                control.len(),
+                "a member of Control that the host does not know"
+            );
+            if declared("Particle") {
+                assert_eq!(offset(shader, "Particle", ""), stride, "`{}` in {scene}", kernel.name);
+                assert_eq!(offset(shader, "Particle", "position"), 0);
+                assert_eq!(offset(shader, "Particle", "momentum"), 16);
+                if plan.predicted {
+                    assert_eq!(offset(shader, "Particle", "predicted"), 32);
+                }
+            }
+            if declared("PairCoefficients") {
+                tables += 1;
+                let members = [("repulsion", 0), ("friction", 4), ("noise", 8), ("inverse_mass", 12), ("", 16)];
+                for (member, expected) in members {
+                    assert_eq!(offset(shader, "PairCoefficients", member), expected, "PairCoefficients.{member}");
+                }
+                assert_eq!(bytes("coefficients"), Some(2 * 2 * 16));
+            }
+            if declared("Tracker") {
+                let stride = u64::from(offset(shader, "Tracker", ""));
+                assert_eq!(bytes("trackers"), Some((stride * plan.particles).max(64)));
+            }
+        }
+    }
+    assert!(tables > 0, "no scene had a table of coefficients");
+}
+
+/// The largest scenes a scene file can describe, of every shape: as plans, for no device holds them.
+#[test]
+fn no_plan_needs_more_workgroups_than_can_be_folded() {
+    for lengths in ["[1000,1000,1000]", "[2,2,1e6]", "[1e6,2,2]", "[3,1e9]", "[2,2]", "[65536,65536]", "[3,3,3]"] {
+        for count in [0_u64, 1, 64 * 65_535 + 1, u64::from(u32::MAX)] {
+            let changes = ["time.steps=1000", &format!("space.box={lengths}")];
+            let samplers = [
+                r#"output.radial_distribution={"every":10,"range":1}"#,
+                r#"output.diffusion={"every":2,"window":8}"#,
+                r#"output.viscosity={"every":2,"window":8}"#,
+            ];
+            let particles = format!(r#"particles=[{{"species":"A","count":{count}}}]"#);
+            let scene = fluid(&[&changes[..], &samplers[..], &[particles.as_str()]].concat());
+            for traversal in [Traversal::Rows, Traversal::Clusters] {
+                let plan = plan_of(&scene, Options { traversal: Some(traversal), ..Options::default() });
+                for kernel in &plan.kernels {
+                    let groups = u64::from(kernel.workgroups);
+                    assert!((1..=WORKGROUPS).contains(&groups), "`{}`: {groups} for {count} in {lengths}", kernel.name);
+                    if ["bin", "scatter", "diffusion", "viscosity"].contains(&kernel.name) {
+                        assert!(groups * 64 >= count, "`{}` leaves particles out: {count} in {lengths}", kernel.name);
+                    }
+                    if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
+                        assert_eq!(groups % plan.grid.rows(), 0, "`{}`: {count} in {lengths}", kernel.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+const GOOD: (&str, &str) = ("common/good", "// A function.\nfn one() -> u32 { return 1u; }\n");
+const ENTRY: (&str, &str) = ("kernels/entry", "@compute @workgroup_size(1)\nfn main() { _ = one(); }\n");
+
+fn broken(name: &str, text: &str) -> (String, String) {
+    match link_texts("trial", &[GOOD, (name, text), ENTRY]) {
+        Err(GpuError::Shader { kernel, place, reason }) => {
+            assert_eq!(kernel, "trial");
+            (place, reason)
+        }
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("{text} links"),
+    }
+}
+
+#[test]
+fn an_error_in_a_shader_names_its_file_and_line() {
+    assert!(link_texts("trial", &[GOOD, ENTRY]).is_ok());
+    // What the parser finds.
+    let (place, reason) = broken("common/bad", "// One line,\n// and another.\nfn two() -> u32 { return one() + ; }\n");
+    assert_eq!(place, "shaders/common/bad.wgsl:3");
+    assert!(reason.contains("expected"), "{reason}");
+    let (place, reason) = broken("common/bad", "fn two() -> u32 { return twice(); }");
+    assert_eq!(place, "shaders/common/bad.wgsl:1");
+    assert!(reason.contains("twice"), "{reason}");
+    // What the validator finds: a function that does not always return.
+    let (place, reason) = broken("common/bad", "\nfn two(a: u32) -> f32 {\n    return a;\n}\n");
+    assert!(["shaders/common/bad.wgsl:2", "shaders/common/bad.wgsl:3"].contains(&place.as_str()), "{place}: {reason}");
+    // A module without a closing line break does not push the next one's lines.
+    match link_texts(
+        "trial",
+        &[("common/last", "fn one() -> u32 { return 1u; }"), ("common/next", "fn broken() -> { }")],
+    ) {
+        Err(GpuError::Shader { place, .. }) => assert_eq!(place, "shaders/common/next.wgsl:1"),
+        other => panic!("{other:?}"),
+    }
+    match link_texts("trial", &[GOOD]) {
+        Err(GpuError::Shader { reason, .. }) => assert_eq!(reason, "there is no entry point `main`"),
+        other => panic!("{other:?}"),
+    }
+    let message = link("trial", &["common/nothing"]).unwrap_err().to_string();
+    assert_eq!(message, "shader `trial` is not valid: shaders/common/nothing.wgsl: there is no such module");
+}
