@@ -32,7 +32,7 @@ pub fn redraw(
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     let model = Model::new(&checkpoint.scene);
-    let gpu = open_adapter(&checkpoint.scene, &model, choice)?;
+    let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene);
     let table = read_table(&directory.file(files::ENERGIES))?;
     pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
@@ -211,7 +211,12 @@ fn viscosity_chart(title: &str, table: &Table) -> Chart {
         let points = wave.iter().map(|row| [row[1], row[2]]).collect();
         panel.series.push(Series::line(&format!("k = {:.4}", wave[0][0]), points));
     }
-    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
+    // A single series has no legend.
+    let subtitle = match panel.series.as_slice() {
+        [only] => only.name.clone(),
+        _ => String::new(),
+    };
+    Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
 #[cfg(test)]
