@@ -21,14 +21,14 @@ pub fn execute(simulation: Simulation, adapter: Option<&str>, directory: &str, q
     }
     let mut reporter = Reporter::new(simulation.scene().clone());
     for warning in scene::warnings(simulation.scene()) {
-        reporter.line(&format!("warning: {warning}"));
+        line(&format!("warning: {warning}"));
     }
     let result = simulation.execute(&choice, &mut |event| reporter.tell(event));
     reporter.clear();
     let outcome = result?;
     let known: Vec<String> = scene::warnings(&outcome.summary.scene).iter().map(ToString::to_string).collect();
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
-        reporter.line(&format!("warning: {warning}"));
+        line(&format!("warning: {warning}"));
     }
     print(&results(&outcome, directory))
 }
@@ -41,6 +41,11 @@ pub fn default_directory(arguments: &SceneArguments) -> String {
 
 /// A short run needs no lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(1);
+
+fn line(text: &str) {
+    // Nobody is left to tell if standard error is closed.
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
 
 struct Reporter {
     scene: Scene,
@@ -62,11 +67,6 @@ impl Reporter {
             told_at: Instant::now(),
             first_step: 0,
         }
-    }
-
-    fn line(&self, text: &str) {
-        // Nobody is left to tell if standard error is closed.
-        let _ = writeln!(std::io::stderr().lock(), "{text}");
     }
 
     fn clear(&mut self) {
@@ -101,8 +101,8 @@ impl Reporter {
             Event::Repeating { from, reason } => {
                 let text = format!("note: {reason}; going on from step {} with more memory", grouped(from));
                 match &self.bar {
-                    Some(bar) => bar.suspend(|| self.line(&text)),
-                    None => self.line(&text),
+                    Some(bar) => bar.suspend(|| line(&text)),
+                    None => line(&text),
                 }
             }
             Event::Finishing => {
@@ -127,7 +127,7 @@ impl Reporter {
             self.told_at = Instant::now();
             let percent = 100 * progress.step / progress.last_step.max(1);
             let (step, last) = (grouped(progress.step), grouped(progress.last_step));
-            self.line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress)));
+            line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress)));
         }
     }
 }
@@ -187,11 +187,16 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
     }
+    let note = if rows.iter().any(|row| row[1].ends_with('*')) {
+        "  * from few samples: the error may be larger\n"
+    } else {
+        ""
+    };
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
         files.push(format!("{} numbered snapshots", outcome.snapshots));
     }
-    format!("{}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
+    format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
 }
 
 fn mean(summary: &Summary, column: &str) -> Option<String> {
@@ -199,7 +204,7 @@ fn mean(summary: &Summary, column: &str) -> Option<String> {
     let text = with_error(mean["mean"].as_f64()?, mean["standard_error"].as_f64());
     // An error that has not settled is a lower bound.
     let unsettled = mean["converged"] == false && mean["standard_error"].is_number();
-    Some(if unsettled { format!("{text} (few samples: the error may be larger)") } else { text })
+    Some(if unsettled { format!("{text} *") } else { text })
 }
 
 /// A value to the second digit of its error.

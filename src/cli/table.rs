@@ -21,7 +21,7 @@ pub fn grouped(number: u64) -> String {
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
         if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(' ');
+            text.push(',');
         }
         text.push(digit);
     }
@@ -67,8 +67,8 @@ mod tests {
     #[test]
     fn numbers_are_readable() {
         assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(1_234_567), "1 234 567");
-        assert_eq!(grouped(123_456), "123 456");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(grouped(123_456), "123,456");
         assert_eq!(prefixed(7_041_000.0), "7.04 M");
         assert_eq!(prefixed(999_999.0), "1.00 M");
         assert_eq!(prefixed(70.0), "70.0");

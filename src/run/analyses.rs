@@ -160,7 +160,9 @@ impl Analyses {
     ) -> (Table, Result<Value, String>) {
         let average = |samples: &[f64]| {
             let mut average = WindowedAverage::new(window);
-            samples.iter().for_each(|sample| average.push(*sample));
+            for sample in samples {
+                average.push(*sample);
+            }
             average
         };
         let (displacement, velocity) = (average(displacement), average(velocity));
@@ -383,7 +385,7 @@ mod tests {
             assert_eq!(restored.section(), gathered.section());
             match restored {
                 Gathered::RadialDistribution { samples, counts, .. } => {
-                    assert_eq!((samples, counts), (2.0, vec![4.0, 24.0]))
+                    assert_eq!((samples, counts), (2.0, vec![4.0, 24.0]));
                 }
                 Gathered::Diffusion { displacement, velocity, .. } => {
                     assert_eq!((displacement, velocity), (vec![1.0, 0.0], vec![1.0, 2.0]));

@@ -32,7 +32,7 @@ pub fn redraw(
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     let model = Model::new(&checkpoint.scene);
-    let gpu = open_adapter(&checkpoint.scene, &model, choice)?;
+    let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene);
     let table = read_table(&directory.file(files::ENERGIES))?;
     pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
@@ -72,7 +72,7 @@ impl<'a> Pictures<'a> {
     pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
-        if show_settled(&mut chart, model.time_step * self.scene.time.equilibration as f64) {
+        if show_settled(&mut chart) {
             chart.subtitle.push_str("; temperatures at the start are off the scale");
         }
         self.chart(files::ENERGIES_PLOT, &chart)
@@ -164,21 +164,23 @@ impl<'a> Pictures<'a> {
     }
 }
 
+/// The part of a run after which temperatures are expected to have settled.
+const SETTLED: f64 = 0.1;
+
 /// Gives the temperatures the range that they have once the run has settled: where particles start at random places,
 /// the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns whether
 /// anything is off that scale.
-fn show_settled(chart: &mut Chart, equilibration: f64) -> bool {
+fn show_settled(chart: &mut Chart) -> bool {
     let Some(panel) = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature")) else {
         return false;
     };
     let points = || panel.series.iter().flat_map(|series| &series.points).filter(|point| point[1].is_finite());
     let end = points().map(|point| point[0]).fold(0.0, f64::max);
-    // At least a twentieth of the run, where the scene names no equilibration.
-    let settled = points().filter(|point| point[0] >= equilibration.max(0.05 * end)).map(|point| point[1]);
+    let settled = points().filter(|point| point[0] >= SETTLED * end).map(|point| point[1]);
     let references = panel.references.iter().map(|reference| reference.value);
     let [low, high] =
         settled.chain(references).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
-    let margin = 0.5 * (high - low);
+    let margin = 0.25 * (high - low);
     let range = [low - margin, high + margin];
     let off = points().any(|point| !(range[0]..=range[1]).contains(&point[1]));
     if off && margin > 0.0 {
@@ -209,7 +211,12 @@ fn viscosity_chart(title: &str, table: &Table) -> Chart {
         let points = wave.iter().map(|row| [row[1], row[2]]).collect();
         panel.series.push(Series::line(&format!("k = {:.4}", wave[0][0]), points));
     }
-    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
+    // A single series has no legend.
+    let subtitle = match panel.series.as_slice() {
+        [only] => only.name.clone(),
+        _ => String::new(),
+    };
+    Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
 #[cfg(test)]
@@ -230,11 +237,11 @@ mod tests {
             (0..100).map(|row| vec![f64::from(row), if row == 0 { 30.0 } else { 1.0 + 0.1 * f64::from(row % 2) }]);
         let mut table = EnergyTable { columns, rows: rows.collect() };
         let mut chart = energies_chart("hot", &table, 1, 1.0);
-        assert!(show_settled(&mut chart, 0.0));
-        assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.5 * (1.1 - 1.0), 1.1 + 0.5 * (1.1 - 1.0)]));
+        assert!(show_settled(&mut chart));
+        assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.25 * (1.1 - 1.0), 1.1 + 0.25 * (1.1 - 1.0)]));
         table.rows[0][1] = 1.0;
         let mut chart = energies_chart("settled", &table, 1, 1.0);
-        assert!(!show_settled(&mut chart, 0.0));
+        assert!(!show_settled(&mut chart));
         assert_eq!(chart.panels[0].y.range, None);
     }
 

@@ -100,9 +100,10 @@ impl Simulation {
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
         let Self { scene, directory, beginning } = self;
         let model = Model::new(&scene);
+        let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
-        let gpu = open_adapter(&scene, &model, choice)?;
-        let (directory, start) = match beginning {
+        let mut gpu = open_adapter(&scene, &model, choice, options)?;
+        let (directory, mut start) = match beginning {
             Beginning::New { force } => {
                 let directory = RunDirectory::create(directory, force)?;
                 let state = placement::initial_state(&scene, &model);
@@ -113,47 +114,77 @@ impl Simulation {
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let momentum = start.state.total_momentum();
-        let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
         let mut pace = Pace::new(model.particle_count());
-        let mut attempt = start;
-        let mut options = Options::default();
-        let run = loop {
-            let plan = plan_for(&scene, &model, &gpu, options);
-            let mut engine = Engine::new(&gpu, plan, &attempt.state)?;
-            let mut run = Run::open(&scene, &model, &gpu, &directory, engine.plan(), attempt)?;
-            match run.to_the_end(&mut engine, &mut pace, observer) {
-                Ok(()) => break run,
+        let task = Task { scene, model, directory, momentum };
+        loop {
+            match task.attempt(&gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.copies.is_none() => {
-                    // Rare enough not to be paid for by every run, in memory for all that might ever be needed.
+                    // Too rare for every run to pay for it in memory.
+                    options.copies = Some(task.model.particle_count());
+                    start = checkpoint::load(&task.directory.file(files::CHECKPOINT))?;
                     let reason = "the particles crowd at the ends of the box";
-                    attempt = checkpoint::load(&directory.file(files::CHECKPOINT))?;
-                    options.copies = Some(model.particle_count());
-                    observer(Event::Repeating { from: attempt.state.step, reason });
+                    observer(Event::Repeating { from: start.state.step, reason });
+                    gpu = open_adapter(&task.scene, &task.model, choice, options)?;
                 }
-                Err(RunError::Engine(source @ EngineError::Unstable { .. })) => {
-                    run.energies.flush()?;
-                    let checkpoint = directory.file(files::CHECKPOINT);
-                    return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
-                }
-                Err(error) => return Err(error),
+                ended => return ended,
             }
-        };
+        }
+    }
+}
+
+/// What stays the same if a run has to go back.
+struct Task {
+    scene: Scene,
+    model: Model,
+    directory: RunDirectory,
+    /// Total momentum at the first step, in integer units.
+    momentum: [i64; 3],
+}
+
+impl Task {
+    /// Runs from `start` to the end.
+    fn attempt(
+        &self,
+        gpu: &Gpu,
+        options: Options,
+        start: &Checkpoint,
+        pace: &mut Pace,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<Outcome, RunError> {
+        let plan = plan_for(&self.scene, &self.model, gpu, options);
+        let mut engine = Engine::new(gpu, plan, &start.state)?;
+        let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, engine.plan(), start)?;
+        match run.advance_to_end(&mut engine, pace, observer) {
+            Err(RunError::Engine(source @ EngineError::Unstable { .. })) => {
+                run.energies.flush()?;
+                let checkpoint = self.directory.file(files::CHECKPOINT);
+                return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
+            }
+            ended => ended?,
+        }
         observer(Event::Finishing);
-        if first_step > 0 && run.analyses.restarts_windows() {
+        let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
+        if start.state.step > 0 && run.analyses.restarts_windows() {
+            let step = start.state.step;
             warnings.push(format!(
-                "resumed at step {first_step}: a window of `output.diffusion` was open there and is left out"
+                "went on from a checkpoint at step {step}: a window of `output.diffusion` open there is left out"
             ));
         }
-        if run.momentum != momentum {
+        if run.momentum != self.momentum {
             warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
         }
-        run.conclude(warnings, first_step, pace.done())
+        run.conclude(warnings, pace.done())
     }
 }
 
 /// Opens an adapter with room for the buffers of a scene.
-pub(super) fn open_adapter(scene: &Scene, model: &Model, choice: &AdapterChoice) -> Result<Gpu, RunError> {
-    let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+pub(super) fn open_adapter(
+    scene: &Scene,
+    model: &Model,
+    choice: &AdapterChoice,
+    options: Options,
+) -> Result<Gpu, RunError> {
+    let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
     Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
 }
 
@@ -188,7 +219,7 @@ impl<'a> Run<'a> {
         gpu: &'a Gpu,
         directory: &'a RunDirectory,
         plan: &Plan,
-        start: Checkpoint,
+        start: &Checkpoint,
     ) -> Result<Self, RunError> {
         let step = start.state.step;
         let schedule = Schedule::new(scene);
@@ -220,7 +251,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn to_the_end(
+    fn advance_to_end(
         &mut self,
         engine: &mut Engine<'_>,
         pace: &mut Pace,
@@ -319,12 +350,7 @@ impl<'a> Run<'a> {
     }
 
     /// Writes tables, summary and plots.
-    fn conclude(
-        mut self,
-        warnings: Vec<String>,
-        first_step: u64,
-        (steps, spent): (u64, Duration),
-    ) -> Result<Outcome, RunError> {
+    fn conclude(mut self, warnings: Vec<String>, (steps, spent): (u64, Duration)) -> Result<Outcome, RunError> {
         let description = self.gpu.description();
         let adapter = AdapterSummary {
             name: description.name.clone(),
@@ -333,7 +359,6 @@ impl<'a> Run<'a> {
         };
         let mut summary = Summary::new(self.scene.clone(), adapter, self.model.particle_count());
         let last_step = self.scene.time.steps;
-        debug_assert!(steps >= last_step - first_step);
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
