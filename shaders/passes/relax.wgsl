@@ -14,7 +14,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let pull = relaxation_impulse(c, contact, root, me, other);
     (*sums).kick += select(Steps(0), Steps(round(push * contact.direction)), contact.inside);
     (*sums).impulse += select(Steps(0), Steps(round(pull * contact.direction)), contact.inside);
-    (*sums).strain += abs(push) + abs(pull);
+    (*sums).strain += select(0.0, abs(push) + abs(pull), contact.inside);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let relaxed = steps_of(me.momentum) + control.closing * sums.impulse;
