@@ -4,8 +4,10 @@
 mod error;
 mod pipeline;
 mod readback;
+mod timing;
 
 pub use error::EngineError;
+pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
 

@@ -1,0 +1,77 @@
+//! What the numbers were measured on.
+
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use mesoscope::gpu::AdapterDescription;
+
+/// A list of what a reader needs to judge the numbers.
+pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut lines = vec![
+        format!("- date: {}", date()),
+        format!("- adapter: {} ({}, {}), driver {}", adapter.name, adapter.kind, adapter.backend, adapter.driver),
+        format!("- processor: {}, {cores} cores", processor()),
+    ];
+    if let Some(load) = load() {
+        let warning = if load > 0.5 { ": **busy, do not trust the numbers** (LAMMPS suffers most)" } else { "" };
+        lines.push(format!("- load of the machine at the beginning: {load}{warning}"));
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    lines.push(format!("- mesoscope {version}, wgpu {}, {}", locked("wgpu"), compiler()));
+    lines.push(format!("- LAMMPS: {peer}"));
+    lines.join("\n")
+}
+
+/// Programs that ran in the last minute, on average, where the system tells.
+fn load() -> Option<f64> {
+    std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+}
+
+fn processor() -> String {
+    let known = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_owned())
+    });
+    known
+        .or_else(|| answer("sysctl", &["-n", "machdep.cpu.brand_string"]))
+        .unwrap_or_else(|| std::env::consts::ARCH.to_owned())
+}
+
+fn compiler() -> String {
+    answer("rustc", &["--version"]).unwrap_or_else(|| "rustc unknown".to_owned())
+}
+
+fn answer(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
+    (output.status.success() && !text.is_empty()).then_some(text)
+}
+
+/// The version of a dependency in Cargo.lock.
+fn locked(package: &str) -> &'static str {
+    let lock = include_str!("../../Cargo.lock");
+    lock.split_once(&format!("name = \"{package}\"\nversion = \""))
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .map_or("unknown", |(version, _)| version)
+}
+
+/// Today in UTC, year-month-day.
+fn date() -> String {
+    let mut days = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |elapsed| elapsed.as_secs() / 86_400);
+    let leap = |year: u64| year.is_multiple_of(4) && !year.is_multiple_of(100) || year.is_multiple_of(400);
+    let mut year = 1970;
+    while days >= 365 + u64::from(leap(year)) {
+        days -= 365 + u64::from(leap(year));
+        year += 1;
+    }
+    let mut month = 1;
+    for length in [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
+        if days < length {
+            break;
+        }
+        days -= length;
+        month += 1;
+    }
+    format!("{year}-{month:02}-{:02}", days + 1)
+}

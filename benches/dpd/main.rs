@@ -1,0 +1,286 @@
+//! What a particle-step of the DPD fluid costs: beside LAMMPS, by stage, in small runs, and by integrator.
+//!
+//! `cargo bench --bench dpd` prints tables in Markdown and takes some minutes; `cargo bench --bench dpd -- --quick` is a
+//! look that proves nothing. All that is compared is measured in turns within one run, and ratios are taken round by
+//! round, so that a machine that slows down for a while slows both sides. LAMMPS is left out where it is not
+//! installed (see `lammps.rs`). The adapter is the best, or the one that MESOSCOPE_ADAPTER names.
+
+mod fluid;
+mod lammps;
+mod machine;
+mod statistics;
+
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use clap::Parser;
+use mesoscope::engine::StageClock;
+use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::plan::Hardware;
+
+use fluid::{Fluid, INTEGRATORS};
+use lammps::Lammps;
+use statistics::{grouped, ratios, spread};
+
+type Failure = Box<dyn std::error::Error>;
+
+const TIME_STEPS: [f64; 2] = [0.01, 0.04];
+/// From here on a run of LAMMPS takes seconds: fewer rounds, and the skin found for the size before.
+const LARGE: usize = 500_000;
+
+/// Cost of the DPD fluid.
+#[derive(Debug, Parser)]
+struct Settings {
+    /// Short and rough, without the largest box
+    #[arg(long)]
+    quick: bool,
+    /// Edges of the boxes
+    #[arg(long, value_delimiter = ',', default_values_t = [10.0, 20.0, 40.0, 69.34])]
+    edges: Vec<f64>,
+    /// Rounds
+    #[arg(long, default_value_t = 7)]
+    rounds: usize,
+    /// Seconds of each measurement
+    #[arg(long, default_value_t = 0.5)]
+    seconds: f64,
+    /// Leave LAMMPS out
+    #[arg(long)]
+    no_lammps: bool,
+    /// Passed by cargo
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> Result<(), Failure> {
+    let begun = Instant::now();
+    let mut settings = Settings::parse();
+    if settings.quick {
+        settings.rounds = 3;
+        settings.seconds = 0.1;
+        settings.edges.retain(|&edge| edge < 50.0);
+    }
+    let gpu = open(&settings)?;
+    let peer = if settings.no_lammps {
+        Err("left out".to_owned())
+    } else {
+        Lammps::start().and_then(|mut lammps| lammps.version())
+    };
+    println!("## The DPD fluid: cost of a particle-step\n");
+    let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
+    println!("{}", machine::describe(gpu.description(), &words));
+    let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
+    let price = beside_lammps(&gpu, &fluids, peer.is_ok(), &settings)?;
+    price_of_accuracy(&price);
+    by_stage(&gpu, &fluids, &settings)?;
+    by_size(&gpu, &fluids, &settings)?;
+    by_batch(&gpu, &fluids, &settings)?;
+    start_up(&gpu)?;
+    println!("\nMeasured in {:.0} s.", begun.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// The adapter, with room for the largest box.
+fn open(settings: &Settings) -> Result<Gpu, Failure> {
+    let mut largest_buffer = 0;
+    for &edge in &settings.edges {
+        let plan = fluid::plan_of(&fluid::scene(edge, "splitting", 0.04)?, Hardware::default());
+        largest_buffer = largest_buffer.max(plan.largest_buffer());
+    }
+    let name = std::env::var("MESOSCOPE_ADAPTER").ok();
+    Ok(Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements { largest_buffer })?)
+}
+
+/// Cost of a step of `splitting` in steps of `groot-warren`, round by round.
+struct Price {
+    particles: usize,
+    time_step: f64,
+    ratios: Vec<f64>,
+}
+
+fn beside_lammps(gpu: &Gpu, fluids: &[Fluid], peer: bool, settings: &Settings) -> Result<Vec<Price>, Failure> {
+    println!(
+        "\n### Speed\n\nMillion particle-steps a second: median (least–most) of rounds in turns; × is the ratio in a round.\n"
+    );
+    println!("| particles | time step | integrator | mesoscope | LAMMPS | × LAMMPS | skin of LAMMPS |");
+    println!("|--:|--:|:--|--:|--:|--:|--:|");
+    let mut prices = Vec::new();
+    let mut skins = [None; TIME_STEPS.len()];
+    for fluid in fluids {
+        let particles = fluid.particles();
+        let rounds = if particles > LARGE { settings.rounds.min(3) } else { settings.rounds };
+        let mut lammps = if peer { Some(Lammps::start()?) } else { None };
+        if let Some(lammps) = &mut lammps {
+            lammps.fluid(&fluid.model, &fluid.state)?;
+        }
+        for (time_step, tuned) in TIME_STEPS.into_iter().zip(&mut skins) {
+            let mut runs = Vec::new();
+            for integrator in INTEGRATORS {
+                runs.push(fluid.run(gpu, integrator, time_step)?);
+            }
+            // Several times as many as between two neighbour lists.
+            let mut lammps_steps = 0;
+            if let Some(lammps) = &mut lammps {
+                let skin = match *tuned {
+                    Some(skin) if particles > LARGE => skin,
+                    _ => lammps.tune(time_step, particles, settings)?,
+                };
+                *tuned = Some(skin);
+                lammps.set_time(time_step, skin)?;
+                let least = lammps::fewest_steps(time_step);
+                let warm = lammps.run(least)? / least as f64;
+                lammps_steps = ((settings.seconds / warm) as u64).max(least);
+            }
+            let mut ours = [Vec::new(), Vec::new()];
+            let mut theirs = Vec::new();
+            for _ in 0..rounds {
+                ours[0].push(1e-6 * runs[0].rate(settings.seconds)?);
+                if let Some(lammps) = &mut lammps {
+                    let seconds = lammps.run(lammps_steps)?;
+                    theirs.push(1e-6 * (lammps_steps * particles as u64) as f64 / seconds);
+                }
+                ours[1].push(1e-6 * runs[1].rate(settings.seconds)?);
+            }
+            for (integrator, ours) in INTEGRATORS.iter().zip(&ours) {
+                println!(
+                    "| {} | {time_step} | `{integrator}` | {} | {} | {} | {} |",
+                    grouped(particles),
+                    spread(ours, 2),
+                    spread(&theirs, 2),
+                    spread(&ratios(ours, &theirs), 2),
+                    tuned.map_or_else(|| "–".to_owned(), |skin| skin.to_string()),
+                );
+            }
+            prices.push(Price { particles, time_step, ratios: ratios(&ours[0], &ours[1]) });
+        }
+    }
+    Ok(prices)
+}
+
+fn price_of_accuracy(prices: &[Price]) {
+    println!(
+        "\n### Price of accuracy\n\nCost of a step of `splitting` in steps of `groot-warren`, from the rounds above.\n"
+    );
+    println!("| particles | time step | cost |");
+    println!("|--:|--:|--:|");
+    for price in prices {
+        println!("| {} | {} | {} |", grouped(price.particles), price.time_step, spread(&price.ratios, 3));
+    }
+    let all: Vec<f64> = prices.iter().flat_map(|price| price.ratios.iter().copied()).collect();
+    println!("| all | all | {} |", spread(&all, 3));
+}
+
+fn by_stage(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+    println!("\n### Where the time of a step goes");
+    for fluid in fluids.iter().filter(|fluid| (20_000..LARGE).contains(&fluid.particles())) {
+        for integrator in INTEGRATORS {
+            let mut run = fluid.run(gpu, integrator, 0.04)?;
+            let particles = fluid.particles();
+            let whole = 1e9 / run.rate(settings.seconds)?;
+            // Not sorted, as a step begins.
+            run.engine.advance(1, 1)?;
+            let clock = run.engine.stage_clock();
+            let steps = ((2.0 * settings.seconds / (1e-9 * whole * particles as f64)) as u64).clamp(5, 100);
+            let stages = run.engine.time_stages(steps, clock)?;
+            let sum: f64 = stages.iter().map(|stage| stage.seconds).sum();
+            let how = match clock {
+                StageClock::Timestamps => "timestamps of the device",
+                StageClock::Submissions => "every kernel submitted alone, less an empty submission",
+            };
+            println!(
+                "\n{} particles, `{integrator}`, time step 0.04; medians of {steps} steps; {how}.\n",
+                grouped(particles)
+            );
+            println!("| kernel | µs a step | ns a particle | share |");
+            println!("|:--|--:|--:|--:|");
+            let row = |name: &str, seconds: f64| {
+                let nanoseconds = 1e9 * seconds / particles as f64;
+                println!("| {name} | {:.0} | {nanoseconds:.2} | {:.1} % |", 1e6 * seconds, 100.0 * seconds / sum);
+            };
+            for stage in &stages {
+                row(stage.name, stage.seconds);
+            }
+            row("sum", sum);
+            row("step of a batch", 1e-9 * whole * particles as f64);
+        }
+    }
+    Ok(())
+}
+
+fn by_size(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+    let Some(reference) = fluids.iter().rposition(|fluid| fluid.particles() < LARGE) else { return Ok(()) };
+    let named = grouped(fluids[reference].particles());
+    println!(
+        "\n### Cost by size\n\nCost of a particle-step relative to that at {named} particles in the same round; time step 0.04.\n"
+    );
+    println!("| particles | `groot-warren` | `splitting` |");
+    println!("|--:|--:|--:|");
+    let mut costs = vec![[Vec::new(), Vec::new()]; fluids.len()];
+    for (place, integrator) in INTEGRATORS.into_iter().enumerate() {
+        let mut runs = Vec::new();
+        for fluid in fluids {
+            runs.push(fluid.run(gpu, integrator, 0.04)?);
+        }
+        for _ in 0..settings.rounds.min(5) {
+            for (run, costs) in runs.iter_mut().zip(&mut costs) {
+                costs[place].push(1.0 / run.rate(settings.seconds)?);
+            }
+        }
+    }
+    for (fluid, both) in fluids.iter().zip(&costs) {
+        let relative = |place: usize| spread(&ratios(&both[place], &costs[reference][place]), 3);
+        println!("| {} | {} | {} |", grouped(fluid.particles()), relative(0), relative(1));
+    }
+    Ok(())
+}
+
+fn by_batch(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+    const BATCHES: [u64; 5] = [1, 4, 16, 64, 256];
+    let Some(fluid) = fluids.iter().min_by_key(|fluid| fluid.particles()) else { return Ok(()) };
+    println!(
+        "\n### Steps a submission\n\nMillion particle-steps a second of {} particles, `splitting`, time step 0.04.\n",
+        grouped(fluid.particles())
+    );
+    println!("| steps a submission | speed |");
+    println!("|--:|--:|");
+    let mut run = fluid.run(gpu, "splitting", 0.04)?;
+    let mut rates = BATCHES.map(|_| Vec::new());
+    for _ in 0..settings.rounds.min(5) {
+        for (rates, batch) in rates.iter_mut().zip(BATCHES) {
+            rates.push(1e-6 * run.rate_batched(0.5 * settings.seconds, batch)?);
+        }
+    }
+    for (rates, batch) in rates.iter().zip(BATCHES) {
+        println!("| {batch} | {} |", spread(rates, 2));
+    }
+    Ok(())
+}
+
+/// The whole process of a small run: pipelines, 100 steps, tables and pictures.
+fn start_up(gpu: &Gpu) -> Result<(), Failure> {
+    let directory = tempfile::tempdir()?;
+    let mut times = Vec::new();
+    for _ in 0..6 {
+        let begun = Instant::now();
+        let status = Command::new(env!("CARGO_BIN_EXE_mesoscope"))
+            .args(["run", "dpd-fluid", "--set", "space.box=[5,5,5]", "--set", "output.radial_distribution=null"])
+            .args(["--steps", "100", "--set", "time.equilibration=0", "--quiet", "--force"])
+            .args(["--adapter", &gpu.description().name])
+            .arg("--out")
+            .arg(directory.path().join("run"))
+            .stdout(Stdio::null())
+            .status()?;
+        if !status.success() {
+            return Err(format!("`mesoscope run` failed: {status}").into());
+        }
+        times.push(begun.elapsed().as_secs_f64());
+    }
+    // The first one filled the caches of the driver.
+    let warm = &times[1..];
+    println!("\n### Start-up\n");
+    println!(
+        "A run of 375 particles and 100 steps, with its table and both pictures, whole process: {} s warm ({:.2} s at first).",
+        spread(warm, 2),
+        times[0]
+    );
+    Ok(())
+}
