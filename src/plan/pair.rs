@@ -341,10 +341,12 @@ impl Builder<'_> {
             }
         };
         let rows = self.grid.rows();
-        // Enough workgroups to fill a large adapter, none with less than one round of work on average.
+        // Enough workgroups to fill the adapter, none with less than one round of work on average. Subgroups of eight are
+        // those of processors, whose few cores are filled by a few workgroups, and to which a workgroup is dear.
+        let enough = if traversal == Traversal::Clusters { 64 } else { 8192 };
         let rounds = (self.particles / rows).div_ceil(lanes).max(1);
         let segments = u64::from(self.options.segments.unwrap_or(0));
-        let segments = if segments > 0 { segments } else { rounds.min((8192 / rows).max(1)) };
+        let segments = if segments > 0 { segments } else { rounds.min((enough / rows).max(1)) };
         self.kernel(Kernel {
             name,
             modules,
