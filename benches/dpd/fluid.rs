@@ -13,8 +13,8 @@ use crate::Failure;
 
 /// Integrators as scenes name them.
 pub const INTEGRATORS: [&str; 2] = ["groot-warren", "splitting"];
-/// Steps of 0.04 from random positions to the fluid: three units of time, several times what its structure needs.
-const EQUILIBRATION: u64 = 75;
+/// Steps of 0.04 from random positions to the fluid: over two units of time, several times what its structure needs.
+const EQUILIBRATION: u64 = 60;
 /// Time a submission should take, and the most steps in it: what `mesoscope run` settles on.
 const BATCH_SECONDS: f64 = 0.15;
 const LARGEST_BATCH: u64 = 512;
@@ -45,7 +45,7 @@ pub struct Fluid {
 
 impl Fluid {
     pub fn equilibrated(gpu: &Gpu, edge: f64) -> Result<Self, Failure> {
-        let scene = scene(edge, "splitting", 0.04)?;
+        let scene = scene(edge, "groot-warren", 0.04)?;
         let model = Model::new(&scene);
         let start = scene::placement::initial_state(&scene, &model);
         let mut engine = engine(gpu, &scene, &start)?;

@@ -1,7 +1,7 @@
 //! What the numbers were measured on.
 
 use std::process::Command;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use mesoscope::gpu::AdapterDescription;
 
@@ -13,19 +13,29 @@ pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
         format!("- adapter: {} ({}, {}), driver {}", adapter.name, adapter.kind, adapter.backend, adapter.driver),
         format!("- processor: {}, {cores} cores", processor()),
     ];
-    if let Some(load) = load() {
-        let warning = if load > 0.5 { ": **busy, do not trust the numbers** (LAMMPS suffers most)" } else { "" };
-        lines.push(format!("- load of the machine at the beginning: {load}{warning}"));
-    }
     let version = env!("CARGO_PKG_VERSION");
     lines.push(format!("- mesoscope {version}, wgpu {}, {}", locked("wgpu"), compiler()));
     lines.push(format!("- LAMMPS: {peer}"));
     lines.join("\n")
 }
 
-/// Programs that ran in the last minute, on average, where the system tells.
-fn load() -> Option<f64> {
-    std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+/// How much of the processor others use while the benchmark waits for a second, in words, where the system tells.
+pub fn others() -> Option<String> {
+    let before = processor_time()?;
+    std::thread::sleep(Duration::from_secs(1));
+    let after = processor_time()?;
+    let share = 100.0 * (1.0 - (after.0 - before.0) / (after.1 - before.1));
+    let warning = if share > 5.0 { ": **busy, do not trust the numbers** (LAMMPS suffers most)" } else { "" };
+    Some(format!("{share:.0} % of the processor{warning}"))
+}
+
+/// Idle time and all time of all cores since the system started, in its own units.
+fn processor_time() -> Option<(f64, f64)> {
+    let text = std::fs::read_to_string("/proc/stat").ok()?;
+    let times: Vec<f64> =
+        text.lines().next()?.split_whitespace().skip(1).take(8).filter_map(|time| time.parse().ok()).collect();
+    // User, nice, system, idle, waiting for disks, and more.
+    Some((times.get(3)? + times.get(4)?, times.iter().sum()))
 }
 
 fn processor() -> String {

@@ -68,6 +68,7 @@ fn main() -> Result<(), Failure> {
     println!("## The DPD fluid: cost of a particle-step\n");
     let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
     println!("{}", machine::describe(gpu.description(), &words));
+    others("before");
     let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
     let price = beside_lammps(&gpu, &fluids, peer.is_ok(), &settings)?;
     price_of_accuracy(&price);
@@ -75,8 +76,17 @@ fn main() -> Result<(), Failure> {
     by_size(&gpu, &fluids, &settings)?;
     by_batch(&gpu, &fluids, &settings)?;
     start_up(&gpu)?;
-    println!("\nMeasured in {:.0} s.", begun.elapsed().as_secs_f64());
+    println!();
+    others("after");
+    println!("- measured in {:.0} s", begun.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// Says what else the machine is doing.
+fn others(when: &str) {
+    if let Some(words) = machine::others() {
+        println!("- other programs {when} the measurement: {words}");
+    }
 }
 
 /// The adapter, with room for the largest box.
