@@ -96,3 +96,158 @@ pub const PREDICTED: &str = r#"integrator={"type":"groot-warren","lambda":0.65}"
 pub const COTTER_REICH: &str = r#"integrator={"type":"cotter-reich"}"#;
 /// Every integrator, each variant that has kernels of its own.
 pub const INTEGRATORS: &[&str] = &[SPLITTING, GROOT_WARREN, PREDICTED, COTTER_REICH];
+
+/// A run of either implementation, as far as the physics can see it.
+pub trait Implementation {
+    /// Its name in messages.
+    fn name(&self) -> &'static str;
+    /// Advances by a number of steps.
+    fn step(&mut self, steps: u64);
+    /// Observables of the current step; on the device only of steps that `output.energies.every` divides.
+    fn observe(&mut self) -> Observables;
+    /// The particles at the current step with full-step momenta.
+    fn reported(&mut self) -> State;
+    /// The state to continue from; only before the current step is observed or reported.
+    fn state(&mut self) -> State;
+    /// Observables after every `every` steps, `samples` times.
+    fn series(&mut self, every: u64, samples: u64) -> Vec<Observables> {
+        (0..samples)
+            .map(|_| {
+                self.step(every);
+                self.observe()
+            })
+            .collect()
+    }
+}
+
+impl Implementation for Reference {
+    fn name(&self) -> &'static str {
+        "reference"
+    }
+
+    fn step(&mut self, steps: u64) {
+        self.run(steps).unwrap();
+    }
+
+    fn observe(&mut self) -> Observables {
+        Reference::observe(self).unwrap()
+    }
+
+    fn reported(&mut self) -> State {
+        self.reported_state().unwrap()
+    }
+
+    fn state(&mut self) -> State {
+        Reference::state(self).clone()
+    }
+}
+
+/// An engine with what is needed to read its samples.
+pub struct Device {
+    engine: Engine<'static>,
+    model: Model,
+}
+
+impl Device {
+    /// The first steps of a scene on the device.
+    pub fn new(scene: &Scene) -> Self {
+        let (model, state) = start(scene);
+        Self { engine: engine(scene, &state, Options::default()), model }
+    }
+
+    fn samples(&mut self) -> Vec<Observables> {
+        let samples = self.engine.finish().expect("samples");
+        let plan = self.engine.plan();
+        let energies = samples.iter().filter(|sample| sample.sampler == 0);
+        energies.map(|sample| mesoscope::measure::observables_of(sample, plan, &self.model)).collect()
+    }
+}
+
+/// Steps in one submission.
+const BATCH: u64 = 50;
+
+impl Implementation for Device {
+    fn name(&self) -> &'static str {
+        "device"
+    }
+
+    fn step(&mut self, steps: u64) {
+        self.engine.advance(steps, BATCH).unwrap();
+    }
+
+    fn observe(&mut self) -> Observables {
+        let step = self.engine.step();
+        *self.samples().last().filter(|sample| sample.step == step).expect("a step that is sampled")
+    }
+
+    fn reported(&mut self) -> State {
+        self.engine.reported().unwrap()
+    }
+
+    fn state(&mut self) -> State {
+        self.engine.state().unwrap()
+    }
+
+    /// All at once, so that the device does not wait for the host.
+    fn series(&mut self, every: u64, samples: u64) -> Vec<Observables> {
+        let first = self.engine.step();
+        self.step(every * samples);
+        let mut found = self.samples();
+        found.retain(|sample| sample.step > first && (sample.step - first).is_multiple_of(every));
+        assert_eq!(found.len() as u64, samples, "every sampled step is a multiple of `output.energies.every`");
+        found
+    }
+}
+
+/// A mean and its standard error.
+#[derive(Debug, Clone, Copy)]
+pub struct Measured {
+    pub mean: f64,
+    pub error: f64,
+}
+
+impl Measured {
+    /// The mean of a correlated series, with the error of the blocking method.
+    pub fn of(series: &[f64]) -> Self {
+        let estimate = mesoscope::measure::statistics::estimate(series).expect("a series");
+        Self { mean: estimate.mean, error: estimate.standard_error.expect("more than one sample") }
+    }
+
+    /// The ratio of two means; its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩.
+    pub fn ratio(above: &[f64], below: &[f64]) -> Self {
+        let mean_below = below.iter().sum::<f64>() / below.len() as f64;
+        let ratio = above.iter().sum::<f64>() / below.iter().sum::<f64>();
+        let deviations: Vec<f64> = above.iter().zip(below).map(|(a, b)| (a - ratio * b) / mean_below).collect();
+        Self { mean: ratio, error: Self::of(&deviations).error }
+    }
+
+    /// The mean is `expected` within `allowance` and four standard errors, which are at most `largest_error` each, so
+    /// that the comparison says something.
+    #[track_caller]
+    pub fn assert(self, what: &str, expected: f64, allowance: f64, largest_error: f64) {
+        let Self { mean, error } = self;
+        println!("{what}: {mean:.5} ± {error:.5}, expected {expected} ± {allowance}");
+        assert!(error <= largest_error, "{what}: the standard error {error} is larger than {largest_error}");
+        let tolerance = allowance + 4.0 * error;
+        assert!((mean - expected).abs() <= tolerance, "{what}: {mean} ± {error}, expected {expected} ± {allowance}");
+    }
+}
+
+/// Kinetic temperature, configurational temperature and pressure of conservative forces over a series.
+pub fn equilibrium(series: &[Observables]) -> [Measured; 3] {
+    let column = |value: fn(&Observables) -> f64| -> Vec<f64> { series.iter().map(value).collect() };
+    [
+        Measured::of(&column(Observables::kinetic_temperature)),
+        Measured::ratio(&column(|row| row.gradient_squared), &column(|row| row.laplacian)),
+        Measured::of(&column(Observables::conservative_pressure)),
+    ]
+}
+
+/// Slope of a straight line through (log x, log y): the order of an error y in a step x.
+pub fn order(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let logs = || points.iter().map(|(x, y)| (x.ln(), y.ln()));
+    let [mean_x, mean_y] = [logs().map(|p| p.0).sum::<f64>() / count, logs().map(|p| p.1).sum::<f64>() / count];
+    let covariance: f64 = logs().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    covariance / logs().map(|(x, _)| (x - mean_x).powi(2)).sum::<f64>()
+}
