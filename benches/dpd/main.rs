@@ -3,7 +3,7 @@
 //! `cargo bench --bench dpd` prints tables in Markdown and takes some minutes; `cargo bench --bench dpd -- --quick` is a
 //! look that proves nothing. All that is compared is measured in turns within one run, and ratios are taken round by
 //! round, so that a machine that slows down for a while slows both sides. LAMMPS is left out where it is not
-//! installed (see `lammps.rs`). The adapter is the best, or the one that MESOSCOPE_ADAPTER names.
+//! installed (see `lammps.rs`). The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
 
 mod fluid;
 mod lammps;

@@ -22,7 +22,7 @@ pub struct Options {
     pub traversal: Option<Traversal>,
     /// Workgroups that share a row of cells; chosen from the sizes if `None`.
     pub segments: Option<u32>,
-    /// Room for copies of particles in the frames of rows; twice the expected number if `None`.
+    /// Room for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,

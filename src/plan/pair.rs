@@ -632,10 +632,13 @@ impl Builder<'_> {
         self.plan.buffers.append(&mut buffers);
     }
 
-    /// Room for the copies in the frames: twice the share of the end cells, and never more than all particles.
+    /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
     fn frame_capacity(&self) -> u64 {
         if self.grid.framed() {
-            self.options.copies.unwrap_or(4 * self.particles / u64::from(self.grid.cells[0]) + 1024).min(self.particles)
+            self.options
+                .copies
+                .unwrap_or(5 * self.particles / (2 * u64::from(self.grid.cells[0])) + 512)
+                .min(self.particles)
         } else {
             0
         }
