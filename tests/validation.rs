@@ -159,7 +159,7 @@ fn transport_without_repulsion() {
         "interactions.0.repulsion=0",
         "time.step=0.04",
         "time.equilibration=250",
-        "time.steps=15250",
+        "time.steps=25250",
         r#"output.diffusion={"every":5,"window":50}"#,
         r#"output.viscosity={"every":10,"window":100}"#,
     ]);
