@@ -17,3 +17,8 @@ pub mod reference;
 pub mod run;
 pub mod scene;
 pub mod state;
+
+/// The Rust example of the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -14,7 +14,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
         + random_impulse(c, root, me, other);
     (*sums).kick += select(Steps(0), Steps(round(magnitude * contact.direction)), contact.inside);
-    (*sums).strain += abs(magnitude);
+    (*sums).strain += select(0.0, abs(magnitude), contact.inside);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let full_step = steps_of(me.momentum) + control.closing * sums.kick;

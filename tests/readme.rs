@@ -1,0 +1,62 @@
+//! The examples of the README: its scene is correct, and its commands run as they stand there.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::process::Command;
+
+const README: &str = include_str!("../README.md");
+
+/// The contents of all fenced blocks of a language.
+fn blocks(language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    README.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+}
+
+fn mesoscope(directory: &std::path::Path, arguments: &[&str]) {
+    let output = Command::new(env!("CARGO_BIN_EXE_mesoscope"))
+        .current_dir(directory)
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "mesoscope {arguments:?}: {errors}");
+}
+
+#[test]
+fn the_commands_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let commands: Vec<String> =
+        blocks("console").iter().flat_map(|block| block.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+    assert!(commands.len() >= 8, "found only {commands:?}");
+    for command in &commands {
+        let mut arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        // Fewer steps of fewer particles, or the README would take minutes.
+        if arguments.first() == Some(&"run") {
+            arguments.extend(["--steps", "40", "--set", "space.box=[6,6,6]", "--set", "time.equilibration=20"]);
+            arguments.extend(["--set", "output.radial_distribution.every=10"]);
+        }
+        mesoscope(directory.path(), &arguments);
+    }
+    for file in ["dpd-fluid/energies.png", "dpd-fluid/run.json", "fine/energies.csv"] {
+        assert!(directory.path().join(file).exists(), "{file} is missing");
+    }
+}
+
+#[test]
+fn the_scene_runs() {
+    let scenes = blocks("json");
+    assert_eq!(scenes.len(), 1);
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("mine.json"), &scenes[0]).unwrap();
+    mesoscope(directory.path(), &["run", "mine.json", "--quiet"]);
+    assert!(directory.path().join("mine/energies.png").exists());
+}
+
+#[test]
+fn the_pictures_are_there_and_small() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let pictures: Vec<&str> = README.split("](").skip(1).map(|rest| rest.split(')').next().unwrap()).collect();
+    let pictures: Vec<&str> = pictures.into_iter().filter(|path| path.starts_with("assets/")).collect();
+    assert!(pictures.len() >= 4);
+    let bytes: u64 = pictures.iter().map(|path| std::fs::metadata(root.join(path)).expect(path).len()).sum();
+    assert!(bytes < 2 << 20, "the gallery has {bytes} bytes");
+}
