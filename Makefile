@@ -39,7 +39,7 @@ bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked
 
 adapter: ## a software Vulkan driver, where there is no Vulkan adapter
-	@sh tools/adapter.sh
+	@sh .ci/adapter.sh
 
 cargo:
 	@command -v cargo >/dev/null || { \
