@@ -189,7 +189,8 @@ pub enum Placement {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Velocities {
-    /// Maxwell's distribution at the temperature of the scene; the group's net momentum is removed to the last bit.
+    /// Maxwell's distribution at the temperature of the scene; the net momentum of all thermal groups together is
+    /// removed to the last bit.
     #[default]
     Thermal,
     /// At rest.
