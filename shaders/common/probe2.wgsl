@@ -5,6 +5,7 @@ override WINDOW_Y: u32;
 override PROBE_Y: f32;   // length of a window unit of y over one of x; 0 where the axis is a single cell
 override PROBE_REACH: f32; // square of the cutoff plus half a quantum's diagonal, in units of x
 
+alias Middle = u32;
 struct Probe { x: u32, y: f32 }
 
 fn probe_word(fraction: Fraction) -> u32 {

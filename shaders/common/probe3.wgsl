@@ -7,6 +7,7 @@ override PROBE_Y: f32;   // length of a window unit of y over one of x; 0 where 
 override PROBE_Z: f32;
 override PROBE_REACH: f32; // square of the cutoff plus half a quantum's diagonal, in units of x
 
+alias Middle = vec2<u32>;
 struct Probe { x: u32, y: f32, z: f32 }
 
 fn probe_word(fraction: Fraction) -> u32 {

@@ -1,5 +1,5 @@
-// Visits every pair from both ends, one invocation a particle: the prefilter turns each stretch of candidates into a
-// mask of hits, and the hits are visited in a second loop that has little else to do. For any subgroup size.
+// Visits every pair from both ends, one invocation a particle: each stretch of candidates is turned into masks of hits,
+// and the hits are visited in a second loop that has little else to do. For any subgroup size.
 override SEGMENTS: u32; // workgroups that share a row
 
 const WORDS: u32 = 32u;
@@ -20,10 +20,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 
 fn visit(row: u32, index: u32) {
     let me = sorted[index];
-    let fraction = fraction_of(me.position);
-    let middle = row_middle(row);
-    let probe = probe_of(fraction, middle);
-    let column = column_of(fraction);
+    let column = column_of(fraction_of(me.position));
+    prepare_hits(row, me);
     let last_column = column + 2u * frame();
     var sums = pass_begin(me);
     var masks: array<u32, WORDS>;
@@ -43,14 +41,7 @@ fn visit(row: u32, index: u32) {
                 neighbour += 1u;
                 continue;
             }
-            let count = min(32u, end - base);
-            var mask = 0u;
-            for (var bit = 0u; bit < count; bit++) {
-                mask |= select(0u, 1u << bit, probe_hits(probe, probe_of_word(probes[base + bit], middle)));
-            }
-            let own = index - base;
-            mask &= ~select(0u, 1u << (own & 31u), own < 32u);
-            keep_mask(row, index, word_number, mask);
+            let mask = hits_of_row(row, index, word_number, base, min(32u, end - base));
             word_number += 1u;
             masks[filled] = mask;
             bases[filled] = base;

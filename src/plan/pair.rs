@@ -311,32 +311,28 @@ impl Builder<'_> {
         modules.extend(match masks {
             Masks::Unkept => &["common/keep_off"][..],
             Masks::Keep => &["common/found", "common/keep_on"],
-            Masks::Kept => &["common/found", "common/kept_masks"],
+            Masks::Kept => &["common/found", "common/kept_hits"],
         });
-        let lanes = match (traversal, masks) {
-            (Traversal::Alone, _) => {
+        let lanes = match traversal {
+            Traversal::Alone => {
                 modules.push("kernels/alone");
                 64
             }
-            (Traversal::Rows, Masks::Kept) => {
-                modules.push("kernels/rows_kept");
-                64
-            }
-            (Traversal::Rows, _) => {
+            Traversal::Rows => {
+                let kept = masks == Masks::Kept;
+                modules.push(if kept { "common/kept_hits_of_rows" } else { "common/hits_of_rows" });
                 modules.push("kernels/rows");
                 64
             }
-            (Traversal::Clusters, Masks::Kept) => {
-                modules.extend(["common/stretches", "kernels/clusters_kept"]);
-                8
-            }
-            (Traversal::Clusters, _) => {
-                modules.extend([
-                    "common/stretches",
-                    "common/eight_hits",
-                    if self.grid.dimension == 3 { "common/shuffle3" } else { "common/shuffle2" },
-                    "kernels/clusters",
-                ]);
+            Traversal::Clusters => {
+                modules.extend(match masks {
+                    Masks::Kept => &["common/kept_hits_of_clusters"][..],
+                    _ if self.grid.dimension == 3 => {
+                        &["common/hits_of_clusters", "common/eight_hits", "common/shuffle3"]
+                    }
+                    _ => &["common/hits_of_clusters", "common/eight_hits", "common/shuffle2"],
+                });
+                modules.extend(["common/stretches", "kernels/clusters"]);
                 8
             }
         };
