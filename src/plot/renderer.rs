@@ -395,8 +395,9 @@ impl Plotter {
             self.device
                 .poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: Some(PATIENCE) })
                 .map_err(|error| PlotError::Readback(error.to_string()))?;
+            // The mapping may be on its way in another thread that polls the same device.
             receiver
-                .try_recv()
+                .recv_timeout(PATIENCE)
                 .map_err(|error| PlotError::Readback(error.to_string()))?
                 .map_err(|error| PlotError::Readback(error.to_string()))?;
             let mapped = buffer.get_mapped_range(0..bytes).map_err(|error| PlotError::Readback(error.to_string()))?;
