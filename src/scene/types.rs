@@ -79,7 +79,8 @@ pub struct Time {
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
-    /// traversal a step. The default: both temperatures right at the largest step per unit cost.
+    /// traversal a step. The default: both temperatures within about one
+    /// per cent at a step of 0.04 in the standard fluid; with strong friction it runs cold.
     Splitting {},
     /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
     GrootWarren {
