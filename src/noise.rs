@@ -11,6 +11,8 @@ pub mod stream {
     pub const POSITION: u32 = 2;
     /// Initial velocities.
     pub const VELOCITY: u32 = 3;
+    /// Noise of the bath on a mesh node.
+    pub const MESH: u32 = 4;
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.

@@ -7,7 +7,7 @@ pub struct Units {
     pub dimension: usize,
     /// Box edge lengths; the third is 1 in two dimensions.
     pub lengths: [f64; 3],
-    /// Value of one unit of integer momentum; a power of two.
+    /// Value of one unit of integer momentum; a power of two. Of velocity in shallow water.
     pub momentum: f64,
 }
 
@@ -51,7 +51,8 @@ impl Units {
 /// Positions, momenta and species of all particles, ordered by id, at one step.
 ///
 /// `positions` are fractions of the box in units of 2⁻³²; `momenta` are in units of [`Units::momentum`]. In two
-/// dimensions the third component is zero.
+/// dimensions the third component is zero. In shallow water, where every particle has a mass of its own, momenta are
+/// per unit of mass.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct State {
     /// The step this state belongs to.
@@ -64,6 +65,12 @@ pub struct State {
     pub species: Vec<u32>,
     /// Momenta that the friction sees, where the integrator predicts them (`groot-warren` with λ ≠ ½); else empty.
     pub predicted: Vec<[i32; 3]>,
+    /// Masses in units of [`crate::model::ShallowWater::mass_unit`], zero for tracers, in shallow water; else empty.
+    pub masses: Vec<u32>,
+    /// Mass on each mesh node one step before, in the same units, where a bath on the mesh remembers it; empty at step 0.
+    pub node_masses: Vec<u32>,
+    /// Bath variable of each mesh node, the bits of an `f32`, where there is a bath on the mesh.
+    pub node_bath: Vec<u32>,
 }
 
 impl State {

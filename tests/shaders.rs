@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use mesoscope::engine::Control;
 use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
 use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Kernel, Options, Plan, Traversal};
+use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Traversal};
 use mesoscope::scene::Scene;
 use support::{INTEGRATORS, fluid};
 
@@ -276,7 +276,10 @@ fn host_structs_lie_as_in_the_shaders() {
     let mut tables = 0;
     for (scene, plan) in plans() {
         // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
-        let stride = if plan.predicted { 48 } else { 32 };
+        let (predicted, stride) = match plan.layout {
+            Layout::Particles { predicted, .. } => (predicted, if predicted { 48 } else { 32 }),
+            _ => (false, 24),
+        };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
         assert_eq!(bytes("particles").unwrap(), (u64::from(stride) * plan.particles).max(64), "{scene}");
         for kernel in &plan.kernels {
@@ -294,7 +297,7 @@ fn host_structs_lie_as_in_the_shaders() {
                 assert_eq!(offset(shader, "Particle", ""), stride, "`{}` in {scene}", kernel.name);
                 assert_eq!(offset(shader, "Particle", "position"), 0);
                 assert_eq!(offset(shader, "Particle", "momentum"), 16);
-                if plan.predicted {
+                if predicted {
                     assert_eq!(offset(shader, "Particle", "predicted"), 32);
                 }
             }
@@ -337,7 +340,12 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
                         assert!(groups * 64 >= count, "`{}` leaves particles out: {count} in {lengths}", kernel.name);
                     }
                     if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
-                        assert_eq!(groups % plan.grid.rows(), 0, "`{}`: {count} in {lengths}", kernel.name);
+                        assert_eq!(
+                            groups % (u64::from(plan.cells[1]) * u64::from(plan.cells[2])),
+                            0,
+                            "`{}`: {count} in {lengths}",
+                            kernel.name
+                        );
                     }
                 }
             }

@@ -83,6 +83,8 @@ fn overview(scene: &Scene, plan: &Plan, adapter: &str) -> String {
         Integrator::Splitting {} => "splitting".to_owned(),
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
         Integrator::CotterReich {} => "cotter-reich".to_owned(),
+        Integrator::Gyro {} => "gyro".to_owned(),
+        Integrator::Rotate {} => "rotate".to_owned(),
     };
     let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
     let rows = [
@@ -93,11 +95,7 @@ fn overview(scene: &Scene, plan: &Plan, adapter: &str) -> String {
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
         (
             "cells",
-            plan.grid.cells[..lengths.len()]
-                .iter()
-                .map(|count| grouped((*count).into()))
-                .collect::<Vec<_>>()
-                .join(" × "),
+            plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × "),
         ),
         ("adapter", adapter.to_owned()),
         ("memory", format!("{}, {per_particle:.1} bytes a particle", bytes(plan.bytes()))),

@@ -65,6 +65,8 @@ pub struct Engine<'a> {
     plan: Plan,
     buffers: HashMap<&'static str, wgpu::Buffer>,
     stages: Vec<Stage>,
+    /// Species of the particles, for layouts that leave them on the host.
+    species: Vec<u32>,
     step: u64,
     first_step: u64,
     phase: Phase,
@@ -111,6 +113,7 @@ impl<'a> Engine<'a> {
             plan,
             buffers,
             stages,
+            species: Vec::new(),
             step: 0,
             first_step: 0,
             phase: Phase::Advanced,
@@ -154,31 +157,19 @@ impl<'a> Engine<'a> {
         if state.len() as u64 != self.plan.particles {
             return refuse(format!("{} particles, where the plan has {}", state.len(), self.plan.particles));
         }
-        if self.plan.predicted && state.step > 0 && state.predicted.len() != state.len() {
-            return refuse("predicted momenta are missing".to_owned());
-        }
         let mut sorted_order = order.to_vec();
         sorted_order.sort_unstable();
         if !sorted_order.iter().copied().eq(0..state.len()) {
             return refuse("the storage order is not an order of all particles".to_owned());
         }
-        let width = if self.plan.predicted { 12 } else { 8 };
-        let mut words: Vec<u32> = Vec::with_capacity(width * state.len());
-        for &id in order {
-            words.extend(state.positions[id]);
-            words.push(id as u32);
-            words.extend(state.momenta[id].map(|unit| unit as u32));
-            words.push(state.species[id]);
-            if self.plan.predicted {
-                let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
-                words.extend(predicted.map(|unit| unit as u32));
-                words.push(state.species[id]);
-            }
-        }
+        let contents = self.plan.layout.pack(state, order).map_err(|reason| EngineError::State { reason })?;
         let step = [state.step as u32, (state.step >> 32) as u32];
         let control =
             Control { step, next: step, seed_key: self.plan.seed_key, failure_elapsed: u32::MAX, ..Control::default() };
-        self.gpu.queue.write_buffer(&self.buffers["particles"], 0, bytemuck::cast_slice(&words));
+        for (name, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
+            self.gpu.queue.write_buffer(&self.buffers[name], 0, bytemuck::cast_slice(words));
+        }
+        self.species.clone_from(&state.species);
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.clear_buffer(&self.buffers["counts"], 0, None);
@@ -284,31 +275,15 @@ impl<'a> Engine<'a> {
 
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
-        let bytes = readback::read(self.gpu, &self.buffers["particles"])?;
-        let words: &[u32] = bytemuck::cast_slice(&bytes);
+        let names = self.plan.layout.buffers();
+        let read = |name: &&str| readback::read(self.gpu, &self.buffers[*name]);
+        let bytes = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let words: Vec<&[u32]> = bytes.iter().map(|bytes| bytemuck::cast_slice(bytes)).collect();
         let count = self.plan.particles as usize;
-        let width = if self.plan.predicted { 12 } else { 8 };
-        let mut state = State {
-            step: self.step,
-            positions: vec![[0; 3]; count],
-            momenta: vec![[0; 3]; count],
-            species: vec![0; count],
-            predicted: if self.plan.predicted { vec![[0; 3]; count] } else { Vec::new() },
-        };
-        for particle in words.chunks_exact(width).take(count) {
-            let id = particle[3] as usize;
-            if id >= count {
-                return Err(EngineError::State { reason: format!("a particle came back with number {id}") });
-            }
-            state.positions[id] = [particle[0], particle[1], particle[2]];
-            state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
-            state.species[id] = particle[7];
-            if self.plan.predicted {
-                state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
-            }
-        }
-        if self.plan.units.dimension == 2 {
-            state.positions.iter_mut().for_each(|position| position[2] = 0);
+        let state = self.plan.layout.unpack(self.step, &words, count);
+        let mut state = state.map_err(|reason| EngineError::State { reason })?;
+        if state.species.is_empty() {
+            state.species.clone_from(&self.species);
         }
         Ok(state)
     }

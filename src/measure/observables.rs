@@ -29,6 +29,12 @@ pub struct Observables {
     pub total_virial: f64,
     /// Total momentum.
     pub momentum: [f64; 3],
+    /// Whether the total momentum is constant, so that it is no degree of freedom of a temperature.
+    pub momentum_is_constant: bool,
+    /// Energy of bath variables with memory.
+    pub bath_energy: f64,
+    /// Mean square of the bath variables.
+    pub bath_square: f64,
 }
 
 impl Observables {
@@ -44,9 +50,12 @@ impl Observables {
         if self.particles == 0 { [f64::NAN; 3] } else { self.momentum.map(|momentum| momentum / self.mass) }
     }
 
-    /// Kinetic temperature kT about the centre-of-mass velocity; NaN for fewer than two particles.
+    /// Kinetic temperature kT, about the centre-of-mass velocity where that is constant; NaN for too few particles.
     #[must_use]
     pub fn kinetic_temperature(&self) -> f64 {
+        if !self.momentum_is_constant {
+            return 2.0 * self.kinetic_energy / (self.dimension as f64 * self.particles as f64);
+        }
         if self.particles < 2 {
             return f64::NAN;
         }
@@ -99,6 +108,9 @@ mod tests {
         conservative_virial: 6.0,
         total_virial: 12.0,
         momentum: [0.0, 3.0, 0.0],
+        momentum_is_constant: true,
+        bath_energy: 0.0,
+        bath_square: 0.0,
     };
 
     #[test]
@@ -108,6 +120,8 @@ mod tests {
         // Bulk motion holds 9 / 6 of the kinetic energy.
         assert!((PAIR.kinetic_temperature() - 7.0 / 3.0).abs() < 1e-15);
         assert_eq!(PAIR.configurational_temperature(), 2.0);
+        let on_a_mesh = Observables { momentum_is_constant: false, ..PAIR };
+        assert!((on_a_mesh.kinetic_temperature() - 10.0 / 6.0).abs() < 1e-15);
         assert!((PAIR.conservative_pressure() - (7.0 / 15.0 + 0.2)).abs() < 1e-15);
         assert!((PAIR.pressure() - (7.0 / 15.0 + 0.4)).abs() < 1e-15);
     }

@@ -23,5 +23,8 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         conservative_virial: sum(6) * quanta.pair_energy,
         gradient_squared: sum(7) * quanta.force_squared,
         laplacian: sum(8) * quanta.curvature,
+        momentum_is_constant: true,
+        bath_energy: 0.0,
+        bath_square: 0.0,
     }
 }

@@ -1,8 +1,12 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
+mod bath;
 mod dpd;
+mod shallow_water;
 
+pub use bath::BathStep;
 pub use dpd::PairForce;
+pub use shallow_water::{ShallowWater, Tracers};
 
 use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
 use crate::state::Units;
@@ -39,6 +43,8 @@ pub struct Model {
     pub integrator: Integrator,
     /// The pair force, if the scene has one.
     pub pair_force: Option<PairForce>,
+    /// Shallow water on a mesh, if the scene has it; the momenta of its particles are per unit of mass.
+    pub shallow_water: Option<ShallowWater>,
 }
 
 impl Model {
@@ -53,13 +59,19 @@ impl Model {
                 None => species.push(Species { name: group.species.clone(), mass: group.mass, count }),
             }
         }
-        let mut pair_force = scene.interactions.iter().map(|interaction| match interaction {
-            Interaction::Dpd(dpd) => PairForce::new(dpd, &species),
-        });
-        let pair_force = pair_force.next_back();
+        let (mut pair_force, mut shallow_water) = (None, None);
+        for interaction in &scene.interactions {
+            match interaction {
+                Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, &species)),
+                Interaction::ShallowWater(water) => shallow_water = Some(ShallowWater::new(water, scene)),
+            }
+        }
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
-        let momentum = momentum_unit(scene, &species, pair_force.as_ref());
+        let momentum = match &shallow_water {
+            Some(water) => velocity_unit(scene, water),
+            None => momentum_unit(scene, &species, pair_force.as_ref()),
+        };
         Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
             species,
@@ -70,6 +82,7 @@ impl Model {
             distribution: scene.noise.distribution,
             integrator: scene.integrator.clone(),
             pair_force,
+            shallow_water,
         }
     }
 
@@ -85,6 +98,18 @@ impl Model {
     pub fn particle_count(&self) -> u64 {
         self.species.iter().map(|species| species.count).sum()
     }
+}
+
+/// A power of two near 2⁻²⁹ of the largest velocity expected in shallow water, where the speed of waves is a high one.
+fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
+    let mass = water.nodes() as f64 / water.carriers.max(1) as f64;
+    let mut scale = water.wave_speed.max(8.0 * (scene.temperature / mass).sqrt());
+    for group in &scene.particles {
+        if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
+            scale = velocities.iter().flatten().fold(scale, |most, velocity| most.max(velocity.abs()));
+        }
+    }
+    (scale.log2().ceil() - 29.0).exp2()
 }
 
 /// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, or, in a scene without heat,

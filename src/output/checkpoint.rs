@@ -14,6 +14,9 @@
 //!     momenta      N × 3 i32
 //!     species      N u32
 //!     predicted    u64 (0 or N), that many × 3 i32
+//!     masses       u64 (0 or N), that many u32
+//!     node masses  u64, that many u32
+//!     node bath    u64, that many u32
 //!     sections     u64 count; each: u64 length, name in UTF-8; u64 length, bytes
 //! checksum         u64       FNV-1a of the payload
 //! ```
@@ -26,7 +29,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: [u8; 8] = *b"MESOCKPT";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 8;
 
@@ -101,6 +104,10 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
         + 28 * state.len() as u64
         + 8
         + 12 * state.predicted.len() as u64
+        + [&state.masses, &state.node_masses, &state.node_bath]
+            .map(|words| 8 + 4 * words.len() as u64)
+            .iter()
+            .sum::<u64>()
         + 8
         + sections_length;
     write_atomically(path, |writer| {
@@ -116,6 +123,10 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
         payload.words(&state.species)?;
         payload.number(state.predicted.len() as u64)?;
         payload.words(bytemuck::cast_slice(&state.predicted))?;
+        for words in [&state.masses, &state.node_masses, &state.node_bath] {
+            payload.number(words.len() as u64)?;
+            payload.words(words)?;
+        }
         payload.number(sections.len() as u64)?;
         for (name, bytes) in sections {
             payload.counted(name.as_bytes())?;
@@ -143,6 +154,9 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let scene: Scene = serde_json::from_slice(scene).map_err(|error| malformed(format!("its scene: {error}")))?;
     if !state.predicted.is_empty() && state.predicted.len() != state.len() {
         return Err(malformed("some particles have predicted momenta and others none".to_owned()));
+    }
+    if !state.masses.is_empty() && state.masses.len() != state.len() {
+        return Err(malformed("some particles have masses of their own and others none".to_owned()));
     }
     Ok(Checkpoint { scene, state, sections })
 }
@@ -270,6 +284,11 @@ impl<'a> Reader<'a> {
         Some(words)
     }
 
+    fn counted_words(&mut self) -> Option<Vec<u32>> {
+        let count = self.number()?;
+        self.words(count)
+    }
+
     fn vectors<T: bytemuck::Pod>(&mut self, count: u64) -> Option<Vec<[T; 3]>> {
         Some(bytemuck::cast_slice(&self.words(count.checked_mul(3)?)?).to_vec())
     }
@@ -283,12 +302,13 @@ impl<'a> Reader<'a> {
         let species = self.words(count)?;
         let predicted_count = self.number()?;
         let predicted = self.vectors(predicted_count)?;
+        let [masses, node_masses, node_bath] = [self.counted_words()?, self.counted_words()?, self.counted_words()?];
         let mut sections = Vec::new();
         for _ in 0..self.number()? {
             let name = std::str::from_utf8(self.counted()?).ok()?.to_owned();
             sections.push((name, self.counted()?.to_vec()));
         }
-        let state = State { step, positions, momenta, species, predicted };
+        let state = State { step, positions, momenta, species, predicted, masses, node_masses, node_bath };
         self.rest.is_empty().then_some((scene, state, sections))
     }
 }

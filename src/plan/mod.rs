@@ -1,12 +1,26 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
 mod grid;
+mod layout;
 mod pair;
+mod shallow_water;
+mod smoothing;
 
 pub use grid::Grid;
-pub use pair::plan;
+pub use layout::Layout;
 
+use crate::model::Model;
+use crate::scene::Output;
 use crate::state::Units;
+
+/// Makes the plan of a model.
+#[must_use]
+pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+    match &model.shallow_water {
+        Some(water) => shallow_water::plan(model, water, output, options),
+        None => pair::plan(model, equilibration, output, hardware, options),
+    }
+}
 
 /// What the plan may use of the adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -112,6 +126,8 @@ pub struct Quanta {
     pub length_squared: f64,
     /// Square of a velocity.
     pub velocity_squared: f64,
+    /// Square of a bath variable.
+    pub bath_squared: f64,
 }
 
 /// Everything a run does on the device.
@@ -121,12 +137,12 @@ pub struct Plan {
     pub particles: u64,
     /// Scales of the integer state.
     pub units: Units,
-    /// The cells.
-    pub grid: Grid,
+    /// Cells on each axis.
+    pub cells: [u32; 3],
+    /// How the integer state lies in buffers.
+    pub layout: Layout,
     /// Units of the observables' sums.
     pub quanta: Quanta,
-    /// Whether particles carry predicted momenta.
-    pub predicted: bool,
     /// Key of the noise stream.
     pub seed_key: [u32; 2],
     /// Time step.

@@ -1,6 +1,6 @@
 //! The plan of a scene whose particles interact in pairs.
 
-use super::{Buffer, Contents, Grid, Hardware, Kernel, Options, Plan, Quanta, Sampler, Traversal};
+use super::{Buffer, Contents, Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
 use crate::scene::{Diffusion, Distribution, Generator, Integrator, Output, RadialDistribution, Viscosity};
@@ -18,8 +18,7 @@ const KEPT_WORDS: u32 = 5;
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
 /// Makes the plan of a model.
-#[must_use]
-pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force.as_ref().unwrap_or(&free);
@@ -31,7 +30,7 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
         (true, None, _) => Traversal::Rows,
     };
     let mut builder =
-        Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, grid) };
+        Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, &grid) };
     builder.constants();
     builder.ordering();
     builder.integration(output);
@@ -40,13 +39,14 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
     builder.plan
 }
 
-fn empty_plan(model: &Model, grid: Grid) -> Plan {
+fn empty_plan(model: &Model, grid: &Grid) -> Plan {
+    let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     Plan {
         particles: model.particle_count(),
         units: model.units,
-        grid,
+        cells: grid.cells,
+        layout: Layout::Particles { dimension: model.units.dimension, predicted },
         quanta: quanta(model),
-        predicted: matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5),
         seed_key: noise::seed_key(model.seed, noise::stream::PAIR),
         time_step: model.time_step,
         kernels: Vec::new(),
@@ -87,6 +87,7 @@ fn quanta(model: &Model) -> Quanta {
         curvature: power_of_two(strongest) * 2_f64.powi(-24) / (cutoff * cutoff),
         length_squared: cutoff * cutoff * 2_f64.powi(-32),
         velocity_squared: energy / lightest,
+        bath_squared: 0.0,
     }
 }
 
@@ -191,6 +192,11 @@ impl Builder<'_> {
         self.plan.constants = constants;
     }
 
+    /// Whether particles carry predicted momenta.
+    fn predicted(&self) -> bool {
+        matches!(self.plan.layout, Layout::Particles { predicted: true, .. })
+    }
+
     fn single(&self) -> bool {
         self.model.species.len() <= 1
     }
@@ -213,7 +219,7 @@ impl Builder<'_> {
     }
 
     fn simple(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
-        let mut modules = space(&self.model.units, self.plan.predicted);
+        let mut modules = space(&self.model.units, self.predicted());
         modules.extend(extra);
         self.kernel(Kernel {
             name,
@@ -282,7 +288,7 @@ impl Builder<'_> {
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         modules.push(match self.model.integrator {
             _ if !frictional => "common/friction_off",
-            Integrator::Splitting {} => "common/relaxation",
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} => "common/relaxation",
             Integrator::CotterReich {} => "common/friction_discrete_gradient",
             Integrator::GrootWarren { .. } => "common/friction_velocity",
         });
@@ -305,7 +311,7 @@ impl Builder<'_> {
 
     /// A kernel that visits all pairs.
     fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &[&'static str]) -> usize {
-        let mut modules = space(&self.model.units, self.plan.predicted);
+        let mut modules = space(&self.model.units, self.predicted());
         modules.extend(self.force_modules());
         modules.extend(pass);
         modules.extend(match masks {
@@ -480,7 +486,7 @@ impl Builder<'_> {
         ];
         let rows = self.grid.rows();
         let segments = (self.particles / rows).div_ceil(64).max(1).min((8192 / rows).max(1));
-        let mut modules = space(&self.model.units, self.plan.predicted);
+        let mut modules = space(&self.model.units, self.predicted());
         modules.extend([
             "common/sorted",
             "common/contact",
@@ -520,7 +526,7 @@ impl Builder<'_> {
     /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
     fn particle_sampler(&mut self, sampler: ParticleSampler) {
         let groups = self.particles.div_ceil(64).max(1);
-        let mut modules = space(&self.model.units, self.plan.predicted);
+        let mut modules = space(&self.model.units, self.predicted());
         modules.extend(["common/sum64", "common/reduce"]);
         modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
         modules.push(sampler.module);
@@ -586,7 +592,7 @@ impl Builder<'_> {
     }
 
     fn buffers(&mut self) {
-        let particle = if self.plan.predicted { 48 } else { 32 };
+        let particle = if self.predicted() { 48 } else { 32 };
         let rows = self.grid.rows();
         let cells = self.grid.count();
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };

@@ -200,7 +200,7 @@ impl Reference {
         match self.model.integrator {
             Integrator::GrootWarren { .. } => groot_warren::report(self, found),
             Integrator::CotterReich {} => cotter_reich::report(self, found),
-            Integrator::Splitting {} => splitting::report(self, found),
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} => splitting::report(self, found),
         }
     }
 

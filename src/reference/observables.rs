@@ -21,6 +21,9 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
         conservative_virial: 0.0,
         total_virial: report.total_virial,
         momentum: [0.0; 3],
+        momentum_is_constant: true,
+        bath_energy: 0.0,
+        bath_square: 0.0,
     };
     let mut total = [0_i64; 3];
     for (momentum, mass) in report.momenta.iter().zip(&reference.masses) {

@@ -59,6 +59,7 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     for argument in overrides {
         overrides::apply(&mut document, argument)?;
     }
+    default_integrator(&mut document);
     problems.extend(shape::check(&super::schema(), &mut document));
     // What the shape check has mended may be readable, and then everything can be said at once.
     let scene = match serde_json::from_value::<Scene>(document) {
@@ -73,6 +74,18 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     further.retain(|problem| problems.iter().all(|known| !related(&known.path, &problem.path)));
     problems.extend(further);
     if problems.is_empty() { Ok(scene) } else { Err(invalid(name, problems)) }
+}
+
+/// The integrator that is left out belongs to the interaction.
+fn default_integrator(document: &mut Value) {
+    let water = document["interactions"]
+        .as_array()
+        .is_some_and(|list| list.iter().any(|interaction| interaction["type"] == "shallow-water"));
+    if let (true, Some(scene)) = (water, document.as_object_mut())
+        && !scene.contains_key("integrator")
+    {
+        scene.insert("integrator".to_owned(), serde_json::json!({"type": "gyro"}));
+    }
 }
 
 fn invalid(name: &str, problems: Vec<Problem>) -> SceneError {

@@ -11,7 +11,9 @@ mod overrides;
 mod path;
 pub mod placement;
 mod semantics;
+mod shallow_water;
 mod shape;
+pub mod surface;
 mod text;
 mod types;
 mod warnings;
@@ -28,6 +30,17 @@ impl Space {
     #[must_use]
     pub fn volume(&self) -> f64 {
         self.lengths.iter().product()
+    }
+}
+
+impl Interaction {
+    /// Range of the pair forces; zero where there are none.
+    #[must_use]
+    pub fn cutoff(&self) -> f64 {
+        match self {
+            Self::Dpd(dpd) => dpd.cutoff,
+            Self::ShallowWater(_) => 0.0,
+        }
     }
 }
 

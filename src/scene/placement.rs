@@ -1,7 +1,7 @@
 //! Where the particles of a scene start, and how fast.
 
 use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
-use crate::model::Model;
+use crate::model::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::State;
 
@@ -21,6 +21,9 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         let count = group.resolved_count(scene.space.volume()) as usize;
         place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement == Placement::Lattice);
+        if let Some(water) = &model.shallow_water {
+            fill(&mut state, group, first, model, water);
+        }
         set_in_motion(&mut state, group, count, model);
         let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
         state.species.resize(first + count, species as u32);
@@ -28,8 +31,73 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    bring_to_rest(&mut state, &thermal, model);
+    if let Some(water) = &model.shallow_water {
+        set_mean_depth(&mut state.masses[..water.carriers as usize], water);
+        draw_thermal_velocities(&mut state, &thermal, model, water);
+        draw_bath(&mut state, model, water);
+    } else {
+        bring_to_rest(&mut state, &thermal, model);
+    }
     state
+}
+
+/// Gives the particles of a group masses in proportion to the depth where they are; tracers have none.
+fn fill(state: &mut State, group: &ParticleGroup, first: usize, model: &Model, water: &ShallowWater) {
+    let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
+    let mean = water.nodes() as f64 / water.carriers.max(1) as f64 / water.mass_unit;
+    let masses = state.positions[first..].iter().map(|position| {
+        if group.tracer {
+            return 0;
+        }
+        let [x, y, _] = model.units.position(*position);
+        let depth = surface.unsmoothed([x, y], water.smoothing.length, water.smoothing.power);
+        (mean * depth).round_ties_even() as u32
+    });
+    state.masses.extend(masses);
+}
+
+/// Scales the masses so that they add up to 1 a node, to the last unit.
+fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
+    let wanted = water.mean_mass() as u64 * water.nodes();
+    let sum: u64 = masses.iter().map(|mass| u64::from(*mass)).sum();
+    if sum == 0 {
+        return;
+    }
+    let scale = wanted as f64 / sum as f64;
+    let mut left = wanted as i64;
+    for mass in masses.iter_mut() {
+        *mass = (f64::from(*mass) * scale).round_ties_even() as u32;
+        left -= i64::from(*mass);
+    }
+    // What rounding has left over is at most half a unit a particle.
+    let heavy = masses.iter_mut().filter(|mass| **mass > 0);
+    for mass in heavy.take(left.unsigned_abs() as usize) {
+        *mass = mass.saturating_add_signed(left.signum() as i32);
+    }
+}
+
+/// Maxwell's distribution of velocities for particles of different masses. The mesh takes momentum anyway, so that the
+/// centre of mass need not be at rest.
+fn draw_thermal_velocities(state: &mut State, thermal: &[usize], model: &Model, water: &ShallowWater) {
+    let key = noise::step_key(model.seed, stream::VELOCITY, 0);
+    for &particle in thermal.iter().filter(|&&particle| state.masses[particle] > 0) {
+        let width = (model.temperature / (f64::from(state.masses[particle]) * water.mass_unit)).sqrt();
+        for axis in 0..2 {
+            let words = noise::words(Generator::Threefry2x32, key, [particle as u32, axis as u32]);
+            let velocity = width * noise::gaussian(words);
+            state.momenta[particle][axis] = (velocity / model.units.momentum).round_ties_even() as i32;
+        }
+    }
+}
+
+/// Draws the bath variables of all nodes from their law at rest.
+fn draw_bath(state: &mut State, model: &Model, water: &ShallowWater) {
+    let Some(bath) = &water.bath else { return };
+    let key = noise::step_key(model.seed, stream::MESH, 0);
+    let width = bath.deviation(model.temperature) / water.wave_speed;
+    let nodes = 0..water.nodes() as u32;
+    let draw = |node| (width * noise::gaussian(noise::words(model.generator, key, [0, node]))) as f32;
+    state.node_bath = nodes.map(|node| draw(node).to_bits()).collect();
 }
 
 /// Appends the positions of a group; `shift` moves a lattice by this fraction of its spacing, so that the lattices of
@@ -63,6 +131,12 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
                 })
             }));
         }
+        Placement::Circle { center, radius } => {
+            state.positions.extend((0..count).map(|index| {
+                let (sine, cosine) = (std::f64::consts::TAU * index as f64 / count as f64).sin_cos();
+                model.units.fraction([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
+            }));
+        }
         Placement::Listed { positions } => {
             state.positions.extend(positions.iter().map(|position| {
                 let position = std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0));
@@ -93,6 +167,8 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
     let first = state.momenta.len();
     let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
     match &group.velocities {
+        // Masses differ from particle to particle there, and are known only once all are.
+        Velocities::Thermal if model.shallow_water.is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
             let width = (group.mass * model.temperature).sqrt();
@@ -105,6 +181,17 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
                     to_units(width * noise::gaussian(words))
                 })
             }));
+        }
+        Velocities::Geostrophic => {
+            let Some(water) = &model.shallow_water else { return state.momenta.resize(first + count, [0; 3]) };
+            let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
+            let factor = water.wave_speed * water.wave_speed / water.rotation;
+            let balanced = state.positions[first..].iter().map(|position| {
+                let [x, y, _] = model.units.position(*position);
+                let [slope_x, slope_y] = surface.slope([x, y]);
+                [to_units(-factor * slope_y), to_units(factor * slope_x), 0]
+            });
+            state.momenta.extend(balanced);
         }
         Velocities::Rest => state.momenta.resize(first + count, [0; 3]),
         Velocities::Listed { velocities } => {

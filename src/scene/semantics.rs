@@ -127,16 +127,26 @@ fn quantity(number: f64) -> String {
 fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
-        let Interaction::Dpd(dpd) = interaction;
-        if index > 0 {
-            let found = "a second `dpd` interaction defines the same pairs of species again";
-            let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
-            problems.push(Problem::new(&path, found, accepted));
+        match interaction {
+            Interaction::Dpd(dpd) => {
+                if index > 0 {
+                    let found = "a second interaction, which defines the same pairs of species again";
+                    let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
+                    problems.push(Problem::new(&path, found, accepted));
+                }
+                check_pairs(scene, dpd, &path, problems);
+            }
+            Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
+                let accepted = "`shallow-water` as the only interaction of a scene";
+                problems.push(Problem::new(&path, "found another interaction beside it", accepted));
+            }
+            Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
         }
-        check_pairs(scene, dpd, &path, problems);
     }
-    let cutoffs = scene.interactions.iter().map(|Interaction::Dpd(dpd)| dpd.cutoff);
-    let cutoff = cutoffs.fold(0.0, f64::max);
+    if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
+        super::shallow_water::check_absence(scene, problems);
+    }
+    let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < 2.0 * cutoff {
             let accepted = format!(

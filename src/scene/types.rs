@@ -92,6 +92,12 @@ pub enum Integrator {
     /// The Markov limit (18)-(21) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8: friction from the discrete
     /// gradient of the coupling function.
     CotterReich {},
+    /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
+    /// circles. Symplectic in its magnetic form, so that the circulation of material loops is kept at any time step.
+    /// The default of scenes of shallow water.
+    Gyro {},
+    /// Shallow water: R(½) kick(½) drift kick(½) R(½) with R the rotation of velocities alone.
+    Rotate {},
 }
 
 fn half() -> f64 {
@@ -153,10 +159,14 @@ pub struct ParticleGroup {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub number_density: Option<f64>,
-    /// Mass of one particle.
+    /// Mass of one particle. Left out in shallow water, where the surface makes it.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
+    /// Shallow water: particles without mass, which drift along. The circulation of a tracer group on a circle is
+    /// measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub tracer: bool,
     /// Where the particles start.
     #[serde(default)]
     pub placement: Placement,
@@ -184,6 +194,50 @@ pub enum Placement {
         /// One position per particle.
         positions: Vec<Vec<f64>>,
     },
+    /// Evenly on a circle, counterclockwise; two dimensions only.
+    Circle {
+        /// Centre.
+        center: [f64; 2],
+        /// Radius.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        radius: f64,
+    },
+}
+
+/// A feature of the surface of shallow water, periodic in the box.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SurfaceFeature {
+    /// Two opposed fronts along x, amplitude·tanh(sin(η)/width) with η = y + meander·(sin 3x - sin 2x), where x and y
+    /// run from 0 to 2π over the box. In balance a pair of jets, which is unstable.
+    Front {
+        /// Depth on the higher side.
+        amplitude: f64,
+        /// Width of the fronts.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        width: f64,
+        /// Amplitude of the disturbance.
+        #[serde(default)]
+        meander: f64,
+    },
+    /// A hill (a hollow where negative), Gaussian near its centre: amplitude·exp(-Σ(1 - cos κ(x - x₀))/(κ·radius)²)
+    /// with κ = 2π over the edge of the box. In balance a vortex.
+    Bump {
+        /// Centre.
+        center: [f64; 2],
+        /// Standard deviation.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        radius: f64,
+        /// Height.
+        amplitude: f64,
+    },
+    /// A plane wave amplitude·cos(2π(n₁x/L₁ + n₂y/L₂)).
+    Wave {
+        /// Periods across the box on each axis.
+        periods: [i32; 2],
+        /// Height.
+        amplitude: f64,
+    },
 }
 
 /// How fast the particles of a group start.
@@ -196,6 +250,8 @@ pub enum Velocities {
     Thermal,
     /// At rest.
     Rest,
+    /// Shallow water: in balance between rotation and the slope of the smoothed surface, V = (c₀²/f₀)(-∂H/∂y, ∂H/∂x).
+    Geostrophic,
     /// Velocities listed one by one.
     Listed {
         /// One velocity per particle.
@@ -209,6 +265,154 @@ pub enum Velocities {
 pub enum Interaction {
     /// Dissipative particle dynamics: soft repulsion a(1 - r/rc), friction and noise along the line of centres.
     Dpd(DpdInteraction),
+    /// Rotating shallow water by the Hamiltonian particle-mesh method, with a heat bath on the mesh if asked for.
+    ShallowWater(ShallowWaterInteraction),
+}
+
+/// Rotating shallow water on particles and a periodic mesh: Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
+///
+/// The mean depth is 1; depth is measured in mass a mesh node.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShallowWaterInteraction {
+    /// Mesh nodes on each axis.
+    #[schemars(extend("items" = serde_json::json!({"type": "integer", "minimum": 1, "maximum": 4096})))]
+    pub mesh: [u32; 2],
+    /// Order of the B-splines between particles and mesh: 1 linear, 2 quadratic, 3 cubic (default). A lower order is
+    /// cheaper and rougher.
+    #[serde(default = "cubic")]
+    #[schemars(range(min = 1, max = 3))]
+    pub spline_order: u32,
+    /// Speed c₀ of gravity waves.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wave_speed: f64,
+    /// Coriolis parameter f₀, of dV/dt = f₀ (V_y, -V_x): positive in the northern hemisphere. The equations as Cotter and
+    /// Reich print them turn the other way, which is a negative value here. Zero leaves the rotation out.
+    #[serde(default)]
+    pub rotation: f64,
+    /// The smoothing of the depth that drives the particles.
+    #[serde(default)]
+    pub smoothing: Smoothing,
+    /// The smoothed surface at the start, as features that are added to a depth of 1; the masses of the particles follow
+    /// from it. Left out, the water is flat.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub surface: Vec<SurfaceFeature>,
+    /// A heat bath on every mesh node.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bath: Option<MeshBath>,
+}
+
+fn cubic() -> u32 {
+    3
+}
+
+/// The smoothing (1 - Λ²∇²)^-power of the depth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Smoothing {
+    /// Length Λ; zero leaves the smoothing out.
+    #[schemars(range(min = 0.0))]
+    pub length: f64,
+    /// How often it is applied.
+    #[schemars(range(min = 1, max = 2))]
+    pub power: u32,
+    /// How it is computed.
+    pub solver: SmoothingSolver,
+}
+
+impl Default for Smoothing {
+    fn default() -> Self {
+        Self { length: 0.0, power: 1, solver: SmoothingSolver::default() }
+    }
+}
+
+/// How the smoothing is computed: a fixed symmetric positive operator on the mesh in any case, so that energy is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SmoothingSolver {
+    /// By fast Fourier transform, to rounding (default). Mesh edges are powers of two.
+    Fft {
+        /// What stands for the Laplacian.
+        #[serde(default)]
+        symbol: LaplacianSymbol,
+    },
+    /// By a Chebyshev polynomial of the five-point Laplacian, started from zero and so positive at any length. For any
+    /// mesh. Cheaper and rougher with a larger tolerance.
+    Chebyshev {
+        /// Bound on the relative error of every Fourier mode of (1 - Λ²∇²)⁻¹.
+        #[serde(default = "millionth")]
+        #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
+        tolerance: f64,
+    },
+}
+
+fn millionth() -> f64 {
+    1e-6
+}
+
+impl Default for SmoothingSolver {
+    fn default() -> Self {
+        Self::Fft { symbol: LaplacianSymbol::default() }
+    }
+}
+
+/// What stands for the Laplacian in Fourier space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LaplacianSymbol {
+    /// The five-point difference: -Σ (2 sin(kΔx/2)/Δx)² (default).
+    #[default]
+    FivePoint,
+    /// The exact derivative: -k².
+    Spectral,
+}
+
+/// A heat bath on every mesh node, coupled to the depth there: equation (26) of Cotter and Reich,
+/// doi:10.1209/epl/i2003-00621-8.
+///
+/// It acts on the mesh, through which the water flows, and so slows a uniform flow down too: it is not Galilean
+/// invariant.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum MeshBath {
+    /// Exponential memory with coupling λ = εΛ² and rate α = εc₀/Λ.
+    Memory {
+        /// Strength ε. At fixed λ/α, a large value is the limit without memory.
+        #[schemars(range(min = 0.0))]
+        epsilon: f64,
+        /// The scheme of the bath step.
+        #[serde(default)]
+        scheme: BathScheme,
+        /// Where the rate comes from.
+        #[serde(default)]
+        rate: BathRate,
+    },
+    /// White noise and friction γ = Λ³/c₀, the limit without memory: equations (18)-(21).
+    White {},
+}
+
+/// The scheme of a bath step with memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BathScheme {
+    /// Equation (16) of Cotter and Reich, stable for any rate (default).
+    #[default]
+    CotterReich,
+    /// Their symmetric variant, the implicit midpoint rule.
+    Symmetric,
+    /// The exact Ornstein-Uhlenbeck step.
+    Exponential,
+}
+
+/// Where the rate of a mesh bath comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BathRate {
+    /// α = εc₀/Λ (default): then γ = λ/α = Λ³/c₀, as the paper says.
+    #[default]
+    WaveSpeed,
+    /// α = εΛ/c₀, as the paper prints it.
+    Printed,
 }
 
 /// Parameters of a DPD interaction.
@@ -282,6 +486,39 @@ pub struct Output {
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<Viscosity>,
+    /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<Fields>,
+}
+
+/// Fields on the mesh, as pictures and arrays.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Fields {
+    /// Steps between two numbered pictures and arrays; zero writes them only at the end.
+    pub every: u64,
+    /// Which fields.
+    pub quantities: Vec<FieldQuantity>,
+}
+
+impl Default for Fields {
+    fn default() -> Self {
+        Self { every: 0, quantities: vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity] }
+    }
+}
+
+/// A field on the mesh of shallow water.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldQuantity {
+    /// The smoothed depth h.
+    Depth,
+    /// The potential vorticity (ζ + f₀)/h with ζ = ∂v/∂x - ∂u/∂y.
+    PotentialVorticity,
+    /// The vorticity ζ.
+    Vorticity,
+    /// The speed of the flow.
+    Speed,
 }
 
 /// The table of energies.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::error::Warning;
 use super::{Interaction, Scene, Velocities};
-use crate::model::{Model, PairForce, Species};
+use crate::model::{Model, PairForce, ShallowWater, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
 const FRICTION_LIMIT: f64 = 0.25;
@@ -21,10 +21,15 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn_of_friction(scene, &model.species, force, &mut warnings);
         warn_of_stiffness(scene, &model.species, force, &mut warnings);
     }
-    for Interaction::Dpd(dpd) in &scene.interactions {
-        warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings);
+    for interaction in &scene.interactions {
+        if let Interaction::Dpd(dpd) = interaction {
+            warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings);
+        }
     }
-    warn_of_momentum(scene, &mut warnings);
+    match &model.shallow_water {
+        Some(water) => warn_of_waves(scene, water, &mut warnings),
+        None => warn_of_momentum(scene, &mut warnings),
+    }
     warnings
 }
 
@@ -99,6 +104,27 @@ fn warn_of_stiffness(scene: &Scene, species: &[Species], force: &PairForce, warn
                 species[index].name,
                 frequency * step,
                 FREQUENCY_LIMIT / frequency
+            ),
+        );
+    }
+}
+
+/// The part of the limit of stability that a step of shallow water may take: runs are clean up to here.
+const WAVE_LIMIT: f64 = 0.7;
+
+fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning>) {
+    let step = scene.time.step;
+    let share = water.stability([scene.space.lengths[0], scene.space.lengths[1]], step);
+    if share > WAVE_LIMIT {
+        // Without memory or with little, the coupling of the bath itself depends on the step: p is between dt and dt².
+        let advisable = step * if water.bath.is_some() { WAVE_LIMIT / share } else { (WAVE_LIMIT / share).sqrt() };
+        let verdict = if share >= 1.0 { "the run will become unstable" } else { "the limit is near" };
+        warn(
+            warnings,
+            "time.step",
+            format!(
+                "the stiffest wave on the mesh takes p = {share:.3} of the limit of stability, where p < 1 is stable and \
+                 up to {WAVE_LIMIT} is clean: {verdict}; a step of {advisable:.2e} is advisable"
             ),
         );
     }

@@ -1,0 +1,182 @@
+//! Rotating shallow water by the Hamiltonian particle-mesh method, doi:10.1209/epl/i2003-00621-8.
+
+use super::bath::BathStep;
+use crate::scene::surface::Surface;
+use crate::scene::{BathRate, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature};
+use std::f64::consts::PI;
+
+/// Particles that carry water, the mesh on which their depth is formed, and the bath on its nodes.
+///
+/// Lengths are those of the scene, but for depth, which is mass a node, and masses, whose sum is the number of nodes,
+/// so that the mean depth is 1. The node (k, l) is at (k Δx, l Δy) and has the index k + l n_x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShallowWater {
+    /// Mesh nodes on each axis.
+    pub mesh: [u32; 2],
+    /// Order of the B-splines, 1 to 3.
+    pub spline_order: u32,
+    /// Speed c₀ of gravity waves.
+    pub wave_speed: f64,
+    /// Coriolis parameter f₀ of dV/dt = f₀ (V_y, -V_x).
+    pub rotation: f64,
+    /// Smoothing of the depth.
+    pub smoothing: Smoothing,
+    /// Features of the smoothed surface at the start.
+    pub surface: Vec<SurfaceFeature>,
+    /// Bath step on every node, coupled to its depth; the bath variable and its noise are scaled by 1/c₀.
+    pub bath: Option<BathStep>,
+    /// Value of one unit of integer mass; a power of two.
+    pub mass_unit: f64,
+    /// Particles that carry water; they are numbered before all tracers.
+    pub carriers: u64,
+    /// Groups of particles without mass, in order of their numbers.
+    pub tracers: Vec<Tracers>,
+}
+
+/// A group of particles without mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tracers {
+    /// Name of the species.
+    pub name: String,
+    /// Number of particles.
+    pub count: u64,
+    /// Whether they form a closed loop, in order.
+    pub closed: bool,
+}
+
+/// Units of mass that fit the largest sum, and how much more than the mean a cell may hold.
+const MASS_RANGE: f64 = 2_147_483_648.0;
+const CROWDING: f64 = 128.0;
+
+impl ShallowWater {
+    pub(super) fn new(interaction: &ShallowWaterInteraction, scene: &Scene) -> Self {
+        let count = |tracer: bool| {
+            let groups = scene.particles.iter().filter(move |group| group.tracer == tracer);
+            groups.map(|group| group.resolved_count(scene.space.volume()))
+        };
+        let carriers: u64 = count(false).sum();
+        let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));
+        let nodes = f64::from(interaction.mesh[0]) * f64::from(interaction.mesh[1]);
+        // Masses differ with the depth at the start, by less than a factor of four.
+        let heaviest = 4.0 * nodes / carriers.max(1) as f64;
+        let most = CROWDING.max(4.0 * heaviest).log2().ceil().exp2();
+        Self {
+            mesh: interaction.mesh,
+            spline_order: interaction.spline_order,
+            wave_speed: interaction.wave_speed,
+            rotation: interaction.rotation,
+            smoothing: interaction.smoothing.clone(),
+            surface: interaction.surface.clone(),
+            bath: interaction.bath.as_ref().map(|bath| bath_step(bath, interaction, scene.time.step)),
+            mass_unit: most / MASS_RANGE,
+            carriers,
+            tracers: tracers
+                .map(|(group, count)| Tracers {
+                    name: group.species.clone(),
+                    count,
+                    closed: matches!(group.placement, Placement::Circle { .. }),
+                })
+                .collect(),
+        }
+    }
+
+    /// Number of mesh nodes.
+    #[must_use]
+    pub fn nodes(&self) -> u64 {
+        u64::from(self.mesh[0]) * u64::from(self.mesh[1])
+    }
+
+    /// The surface at the start in a box with these edges.
+    #[must_use]
+    pub fn surface(&self, lengths: [f64; 2]) -> Surface<'_> {
+        Surface::new(&self.surface, lengths)
+    }
+
+    /// Integer mass that a node holds on average; the sum of all masses is that many times the number of nodes.
+    #[must_use]
+    pub fn mean_mass(&self) -> i64 {
+        if self.carriers == 0 { 0 } else { (1.0 / self.mass_unit) as i64 }
+    }
+
+    /// The share p of the limit of stability that a time step takes, an upper estimate: the step is stable for p < 1.
+    ///
+    /// Kicks by the smoothed depth and by the bath are oscillators of one mode of the mesh each, with (W + B)/4 < 1 as
+    /// the limit. Their stiffness is the largest eigenvalue of ∫∇ψ·∇ψ over the smoothing, and over the coupling of the
+    /// bath.
+    #[must_use]
+    pub fn stability(&self, lengths: [f64; 2], time_step: f64) -> f64 {
+        const SAMPLES: u32 = 64;
+        let spacing = [lengths[0] / f64::from(self.mesh[0]), lengths[1] / f64::from(self.mesh[1])];
+        let coupling = self.bath.as_ref().map_or(0.0, |bath| bath.coupling);
+        let mut largest: f64 = 0.0;
+        for k in 0..=SAMPLES {
+            for l in 0..=SAMPLES {
+                let angles = [k, l].map(|index| PI * f64::from(index) / f64::from(SAMPLES));
+                let [(mass_x, stiff_x), (mass_y, stiff_y)] =
+                    angles.map(|angle| spline_symbols(self.spline_order, angle));
+                let gradient = stiff_x * mass_y / spacing[0].powi(2) + mass_x * stiff_y / spacing[1].powi(2);
+                let laplacian: f64 =
+                    (0..2).map(|axis| (2.0 * (0.5 * angles[axis]).sin() / spacing[axis]).powi(2)).sum();
+                let smoothing = (1.0 + self.smoothing.length.powi(2) * laplacian).powi(-(self.smoothing.power as i32));
+                largest = largest.max(gradient * (smoothing + coupling));
+            }
+        }
+        0.25 * (time_step * self.wave_speed).powi(2) * largest
+    }
+}
+
+/// Fourier symbols of ∫ψψ and of ∫ψ'ψ' of B-splines on a unit mesh, at an angle a node.
+fn spline_symbols(order: u32, angle: f64) -> (f64, f64) {
+    let linear = (4.0 + 2.0 * angle.cos()) / 6.0;
+    let quadratic = (66.0 + 52.0 * angle.cos() + 2.0 * (2.0 * angle).cos()) / 120.0;
+    let cubic = (2416.0 + 2382.0 * angle.cos() + 240.0 * (2.0 * angle).cos() + 2.0 * (3.0 * angle).cos()) / 5040.0;
+    let difference = 2.0 - 2.0 * angle.cos();
+    match order {
+        1 => (linear, difference),
+        2 => (quadratic, difference * linear),
+        _ => (cubic, difference * quadratic),
+    }
+}
+
+fn bath_step(bath: &MeshBath, interaction: &ShallowWaterInteraction, time_step: f64) -> BathStep {
+    let (length, speed) = (interaction.smoothing.length, interaction.wave_speed);
+    match *bath {
+        MeshBath::White {} => BathStep::without_memory(length.powi(3) / speed, time_step),
+        MeshBath::Memory { epsilon, scheme, rate } => {
+            let rate = epsilon
+                * match rate {
+                    BathRate::WaveSpeed => speed / length,
+                    BathRate::Printed => length / speed,
+                };
+            BathStep::with_memory(scheme, epsilon * length.powi(2), rate, time_step)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splines_are_a_partition_of_unity_and_cubic_ones_as_stiff_as_measured() {
+        for order in 1..=3 {
+            let (mass, stiffness) = spline_symbols(order, 0.0);
+            assert!((mass - 1.0).abs() < 1e-15 && stiffness == 0.0);
+        }
+        let water = ShallowWater {
+            mesh: [64, 64],
+            spline_order: 3,
+            wave_speed: 1.0,
+            rotation: 0.0,
+            smoothing: Smoothing::default(),
+            surface: Vec::new(),
+            bath: None,
+            mass_unit: 1.0,
+            carriers: 65_536,
+            tracers: Vec::new(),
+        };
+        // 4p/dt² in units of c₀²/Δx², without smoothing.
+        let stiffness = 4.0 * water.stability([64.0, 64.0], 1.0);
+        assert!((stiffness - 1.1).abs() < 0.05, "{stiffness}");
+    }
+}

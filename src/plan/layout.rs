@@ -1,0 +1,152 @@
+//! How the integer state lies in the buffers of a plan.
+
+use crate::state::State;
+
+/// How the integer state lies in buffers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// One array `particles` of position and id, momentum and species, and predicted momentum where there is one.
+    Particles {
+        /// Number of dimensions.
+        dimension: usize,
+        /// Whether particles carry predicted momenta.
+        predicted: bool,
+    },
+    /// Shallow water: an array `particles` of position, velocity, mass and id; tracers without mass apart from them;
+    /// what the bath remembers of every node.
+    Water {
+        /// Number of particles with mass, which come first.
+        carriers: usize,
+        /// Number of tracers.
+        tracers: usize,
+        /// Nodes that have a bath variable; zero without a bath.
+        bath_nodes: usize,
+    },
+}
+
+/// Words of a particle or tracer of shallow water.
+const WATER: usize = 6;
+
+impl Layout {
+    /// The buffers that hold the state.
+    #[must_use]
+    pub fn buffers(&self) -> Vec<&'static str> {
+        match *self {
+            Self::Particles { .. } => vec!["particles"],
+            Self::Water { tracers, bath_nodes, .. } => {
+                let mut names = vec!["particles"];
+                if tracers > 0 {
+                    names.push("tracers");
+                }
+                if bath_nodes > 0 {
+                    names.extend(["previous_masses", "node_bath"]);
+                }
+                names
+            }
+        }
+    }
+
+    /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
+    ///
+    /// # Errors
+    /// What is missing in the state.
+    pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, String> {
+        match *self {
+            Self::Particles { predicted, .. } => {
+                if predicted && state.step > 0 && state.predicted.len() != state.len() {
+                    return Err("predicted momenta are missing".to_owned());
+                }
+                let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
+                for &id in order {
+                    words.extend(state.positions[id]);
+                    words.push(id as u32);
+                    words.extend(state.momenta[id].map(|unit| unit as u32));
+                    words.push(state.species[id]);
+                    if predicted {
+                        let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
+                        words.extend(predicted.map(|unit| unit as u32));
+                        words.push(state.species[id]);
+                    }
+                }
+                Ok(vec![words])
+            }
+            Self::Water { carriers, tracers, bath_nodes } => {
+                if state.masses.len() != state.len() {
+                    return Err("masses are missing".to_owned());
+                }
+                if bath_nodes > 0 && state.node_bath.len() != bath_nodes {
+                    return Err("bath variables are missing".to_owned());
+                }
+                if bath_nodes > 0 && state.step > 0 && state.node_masses.len() != bath_nodes {
+                    return Err("the mesh of the step before is missing".to_owned());
+                }
+                let particle = |id: &usize| {
+                    let ([x, y, _], [u, v, _]) = (state.positions[*id], state.momenta[*id]);
+                    [x, y, u as u32, v as u32, state.masses[*id], *id as u32]
+                };
+                let (water, drifting): (Vec<usize>, Vec<usize>) = order.iter().partition(|id| **id < carriers);
+                let mut contents: Vec<Vec<u32>> = vec![water.iter().flat_map(particle).collect()];
+                if tracers > 0 {
+                    contents.push(drifting.iter().flat_map(particle).collect());
+                }
+                if bath_nodes > 0 {
+                    let previous = state.node_masses.clone();
+                    contents.push(if previous.is_empty() { vec![0; bath_nodes] } else { previous });
+                    contents.push(state.node_bath.clone());
+                }
+                Ok(contents)
+            }
+        }
+    }
+
+    /// The state at a step in the contents of [`Self::buffers`]; what `pack` put in, in order of the ids.
+    ///
+    /// # Errors
+    /// What is wrong with the contents.
+    pub fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
+        let mut state =
+            State { step, positions: vec![[0; 3]; count], momenta: vec![[0; 3]; count], ..State::default() };
+        let mut seen = vec![false; count];
+        let mut place = |id: u32| {
+            let place = id as usize;
+            let fresh = seen.get_mut(place).is_some_and(|seen| !std::mem::replace(seen, true));
+            if fresh { Ok(place) } else { Err(format!("a particle came back with number {id}")) }
+        };
+        let contents = |index: usize| contents.get(index).copied().unwrap_or_default();
+        match *self {
+            Self::Particles { dimension, predicted } => {
+                let width = if predicted { 12 } else { 8 };
+                state.species = vec![0; count];
+                if predicted {
+                    state.predicted = vec![[0; 3]; count];
+                }
+                for particle in contents(0).chunks_exact(width).take(count) {
+                    let id = place(particle[3])?;
+                    state.positions[id] = [particle[0], particle[1], if dimension == 2 { 0 } else { particle[2] }];
+                    state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
+                    state.species[id] = particle[7];
+                    if predicted {
+                        state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
+                    }
+                }
+            }
+            Self::Water { carriers, tracers, bath_nodes } => {
+                state.masses = vec![0; count];
+                let drifting = if tracers > 0 { contents(1) } else { &[] };
+                let all = contents(0).chunks_exact(WATER).take(carriers);
+                for particle in all.chain(drifting.chunks_exact(WATER).take(tracers)) {
+                    let id = place(particle[5])?;
+                    state.positions[id] = [particle[0], particle[1], 0];
+                    state.momenta[id] = [particle[2] as i32, particle[3] as i32, 0];
+                    state.masses[id] = particle[4];
+                }
+                if bath_nodes > 0 {
+                    let first = 1 + usize::from(tracers > 0);
+                    state.node_masses = contents(first).iter().copied().take(bath_nodes).collect();
+                    state.node_bath = contents(first + 1).iter().copied().take(bath_nodes).collect();
+                }
+            }
+        }
+        Ok(state)
+    }
+}

@@ -1,0 +1,133 @@
+//! What a scene of shallow water has to fulfil beyond its shape, and what only such a scene may have.
+
+use super::error::Problem;
+use super::surface::Surface;
+use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities};
+
+/// Points on each axis at which the depth at the start is tried.
+const TRIALS: u32 = 128;
+
+/// Checks a scene whose interaction at `path` is shallow water.
+pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Problem>) {
+    let lengths = &scene.space.lengths;
+    if lengths.len() != 2 {
+        let found = format!("found {} edges", lengths.len());
+        problems.push(Problem::new("space.box", found, "two edges: shallow water is two-dimensional"));
+    }
+    if !matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
+        let found = format!("found `{}`", integrator_name(&scene.integrator));
+        problems.push(Problem::new("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water"));
+    }
+    check_mesh(water, path, problems);
+    check_groups(scene, water, problems);
+    check_output(scene, problems);
+    if lengths.len() == 2 {
+        check_depth(water, path, [lengths[0], lengths[1]], problems);
+    }
+}
+
+fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Problem>) {
+    for (axis, nodes) in water.mesh.iter().enumerate() {
+        let path = format!("{path}.mesh[{axis}]");
+        let least = water.spline_order + 1;
+        if *nodes < least {
+            let accepted = format!("at least {least} nodes, the width of a spline of order {}", water.spline_order);
+            problems.push(Problem::new(&path, format!("found {nodes}"), accepted));
+        } else if matches!(water.smoothing.solver, SmoothingSolver::Fft { .. })
+            && water.smoothing.length > 0.0
+            && !nodes.is_power_of_two()
+        {
+            let accepted = "a power of two for the solver `fft`, or the solver `chebyshev`, which takes any mesh";
+            problems.push(Problem::new(&path, format!("found {nodes}"), accepted));
+        }
+    }
+    if water.bath.is_some() && water.smoothing.length == 0.0 {
+        let found = "found a bath, and a smoothing of length 0";
+        let accepted = "a `smoothing.length` above 0, from which the bath takes its scales; or no bath";
+        problems.push(Problem::new(format!("{path}.bath"), found, accepted));
+    }
+}
+
+fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Vec<Problem>) {
+    let first_tracer = scene.particles.iter().position(|group| group.tracer);
+    for (index, group) in scene.particles.iter().enumerate() {
+        let path = format!("particles[{index}]");
+        if group.mass != 1.0 {
+            let accepted = "no `mass` in shallow water: it follows from the depth";
+            problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
+        }
+        if let Some(first) = first_tracer.filter(|first| *first < index && !group.tracer) {
+            let found = format!("found water after the tracers of particles[{first}]");
+            problems.push(Problem::new(&path, found, "tracers after all other groups"));
+        }
+        if group.velocities == Velocities::Geostrophic && water.rotation == 0.0 {
+            let accepted = "a rotation other than 0 for `geostrophic`, which is a balance with it; or `rest`";
+            problems.push(Problem::new(format!("{path}.velocities"), "found a rotation of 0", accepted));
+        }
+    }
+}
+
+fn check_output(scene: &Scene, problems: &mut Vec<Problem>) {
+    let output = &scene.output;
+    let asked = [
+        ("radial_distribution", output.radial_distribution.is_some()),
+        ("diffusion", output.diffusion.is_some()),
+        ("viscosity", output.viscosity.is_some()),
+    ];
+    for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
+        let path = format!("output.{name}");
+        problems.push(Problem::new(path, "found in a scene of shallow water", "scenes with pair forces only"));
+    }
+}
+
+/// The water has to have a depth everywhere: particles with a negative mass there are none.
+fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+    let surface = Surface::new(&water.surface, lengths);
+    if surface.is_flat() {
+        return;
+    }
+    let points = (0..TRIALS * TRIALS).map(|trial| {
+        let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
+        [fraction[0] * lengths[0], fraction[1] * lengths[1]]
+    });
+    let depths = points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point));
+    let (depth, [x, y]) =
+        depths.fold((f64::INFINITY, [0.0; 2]), |least, depth| if depth.0 < least.0 { depth } else { least });
+    if depth <= 0.0 {
+        let found = format!("found features that make a depth of {depth:.4} at ({x:.3}, {y:.3})");
+        let accepted = "a positive depth everywhere: lower or wider features, or a shorter `smoothing.length`";
+        problems.push(Problem::new(format!("{path}.surface"), found, accepted));
+    }
+}
+
+/// Refuses what has no meaning without shallow water.
+pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
+    let only = "a scene with a `shallow-water` interaction only";
+    if matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
+        let found = format!("found `{}`", integrator_name(&scene.integrator));
+        problems.push(Problem::new("integrator.type", found, only));
+    }
+    for (index, group) in scene.particles.iter().enumerate() {
+        let found = [("tracer", group.tracer), ("velocities.type", group.velocities == Velocities::Geostrophic)];
+        for (key, _) in found.iter().filter(|(_, found)| *found) {
+            problems.push(Problem::new(format!("particles[{index}].{key}"), format!("found `{key}`"), only));
+        }
+        if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
+            let accepted = "a two-dimensional box for a circle";
+            problems.push(Problem::new(format!("particles[{index}].placement.type"), "found `circle`", accepted));
+        }
+    }
+    if scene.output.fields.is_some() {
+        problems.push(Problem::new("output.fields", "found in a scene without a mesh", only));
+    }
+}
+
+fn integrator_name(integrator: &Integrator) -> &'static str {
+    match integrator {
+        Integrator::Splitting {} => "splitting",
+        Integrator::GrootWarren { .. } => "groot-warren",
+        Integrator::CotterReich {} => "cotter-reich",
+        Integrator::Gyro {} => "gyro",
+        Integrator::Rotate {} => "rotate",
+    }
+}
