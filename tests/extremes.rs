@@ -596,7 +596,7 @@ fn crowd(particles: u64) -> (Scene, State) {
 
 /// Particles in the first and the last cell along x, which need copies.
 fn copies(scene: &Scene, state: &State) -> u64 {
-    let cells = u64::from(planned(scene, Options::default()).grid.cells[0]);
+    let cells = u64::from(planned(scene, Options::default()).cells[0]);
     let end = |x: u32| [0, cells - 1].contains(&((u64::from(x) * cells) >> 32));
     state.positions.iter().filter(|position| end(position[0])).count() as u64
 }

@@ -15,7 +15,7 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
         /// What went out of range.
-        quantity: &'static str,
+        quantity: String,
         /// A time step worth trying.
         suggested_step: f64,
     },
