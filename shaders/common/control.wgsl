@@ -16,7 +16,7 @@ struct Control {
 const FAILURE_IMPULSE: u32 = 1u;   // the impulses on a particle left the range of integers, or were not numbers
 const FAILURE_MOMENTUM: u32 = 2u;  // a momentum came near the end of its range
 const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutoff in one step
-const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies
+const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies, or in a bin
 const FAILURE_CROWDING: u32 = 16u; // more mass in a cell of the mesh than its integers hold
 const FAILURE_DEPTH: u32 = 32u;    // no depth left at a mesh node
 

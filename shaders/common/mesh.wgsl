@@ -2,14 +2,6 @@
 override CELLS_X: u32;
 override CELLS_Y: u32;
 
-@group(0) @binding(3) var<storage, read_write> cells: array<u32>; // where each cell's particles begin in the sorted array
-
-fn rows() -> u32 { return CELLS_Y; }
-fn frame() -> u32 { return 0u; }
-fn row_width() -> u32 { return CELLS_X; }
-fn cell_index(row: u32, column: u32) -> u32 { return row * CELLS_X + column; }
-fn row_offset_index(row: u32) -> u32 { return CELLS_X * CELLS_Y + 1u + row; }
-
 // The cell along an axis and the place in it, from 0 to 1, of a fraction of the box: an exact product of 32 by 12 bits.
 struct Place { cell: u32, offset: f32 }
 fn place_along(fraction: u32, count: u32) -> Place {

@@ -1,9 +1,7 @@
-// Spreads the particles of a cell over the nodes under its splines, and clears the count of the cell for the next step.
+// Collects the particles of a cell and spreads them over the nodes under its splines.
 //
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
-@group(0) @binding(2) var<storage, read_write> sorted: array<Water>;
-@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
 @compute @workgroup_size(64)
@@ -13,10 +11,12 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     if (cell >= CELLS_X * CELLS_Y) { return; }
     var moments: array<IntegerPowers, WIDTH>;
     var total = 0.0;
-    let end = cells[cell + 1u];
-    for (var index = cells[cell]; index < end; index++) {
-        let position = sorted[index].position;
-        let mass = sorted[index].mass;
+    collect(cell);
+    let end = end_of(cell);
+    for (var index = first_of(cell); index < end; index++) {
+        let particle = stored(index);
+        let position = particle.position;
+        let mass = particle.mass;
         let x = place_along(position.x, CELLS_X).offset;
         var terms = f32(mass) * powers(place_along(position.y, CELLS_Y).offset);
         total += terms.x;
@@ -28,7 +28,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             moments[a] += IntegerPowers(round(terms));
         }
     }
-    counts[cell] = 0u;
     raise(select(0u, FAILURE_CROWDING, total > 2.1e9));
     var real: Square; // [power of y][power of x]
     for (var a = 0u; a < WIDTH; a++) { real[a] = Powers(moments[a]); }

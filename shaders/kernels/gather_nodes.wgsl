@@ -6,6 +6,7 @@
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    if (node == 0u) { begin_unsorted_step(); }
     if (node >= CELLS_X * CELLS_Y) { return; }
     let column = node % CELLS_X;
     let row = node / CELLS_X;

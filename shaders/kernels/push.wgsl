@@ -1,9 +1,5 @@
 // Moves the particles of a cell by one step, from before the closing kick or, after a report, from the report point.
 override CLOSES: u32; // 1 from before the closing kick
-@group(0) @binding(1) var<storage, read_write> particles: array<Water>;
-@group(0) @binding(2) var<storage, read_write> sorted: array<Water>;
-@group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -14,15 +10,15 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > -1.0), cell);
     let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
     let closes = CLOSES == 1u && control.closing == 1;
-    let end = cells[cell + 1u];
-    for (var index = cells[cell]; index < end; index++) {
-        var particle = sorted[index];
+    let end = end_of(cell);
+    begin_moving(cell);
+    for (var index = first_of(cell); index < end; index++) {
+        var particle = stored(index);
         let x = place_along(particle.position.x, CELLS_X).offset;
         let y = place_along(particle.position.y, CELLS_Y).offset;
         let kick = half_kick(polynomial, x, y);
         if (closes) { particle.velocity = closed(particle.velocity, kick); }
-        particle = opened(particle, kick);
-        particles[index] = particle;
-        ranks[index] = atomicAdd(&counts[cell_of(particle.position)], 1u);
+        store_moved(cell, index, opened(particle, kick));
     }
+    end_moving(cell);
 }

@@ -5,8 +5,6 @@ override BATH_SQUARE: f32;    // square of a bath variable, over its quantum
 override MEAN_MASS: u32;
 override MOMENTUM: f32;       // product of mass and velocity, over its quantum
 const QUANTITIES: u32 = 5u;
-@group(0) @binding(1) var<storage, read_write> particles: array<Water>;
-@group(0) @binding(2) var<storage, read_write> sorted: array<Water>;
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 
 @compute @workgroup_size(64)
@@ -21,16 +19,15 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var bath = Sum64(0u);
     if (cell < CELLS_X * CELLS_Y) {
         let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
-        let end = cells[cell + 1u];
-        for (var index = cells[cell]; index < end; index++) {
-            var particle = sorted[index];
+        let end = end_of(cell);
+        for (var index = first_of(cell); index < end; index++) {
+            var particle = stored(index);
             if (control.closing == 1) {
                 let x = place_along(particle.position.x, CELLS_X).offset;
                 let y = place_along(particle.position.y, CELLS_Y).offset;
                 particle.velocity = closed(particle.velocity, half_kick(polynomial, x, y));
-                sorted[index] = particle;
             }
-            particles[index] = particle;
+            store_reported(index, particle);
             let v = vec2<f32>(particle.velocity);
             let mass = f32(particle.mass);
             kinetic = sum64_add(kinetic, sum64_of_f32(mass * (KINETIC * dot(v, v))));

@@ -182,7 +182,9 @@ impl<'a> Engine<'a> {
         self.species.clone_from(&state.species);
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.clear_buffer(&self.buffers["counts"], 0, None);
+        if let Some(counts) = self.buffers.get("counts") {
+            encoder.clear_buffer(counts, 0, None);
+        }
         self.record(&mut encoder, &self.plan.prepare.clone());
         for sampler in &self.plan.samplers {
             // Neither rows nor windows of the state before go on.

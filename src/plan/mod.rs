@@ -38,6 +38,8 @@ pub struct Options {
     pub segments: Option<u32>,
     /// Room for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
+    /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
+    pub storage: Option<Storage>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
 }
@@ -51,6 +53,15 @@ pub enum Traversal {
     Clusters,
     /// No pairs at all: the scene has no pair force.
     Alone,
+}
+
+/// How the particles of shallow water are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// In order of cells, sorted every step: for any crowd.
+    Sorted,
+    /// In a bin of fixed capacity for every cell: faster, as long as none is full.
+    Bins,
 }
 
 /// A kernel: the modules it is linked from, its constants and its size.

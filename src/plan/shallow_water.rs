@@ -3,8 +3,9 @@
 //! A step: particles are sorted by the cells of the mesh; every cell spreads its particles over the nodes, the depth is
 //! smoothed, the bath takes its step; then every cell moves its particles by the slope of the surface.
 
+use super::layout::Bins;
 use super::smoothing::smoothing;
-use super::{Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler};
+use super::{Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
 use crate::model::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{Generator, Integrator, Output};
@@ -20,10 +21,13 @@ const TRACER_BYTES: u64 = 1 << 24;
 const WATER: u64 = 24;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
+/// Bytes that every adapter can bind.
+const LARGEST_BINDING: u64 = 1 << 27;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options: Options) -> Plan {
-    let mut builder = Builder { model, water, options, plan: empty_plan(model, water) };
+    let storage = options.storage.unwrap_or_else(|| best_storage(water));
+    let mut builder = Builder { model, water, options, storage, plan: empty_plan(model, water, storage) };
     builder.constants();
     builder.ordering();
     builder.depth();
@@ -32,7 +36,21 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options
     builder.plan
 }
 
-fn empty_plan(model: &Model, water: &ShallowWater) -> Plan {
+/// Places of a bin: for particles spread at random, more than enough for 10¹⁰ of them, and as many again as arrive in a
+/// step.
+fn bin_capacity(water: &ShallowWater) -> u64 {
+    let mean = water.carriers as f64 / water.nodes() as f64;
+    (mean + 6.0 * mean.sqrt()).ceil() as u64 + 8
+}
+
+/// Bins where they cost not much more memory than sorting and stay within what every adapter can bind.
+fn best_storage(water: &ShallowWater) -> Storage {
+    let bins = WATER * bin_capacity(water) * water.nodes();
+    let sorted = (2 * WATER + 4) * water.carriers;
+    if bins <= 2 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
+}
+
+fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
     let bath_nodes = if water.bath.is_some() { water.nodes() as usize } else { 0 };
     Plan {
         particles: model.particle_count(),
@@ -42,6 +60,14 @@ fn empty_plan(model: &Model, water: &ShallowWater) -> Plan {
             carriers: water.carriers as usize,
             tracers: (model.particle_count() - water.carriers) as usize,
             bath_nodes,
+            bins: match storage {
+                Storage::Sorted => None,
+                Storage::Bins => Some(Bins {
+                    cells: water.mesh,
+                    capacity: bin_capacity(water) as usize,
+                    centred: water.spline_order == 2,
+                }),
+            },
         },
         quanta: quanta(model, water),
         seed_key: noise::seed_key(model.seed, noise::stream::MESH),
@@ -82,6 +108,7 @@ struct Builder<'a> {
     model: &'a Model,
     water: &'a ShallowWater,
     options: Options,
+    storage: Storage,
     plan: Plan,
 }
 
@@ -173,35 +200,52 @@ impl Builder<'_> {
         self.plan.buffers.push(Buffer { name, purpose, bytes, contents: Contents::Zeros });
     }
 
-    /// Counting sort by cell.
+    /// Counting sort by cell, where bins do not keep the order.
     fn ordering(&mut self) {
+        if self.storage == Storage::Bins {
+            return;
+        }
         let particle_groups = self.water.carriers.div_ceil(64);
         let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
         self.plan.prepare.push(bin);
         let rows = u64::from(self.water.mesh[1]);
         let clock = ["common/begin_step", "common/threefry"];
         if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let modules = [&["common/row_scan", "common/workgroup_scan"][..], &clock, &["kernels/scan"]].concat();
+            let modules =
+                [&["common/mesh_cells", "common/row_scan", "common/workgroup_scan"][..], &clock, &["kernels/scan"]]
+                    .concat();
             let scan = self.kernel("scan", &modules, 1);
             self.plan.sort.push(scan);
         } else {
-            let modules = ["common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"];
+            let modules = ["common/mesh_cells", "common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"];
             let blocks = self.kernel("scan_blocks", &modules, rows.div_ceil(256));
-            let modules = [&["common/workgroup_scan"][..], &clock, &["kernels/scan_tops"]].concat();
+            let modules =
+                [&["common/mesh_cells", "common/workgroup_scan"][..], &clock, &["kernels/scan_tops"]].concat();
             let tops = self.kernel("scan_tops", &modules, 1);
-            let last = self.kernel("scan_rows", &["common/row_scan", "kernels/scan_rows"], rows.div_ceil(64));
+            let last = self.kernel(
+                "scan_rows",
+                &["common/mesh_cells", "common/row_scan", "kernels/scan_rows"],
+                rows.div_ceil(64),
+            );
             self.plan.sort.extend([blocks, tops, last]);
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
-        let scatter = self.kernel("scatter", &["kernels/scatter_water"], particle_groups);
+        let scatter = self.kernel("scatter", &["common/mesh_cells", "kernels/scatter_water"], particle_groups);
         self.plan.sort.push(scatter);
     }
 
     /// From particles to the surface that drives them.
     fn depth(&mut self) {
         let cell_groups = self.water.nodes().div_ceil(64);
-        let deposit = self.kernel("deposit", &["kernels/deposit"], cell_groups);
-        let gather = self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups);
+        let (collect, begin) = match self.storage {
+            Storage::Sorted => ("common/collect_sorted", &["common/begun_by_sort"][..]),
+            Storage::Bins => {
+                ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
+            }
+        };
+        let modules = [self.stored(), &[collect, "kernels/deposit"]].concat();
+        let deposit = self.kernel("deposit", &modules, cell_groups);
+        let gather = self.kernel("gather_nodes", &[begin, &["kernels/gather_nodes"]].concat(), cell_groups);
         self.plan.before_report.extend([deposit, gather]);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
         let (kernels, mut buffers) = smoothing(self.water, lengths);
@@ -226,6 +270,14 @@ impl Builder<'_> {
         self.plan.before_report.push(bath);
     }
 
+    /// Modules of the stored particles.
+    fn stored(&self) -> &'static [&'static str] {
+        match self.storage {
+            Storage::Sorted => &["common/mesh_cells", "common/store_sorted"],
+            Storage::Bins => &["common/store_bins"],
+        }
+    }
+
     /// Modules that move a particle.
     fn moving(&self) -> Vec<&'static str> {
         vec![
@@ -240,10 +292,15 @@ impl Builder<'_> {
     fn motion(&mut self, output: &Output) {
         let groups = self.water.nodes().div_ceil(64);
         let moving = self.moving();
-        let with = |last: &[&'static str]| [&moving[..], last].concat();
-        let push = self.kernel("push", &with(&["kernels/push"]), groups);
-        let push_on = self.kernel("push_from_report", &with(&["kernels/push"]), groups);
-        let report = with(&["common/sum64", "common/reduce", "kernels/report_water"]);
+        let (store_moved, store_reported) = match self.storage {
+            Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
+            Storage::Bins => ("common/move_bins", "common/report_bins"),
+        };
+        let with = |last: &[&'static str]| [&moving[..], self.stored(), last].concat();
+        let push_modules = with(&[store_moved, "kernels/push"]);
+        let report = with(&[store_reported, "common/sum64", "common/reduce", "kernels/report_water"]);
+        let push = self.kernel("push", &push_modules, groups);
+        let push_on = self.kernel("push_from_report", &push_modules, groups);
         let report = self.kernel("report", &report, groups);
         self.plan.kernels[push].constants.push(("CLOSES", 1.0));
         self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
@@ -318,11 +375,23 @@ impl Builder<'_> {
         let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
         let width = u64::from(self.water.spline_order + 1);
         self.buffer("control", "clock, key of the step's random words, failures", 64);
-        self.buffer("particles", "particles in the order they were moved", WATER * particles);
-        self.buffer("sorted", "particles in order of cells", WATER * particles);
-        self.buffer("ranks", "place of each particle in its cell", 4 * particles);
-        self.buffer("counts", "particles in each cell", 4 * nodes);
-        self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
+        match self.storage {
+            Storage::Sorted => {
+                self.buffer("particles", "particles in the order they were moved", WATER * particles);
+                self.buffer("sorted", "particles in order of cells", WATER * particles);
+                self.buffer("ranks", "place of each particle in its cell", 4 * particles);
+                self.buffer("counts", "particles in each cell", 4 * nodes);
+                self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
+            }
+            Storage::Bins => {
+                let capacity = bin_capacity(self.water);
+                self.plan.constants.push(("CAPACITY", capacity as f64));
+                self.buffer("bins", "particles of each cell", WATER * capacity * nodes);
+                self.buffer("residents", "particles of each cell at the beginning of the step", 4 * nodes);
+                self.buffer("stayed", "particles that stay in each cell", 4 * nodes);
+                self.buffer("arrived", "particles that arrive in each cell", 4 * nodes);
+            }
+        }
         self.buffer("contributions", "what each cell adds to the nodes around it", 4 * width * width * nodes);
         self.buffer("node_masses", "mass on each node", 4 * nodes);
         self.buffer("depths", "smoothed depth on each node", 4 * nodes);
