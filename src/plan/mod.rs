@@ -22,6 +22,9 @@ pub struct Options {
     pub traversal: Option<Traversal>,
     /// Workgroups that share a row of cells; chosen from the sizes if `None`.
     pub segments: Option<u32>,
+    /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 256; 64
+    /// if `None`.
+    pub workgroup_size: Option<u32>,
     /// Room for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
