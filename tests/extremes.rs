@@ -242,10 +242,10 @@ fn unstable(scene: &Scene, batch: u64) {
         let outcome = engine.advance(batch, batch).and_then(|()| engine.finish().map(drop));
         match outcome {
             Err(error @ EngineError::Unstable { .. }) => {
-                let EngineError::Unstable { step, quantity, suggested_step } = error else { unreachable!() };
-                assert!(step < batch, "{error}");
+                let EngineError::Unstable { step, quantity, suggested_step } = &error else { unreachable!() };
+                assert!(*step < batch, "{error}");
                 assert!(!quantity.is_empty());
-                assert!(suggested_step > 0.0 && suggested_step < scene.time.step, "{error}");
+                assert!(*suggested_step > 0.0 && *suggested_step < scene.time.step, "{error}");
                 let message = error.to_string();
                 assert!(message.contains(&format!("at step {step}")), "{message}");
                 assert!(message.contains(&suggested_step.to_string()), "{message}");

@@ -13,7 +13,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, mod
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Traversal};
 use mesoscope::scene::Scene;
-use support::{INTEGRATORS, fluid};
+use support::{INTEGRATORS, PREDICTED, fluid};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -201,6 +201,11 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
                 complain("two of its buffers share a number".to_owned());
             }
+            if bindings.iter().map(|binding| buffer_name(kernel, &binding.name)).collect::<BTreeSet<_>>().len()
+                != bindings.len()
+            {
+                complain("two of its variables are the same buffer".to_owned());
+            }
             for binding in bindings {
                 let name = buffer_name(kernel, &binding.name);
                 match buffers.get(name) {
@@ -244,8 +249,15 @@ fn workgroup_memory_stays_within_the_core_limit() {
                     naga::TypeInner::Array { stride, size: naga::ArraySize::Constant(length), .. } => {
                         stride * length.get()
                     }
-                    // The only array sized when the pipeline is made is the histogram's; 4096 bins are the most.
-                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(_), .. } => stride * 4096,
+                    // Sized when the pipeline is made: by the bins of a histogram or the lanes of a workgroup, at most.
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(length), .. } => {
+                        stride
+                            * match module.overrides[*length].name.as_deref() {
+                                Some("BINS") => 4096,
+                                Some("WORKGROUP") => 256,
+                                other => panic!("how large {other:?} may be is not known"),
+                            }
+                    }
                     other => other.size(context),
                 })
                 .sum();
@@ -348,6 +360,29 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
                         );
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Unless a particle carries predicted momenta, which are half as much again.
+#[test]
+fn the_standard_fluid_needs_at_most_a_hundred_bytes_a_particle() {
+    let integrators = INTEGRATORS.iter().filter(|integrator| **integrator != PREDICTED);
+    for (integrator, edge) in integrators.flat_map(|integrator| [20, 25, 40, 69, 160].map(|edge| (integrator, edge))) {
+        let measured = [
+            "time.steps=1000",
+            "output.energies.every=20",
+            r#"output.radial_distribution={"every":100,"range":3,"bins":150}"#,
+        ];
+        let scene = fluid(&[&measured[..], &[integrator, &format!("space.box=[{edge},{edge},{edge}]")]].concat());
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            for many_level_scan in [false, true] {
+                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                let plan = plan_of(&scene, options);
+                assert!(plan.particles >= 24_000);
+                let per_particle = plan.bytes() as f64 / plan.particles as f64;
+                assert!(per_particle <= 100.0, "{per_particle} bytes, {} particles, {integrator}", plan.particles);
             }
         }
     }

@@ -4,10 +4,10 @@
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    let cell = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (cell >= CELLS_X * CELLS_Y) { return; }
     var moments: array<IntegerPowers, WIDTH>;
     var total = 0.0;

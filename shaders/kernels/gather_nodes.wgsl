@@ -2,10 +2,10 @@
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    let node = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    let node = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (node == 0u) { begin_unsorted_step(); }
     if (node >= CELLS_X * CELLS_Y) { return; }
     let column = node % CELLS_X;

@@ -7,10 +7,10 @@ override BATH_RESPONSE: f32;    // per unit of integer mass
 @group(0) @binding(17) var<storage, read_write> previous_masses: array<u32>;
 @group(0) @binding(20) var<storage, read_write> surface: array<f32>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    let node = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    let node = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (node >= CELLS_X * CELLS_Y) { return; }
     var s = node_bath[node];
     let mass = node_masses[node];

@@ -2,10 +2,10 @@
 override TRACERS: u32;
 @group(0) @binding(19) var<storage, read_write> tracers: array<Water>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= TRACERS || control.closing == 0) { return; }
     let tracer = tracers[index];
     let x = place_along(tracer.position.x, CELLS_X);

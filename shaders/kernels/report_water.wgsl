@@ -7,11 +7,11 @@ override MOMENTUM: f32;       // product of mass and velocity, over its quantum
 const QUANTITIES: u32 = 5u;
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup, workgroups);
-    let cell = group * 64u + lane;
+    let cell = group * WORKGROUP + lane;
     var kinetic = Sum64(0u);
     var momentum_x = Sum64(0u);
     var momentum_y = Sum64(0u);

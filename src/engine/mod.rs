@@ -12,7 +12,7 @@ pub use timing::{StageClock, StageTime};
 use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::Gpu;
-use crate::plan::{Contents, Layout, Plan};
+use crate::plan::{Contents, Layout, Misfit, Plan};
 use crate::state::State;
 use pipeline::Stage;
 use readback::Readback;
@@ -166,7 +166,10 @@ impl<'a> Engine<'a> {
         if !sorted_order.iter().copied().eq(0..state.len()) {
             return refuse("the storage order is not an order of all particles".to_owned());
         }
-        let contents = self.plan.layout.pack(state, order).map_err(|reason| EngineError::State { reason })?;
+        let contents = self.plan.layout.pack(state, order).map_err(|misfit| match misfit {
+            Misfit::Crowded => EngineError::Crowded { step: state.step },
+            Misfit::Missing(reason) => EngineError::State { reason },
+        })?;
         let step = [state.step as u32, (state.step >> 32) as u32];
         let control = Control {
             step,

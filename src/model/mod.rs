@@ -93,6 +93,12 @@ impl Model {
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
     }
 
+    /// Whether the equations of motion keep the total momentum. A mesh and a rotation do not.
+    #[must_use]
+    pub fn conserves_momentum(&self) -> bool {
+        self.shallow_water.is_none()
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn particle_count(&self) -> u64 {

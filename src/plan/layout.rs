@@ -52,14 +52,14 @@ impl Bins {
     }
 
     /// Puts particles into their bins: the bins, how many are in each, and none on their way.
-    fn pack(&self, particles: &[[u32; WATER]]) -> Result<Vec<Vec<u32>>, String> {
+    fn pack(&self, particles: &[[u32; WATER]]) -> Result<Vec<Vec<u32>>, Misfit> {
         let mut bins = vec![0; WATER * self.capacity * self.count()];
         let mut stayed = vec![0; self.count()];
         for particle in particles {
             let cell = self.cell([particle[0], particle[1], 0]);
             let place = stayed[cell] as usize;
             if place == self.capacity {
-                return Err(CROWDED.to_owned());
+                return Err(Misfit::Crowded);
             }
             let first = WATER * (cell * self.capacity + place);
             bins[first..first + WATER].copy_from_slice(particle);
@@ -82,8 +82,20 @@ impl Bins {
     }
 }
 
-/// Why a state does not fit into bins.
-pub(crate) const CROWDED: &str = "more particles in one cell than its bin holds";
+/// Why a state does not fit a layout.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Misfit {
+    /// A bin would have to hold more particles than it can.
+    Crowded,
+    /// Something the layout stores is not in the state.
+    Missing(String),
+}
+
+impl From<&str> for Misfit {
+    fn from(what: &str) -> Self {
+        Self::Missing(format!("{what} missing"))
+    }
+}
 
 /// Words of a particle or tracer of shallow water.
 const WATER: usize = 6;
@@ -110,12 +122,12 @@ impl Layout {
     /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
     ///
     /// # Errors
-    /// What is missing in the state.
-    pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, String> {
+    /// [`Misfit`].
+    pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         match *self {
             Self::Particles { predicted, .. } => {
                 if predicted && state.step > 0 && state.predicted.len() != state.len() {
-                    return Err("predicted momenta are missing".to_owned());
+                    return Err("predicted momenta are".into());
                 }
                 let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
                 for &id in order {
@@ -133,13 +145,13 @@ impl Layout {
             }
             Self::Water { carriers, tracers, bath_nodes, bins } => {
                 if state.masses.len() != state.len() {
-                    return Err("masses are missing".to_owned());
+                    return Err("masses are".into());
                 }
                 if bath_nodes > 0 && state.node_bath.len() != bath_nodes {
-                    return Err("bath variables are missing".to_owned());
+                    return Err("bath variables are".into());
                 }
                 if bath_nodes > 0 && state.step > 0 && state.node_masses.len() != bath_nodes {
-                    return Err("the mesh of the step before is missing".to_owned());
+                    return Err("the mesh of the step before is".into());
                 }
                 let particle = |id: &usize| {
                     let ([x, y, _], [u, v, _]) = (state.positions[*id], state.momenta[*id]);

@@ -3,9 +3,8 @@
 //! A step: particles are sorted by the cells of the mesh; every cell spreads its particles over the nodes, the depth is
 //! smoothed, the bath takes its step; then every cell moves its particles by the slope of the surface.
 
-use super::layout::Bins;
 use super::smoothing::smoothing;
-use super::{Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
+use super::{Bins, Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
 use crate::model::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{Generator, Integrator, Output};
@@ -133,6 +132,7 @@ impl Builder<'_> {
         let squared = water.wave_speed.powi(2);
         let carriers = water.carriers as f64;
         let mut constants = vec![
+            ("WORKGROUP", self.options.workgroup() as f64),
             ("CELLS_X", f64::from(water.mesh[0])),
             ("CELLS_Y", f64::from(water.mesh[1])),
             ("PARTICLES", carriers),
@@ -205,7 +205,7 @@ impl Builder<'_> {
         if self.storage == Storage::Bins {
             return;
         }
-        let particle_groups = self.water.carriers.div_ceil(64);
+        let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
         let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
         self.plan.prepare.push(bin);
         let rows = u64::from(self.water.mesh[1]);
@@ -225,7 +225,7 @@ impl Builder<'_> {
             let last = self.kernel(
                 "scan_rows",
                 &["common/mesh_cells", "common/row_scan", "kernels/scan_rows"],
-                rows.div_ceil(64),
+                rows.div_ceil(self.options.workgroup()),
             );
             self.plan.sort.extend([blocks, tops, last]);
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
@@ -236,7 +236,7 @@ impl Builder<'_> {
 
     /// From particles to the surface that drives them.
     fn depth(&mut self) {
-        let cell_groups = self.water.nodes().div_ceil(64);
+        let cell_groups = self.water.nodes().div_ceil(self.options.workgroup());
         let (collect, begin) = match self.storage {
             Storage::Sorted => ("common/collect_sorted", &["common/begun_by_sort"][..]),
             Storage::Bins => {
@@ -290,7 +290,7 @@ impl Builder<'_> {
     }
 
     fn motion(&mut self, output: &Output) {
-        let groups = self.water.nodes().div_ceil(64);
+        let groups = self.water.nodes().div_ceil(self.options.workgroup());
         let moving = self.moving();
         let (store_moved, store_reported) = match self.storage {
             Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
@@ -337,7 +337,7 @@ impl Builder<'_> {
 
     fn drifting(&mut self, output: &Output, moving: &[&'static str]) {
         let tracers = self.tracers();
-        let groups = tracers.div_ceil(64);
+        let groups = tracers.div_ceil(self.options.workgroup());
         let with = |last: &'static str| [moving, &[last]].concat();
         let push = self.kernel("push_tracers", &with("kernels/push_tracers"), groups);
         let push_on = self.kernel("push_tracers_from_report", &with("kernels/push_tracers"), groups);
