@@ -2,6 +2,9 @@
 //
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
+
+// A number from 0 to 2²³ plus this is rounded to an integer, which is then in the last bits.
+const ROUNDING: f32 = 8388608.0;
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
 @compute @workgroup_size(WORKGROUP)
@@ -20,14 +23,14 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let x = place_along(position.x, CELLS_X).offset;
         var terms = f32(mass) * powers(place_along(position.y, CELLS_Y).offset);
         total += terms.x;
-        var rounded = IntegerPowers(round(terms));
-        rounded.x = i32(mass);
-        moments[0] += rounded;
+        moments[0] += bitcast<IntegerPowers>(terms + ROUNDING);
         for (var a = 1u; a < WIDTH; a++) {
             terms *= x;
-            moments[a] += IntegerPowers(round(terms));
+            moments[a] += bitcast<IntegerPowers>(terms + ROUNDING);
         }
     }
+    let offset = i32(end - first_of(cell)) * bitcast<i32>(ROUNDING);
+    for (var a = 0u; a < WIDTH; a++) { moments[a] -= offset; }
     raise(select(0u, FAILURE_CROWDING, total > 2.1e9));
     var real: Square; // [power of y][power of x]
     for (var a = 0u; a < WIDTH; a++) { real[a] = Powers(moments[a]); }

@@ -21,4 +21,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         store_moved(cell, index, opened(particle, kick));
     }
     end_moving(cell);
+    raise(failures_of_motion);
 }

@@ -52,7 +52,7 @@ fn shallow_water(
         particles: water.carriers,
         dimension: 2,
         volume: model.units.volume(),
-        mass: (water.mean_mass() as u64 * water.nodes()) as f64 * water.mass_unit,
+        mass: water.total_mass() as f64 * water.mass_unit,
         kinetic_energy: sum(0) * quanta.energy,
         momentum: [sum(1), sum(2), 0.0].map(|sum| sum * quanta.energy / water.wave_speed),
         potential_energy: sum(3) * quanta.pair_energy,

@@ -309,7 +309,7 @@ impl Builder<'_> {
         self.plan.report.push(report);
         let record = self.add(Kernel {
             name: "record_observables",
-            modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
+            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
             constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", groups as f64)],
             renamed: Vec::new(),

@@ -39,7 +39,9 @@ pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use particles::ParticlePicture;
-pub use presets::{EnergyTable, correlation_chart, energies_chart, radial_distribution_chart};
+pub use presets::{
+    EnergyTable, circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+};
 pub use renderer::Plotter;
 
 use crate::scene::{PlotStyle, Snapshot, Theme};
