@@ -194,10 +194,6 @@ impl Builder<'_> {
         matches!(self.plan.layout, Layout::Particles { predicted: true, .. })
     }
 
-    fn workgroup_size(&self) -> u64 {
-        self.options.workgroup()
-    }
-
     fn single(&self) -> bool {
         self.model.species.len() <= 1
     }
@@ -635,6 +631,11 @@ impl Builder<'_> {
             add("coefficients", "coefficients of each pair of species", bytes.len() as u64, Contents::Bytes(bytes));
         }
         self.plan.buffers.append(&mut buffers);
+    }
+
+    /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
+    fn workgroup_size(&self) -> u64 {
+        u64::from(self.options.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
     }
 
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
