@@ -33,7 +33,7 @@ test: cargo adapter ## formatting, lints, all tests, documentation
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
 
 validate: cargo adapter ## the long physics and conservation tests
-	cargo test --release --locked -- --ignored
+	cargo test --release --locked -- --ignored --show-output
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

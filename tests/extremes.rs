@@ -242,10 +242,10 @@ fn unstable(scene: &Scene, batch: u64) {
         let outcome = engine.advance(batch, batch).and_then(|()| engine.finish().map(drop));
         match outcome {
             Err(error @ EngineError::Unstable { .. }) => {
-                let EngineError::Unstable { step, quantity, suggested_step } = error else { unreachable!() };
-                assert!(step < batch, "{error}");
+                let EngineError::Unstable { step, quantity, suggested_step } = &error else { unreachable!() };
+                assert!(*step < batch, "{error}");
                 assert!(!quantity.is_empty());
-                assert!(suggested_step > 0.0 && suggested_step < scene.time.step, "{error}");
+                assert!(*suggested_step > 0.0 && *suggested_step < scene.time.step, "{error}");
                 let message = error.to_string();
                 assert!(message.contains(&format!("at step {step}")), "{message}");
                 assert!(message.contains(&suggested_step.to_string()), "{message}");
@@ -596,7 +596,7 @@ fn crowd(particles: u64) -> (Scene, State) {
 
 /// Particles in the first and the last cell along x, which need copies.
 fn copies(scene: &Scene, state: &State) -> u64 {
-    let cells = u64::from(planned(scene, Options::default()).grid.cells[0]);
+    let cells = u64::from(planned(scene, Options::default()).cells[0]);
     let end = |x: u32| [0, cells - 1].contains(&((u64::from(x) * cells) >> 32));
     state.positions.iter().filter(|position| end(position[0])).count() as u64
 }

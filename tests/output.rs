@@ -39,7 +39,7 @@ fn state(step: u64, dimension: usize) -> State {
         positions: vec![flat([0, 1 << 30, 1 << 31]), flat([u32::MAX; 3]), flat([3 << 30, 7, 1 << 29])],
         momenta: vec![flat_signed([1 << 24, -(1 << 23), step as i32]), [0; 3], flat_signed([i32::MIN, i32::MAX, 1])],
         species: vec![0, 0, 1],
-        predicted: Vec::new(),
+        ..State::default()
     }
 }
 

@@ -11,9 +11,9 @@ use std::sync::OnceLock;
 use mesoscope::engine::Control;
 use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
 use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Traversal};
+use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
 use mesoscope::scene::Scene;
-use support::{INTEGRATORS, fluid};
+use support::{INTEGRATORS, PREDICTED, fluid};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -79,9 +79,69 @@ fn plans() -> &'static [(String, Plan)] {
                 }
             }
         }
+        plans.extend(water_plans());
         plans
     })
 }
+
+/// The same of shallow water.
+fn water_plans() -> Vec<(String, Plan)> {
+    let choices: [&[&[&str]]; 6] = [
+        &[&["integrator.type=gyro"], &["integrator.type=rotate"]],
+        &[&[], &[r#"interactions.0.rotation=0"#, r#"particles.0.velocities={"type":"rest"}"#]],
+        &[&[], &["interactions.0.spline_order=1"], &["interactions.0.spline_order=2"]],
+        &[
+            &[],
+            &[r#"interactions.0.bath={"type":"memory","epsilon":1}"#],
+            &[r#"interactions.0.bath={"type":"white"}"#, "temperature=0.01"],
+            &[
+                r#"interactions.0.bath={"type":"white"}"#,
+                "temperature=0.01",
+                r#"noise={"generator":"threefry2x32-20"}"#,
+            ],
+        ],
+        &[
+            &[],
+            &["interactions.0.smoothing.power=2"],
+            &["interactions.0.smoothing.solver.symbol=spectral", "interactions.0.mesh=[32,8]"],
+            &[r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":0.1}"#],
+            &[
+                r#"interactions.0.smoothing={"length":0.3,"power":2,"solver":{"type":"chebyshev","tolerance":0.1}}"#,
+                "interactions.0.mesh=[12,15]",
+            ],
+            &["interactions.0.smoothing.length=0"],
+        ],
+        &[&[], &[WATER_TRACERS]],
+    ];
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        let more = |combination: &Vec<&'static str>| {
+            choice.iter().map(|changes| [combination, *changes].concat()).collect::<Vec<_>>()
+        };
+        combinations = combinations.iter().flat_map(more).collect();
+    }
+    let mut plans = Vec::new();
+    for changes in combinations {
+        // A bath takes its scales from the smoothing.
+        let both = |change: &str| changes.iter().any(|known| known.starts_with(change));
+        if both("interactions.0.smoothing.length=0") && both("interactions.0.bath") {
+            continue;
+        }
+        let scene = water(&changes);
+        for storage in [Storage::Sorted, Storage::Bins] {
+            for many_level_scan in [false, true] {
+                let options = Options { storage: Some(storage), many_level_scan, ..Options::default() };
+                plans.push((
+                    format!("water {} {storage:?} {many_level_scan}", changes.join(" ")),
+                    plan_of(&scene, options),
+                ));
+            }
+        }
+    }
+    plans
+}
+
+const WATER_TRACERS: &str = r#"particles.1={"species":"loop","count":100,"tracer":true,"placement":{"type":"circle","center":[1,1],"radius":0.5}}"#;
 
 /// All distinct kernels of all plans, linked.
 fn linked() -> &'static HashMap<Vec<&'static str>, Result<LinkedShader, String>> {
@@ -201,6 +261,11 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
                 complain("two of its buffers share a number".to_owned());
             }
+            if bindings.iter().map(|binding| buffer_name(kernel, &binding.name)).collect::<BTreeSet<_>>().len()
+                != bindings.len()
+            {
+                complain("two of its variables are the same buffer".to_owned());
+            }
             for binding in bindings {
                 let name = buffer_name(kernel, &binding.name);
                 match buffers.get(name) {
@@ -244,8 +309,15 @@ fn workgroup_memory_stays_within_the_core_limit() {
                     naga::TypeInner::Array { stride, size: naga::ArraySize::Constant(length), .. } => {
                         stride * length.get()
                     }
-                    // The only array sized when the pipeline is made is the histogram's; 4096 bins are the most.
-                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(_), .. } => stride * 4096,
+                    // Sized when the pipeline is made: by the bins of a histogram or the lanes of a workgroup, at most.
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(length), .. } => {
+                        stride
+                            * match module.overrides[*length].name.as_deref() {
+                                Some("BINS") => 4096,
+                                Some("WORKGROUP") => 256,
+                                other => panic!("how large {other:?} may be is not known"),
+                            }
+                    }
                     other => other.size(context),
                 })
                 .sum();
@@ -271,6 +343,8 @@ fn host_structs_lie_as_in_the_shaders() {
         ("elapsed", offset_of!(Control, elapsed)),
         ("failures", offset_of!(Control, failures)),
         ("failure_elapsed", offset_of!(Control, failure_elapsed)),
+        ("failure_place", offset_of!(Control, failure_place)),
+        ("reserved", offset_of!(Control, reserved)),
         ("", size_of::<Control>()),
     ];
     let mut tables = 0;
@@ -281,7 +355,14 @@ fn host_structs_lie_as_in_the_shaders() {
             _ => (false, 24),
         };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
-        assert_eq!(bytes("particles").unwrap(), (u64::from(stride) * plan.particles).max(64), "{scene}");
+        if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
+            let particles = match plan.layout {
+                Layout::Water { carriers, .. } => carriers as u64,
+                Layout::Particles { .. } => plan.particles,
+            };
+            let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
+            assert_eq!(bytes("particles").unwrap(), expected, "{scene}");
+        }
         for kernel in &plan.kernels {
             let shader = shader(kernel);
             let declared = |name: &str| shader.layout.contains_key(&(name.to_owned(), String::new()));
@@ -299,6 +380,12 @@ fn host_structs_lie_as_in_the_shaders() {
                 assert_eq!(offset(shader, "Particle", "momentum"), 16);
                 if predicted {
                     assert_eq!(offset(shader, "Particle", "predicted"), 32);
+                }
+            }
+            if declared("Water") {
+                let members = [("position", 0), ("velocity", 8), ("mass", 16), ("id", 20), ("", 24)];
+                for (member, expected) in members {
+                    assert_eq!(offset(shader, "Water", member), expected, "Water.{member}");
                 }
             }
             if declared("PairCoefficients") {
@@ -348,6 +435,29 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
                         );
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Unless a particle carries predicted momenta, which are half as much again.
+#[test]
+fn the_standard_fluid_needs_at_most_a_hundred_bytes_a_particle() {
+    let integrators = INTEGRATORS.iter().filter(|integrator| **integrator != PREDICTED);
+    for (integrator, edge) in integrators.flat_map(|integrator| [20, 25, 40, 69, 160].map(|edge| (integrator, edge))) {
+        let measured = [
+            "time.steps=1000",
+            "output.energies.every=20",
+            r#"output.radial_distribution={"every":100,"range":3,"bins":150}"#,
+        ];
+        let scene = fluid(&[&measured[..], &[integrator, &format!("space.box=[{edge},{edge},{edge}]")]].concat());
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            for many_level_scan in [false, true] {
+                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                let plan = plan_of(&scene, options);
+                assert!(plan.particles >= 24_000);
+                let per_particle = plan.bytes() as f64 / plan.particles as f64;
+                assert!(per_particle <= 100.0, "{per_particle} bytes, {} particles, {integrator}", plan.particles);
             }
         }
     }

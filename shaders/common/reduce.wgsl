@@ -1,12 +1,12 @@
 // Sums over a workgroup, one row of QUANTITIES sums a workgroup.
 @group(0) @binding(9) var<storage, read_write> partial_sums: array<vec2<u32>>;
-var<workgroup> lane_sums: array<vec2<u32>, 64>;
+var<workgroup> lane_sums: array<vec2<u32>, WORKGROUP>;
 
 fn reduce_quantity(group: u32, lane: u32, quantity: u32, value: Sum64) {
     workgroupBarrier();
     lane_sums[lane] = value;
     workgroupBarrier();
-    for (var stride = 32u; stride > 0u; stride >>= 1u) {
+    for (var stride = WORKGROUP / 2u; stride > 0u; stride >>= 1u) {
         if (lane < stride) { lane_sums[lane] = sum64_add(lane_sums[lane], lane_sums[lane + stride]); }
         workgroupBarrier();
     }

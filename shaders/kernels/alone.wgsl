@@ -1,14 +1,15 @@
 // Visits every particle and no pair: for scenes without a pair force.
 override SEGMENTS: u32; // workgroups that share a row
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup, workgroups);
     let row = group / SEGMENTS;
     if (row < rows()) {
         let end = row_end(row);
-        for (var index = row_begin(row) + (group - row * SEGMENTS) * 64u + lane; index < end; index += 64u * SEGMENTS) {
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
             let me = sorted[index];
             pass_end(row, index, me, pass_begin(me));
         }

@@ -6,10 +6,10 @@ fn symbol(site: Site, leg: u32) -> f32 {
     return symbols[min(wave, LENGTH - wave) * LINES + site.line];
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * 64u + lane;
+    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= LINES * (LENGTH / RADIX)) { return; }
     let site = site_of(index);
     let waves_there = transformed(twisted(gathered(site), site.place, LENGTH));

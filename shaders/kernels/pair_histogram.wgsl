@@ -8,21 +8,22 @@ override SPAN_Z: u32;
 @group(0) @binding(8) var<storage, read_write> histogram: array<atomic<u32>>; // low and high word of each bin
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    for (var bin = lane; bin < BINS; bin += 64u) { atomicStore(&local_bins[bin], 0u); }
+    for (var bin = lane; bin < BINS; bin += WORKGROUP) { atomicStore(&local_bins[bin], 0u); }
     workgroupBarrier();
     let group = linear_workgroup(workgroup, workgroups);
     let row = group / SEGMENTS;
     if (row < rows()) {
         let end = row_end(row);
-        for (var index = row_begin(row) + (group - row * SEGMENTS) * 64u + lane; index < end; index += 64u * SEGMENTS) {
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
             count_pairs(row, sorted[index].position);
         }
     }
     workgroupBarrier();
-    for (var bin = lane; bin < BINS; bin += 64u) {
+    for (var bin = lane; bin < BINS; bin += WORKGROUP) {
         let found = atomicLoad(&local_bins[bin]);
         if (found > 0u) {
             let before = atomicAdd(&histogram[2u * bin], found);

@@ -4,11 +4,11 @@ override PARTICLES: u32;
 const QUANTITIES: u32 = 2u * DIMENSION * (DIMENSION - 1u);
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup, workgroups);
-    let id = group * 64u + lane;
+    let id = group * WORKGROUP + lane;
     var quantity = 0u;
     for (var axis = 0u; axis < DIMENSION; axis++) {
         for (var across = 1u; across < DIMENSION; across++) {

@@ -15,12 +15,12 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
         /// What went out of range.
-        quantity: &'static str,
+        quantity: String,
         /// A time step worth trying.
         suggested_step: f64,
     },
-    /// More particles at the ends of rows than there is room to copy.
-    #[error("at step {step} the particles crowd so much at the ends of the box along x that their copies do not fit")]
+    /// More particles at the ends of rows than there is room to copy, or in a bin than it holds.
+    #[error("at step {step} the particles crowd so much that they do not fit the memory planned for them")]
     Crowded {
         /// The first step at which it was seen.
         step: u64,

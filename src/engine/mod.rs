@@ -12,7 +12,7 @@ pub use timing::{StageClock, StageTime};
 use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::Gpu;
-use crate::plan::{Contents, Plan};
+use crate::plan::{Contents, Layout, Misfit, Plan};
 use crate::state::State;
 use pipeline::Stage;
 use readback::Readback;
@@ -37,6 +37,10 @@ pub struct Control {
     pub failures: u32,
     /// `elapsed` at the first failure.
     pub failure_elapsed: u32,
+    /// The first mesh node with a failure.
+    pub failure_place: u32,
+    /// Nothing yet.
+    pub reserved: u32,
 }
 
 /// One row of a sampler.
@@ -162,17 +166,28 @@ impl<'a> Engine<'a> {
         if !sorted_order.iter().copied().eq(0..state.len()) {
             return refuse("the storage order is not an order of all particles".to_owned());
         }
-        let contents = self.plan.layout.pack(state, order).map_err(|reason| EngineError::State { reason })?;
+        let contents = self.plan.layout.pack(state, order).map_err(|misfit| match misfit {
+            Misfit::Crowded => EngineError::Crowded { step: state.step },
+            Misfit::Missing(reason) => EngineError::State { reason },
+        })?;
         let step = [state.step as u32, (state.step >> 32) as u32];
-        let control =
-            Control { step, next: step, seed_key: self.plan.seed_key, failure_elapsed: u32::MAX, ..Control::default() };
+        let control = Control {
+            step,
+            next: step,
+            seed_key: self.plan.seed_key,
+            failure_elapsed: u32::MAX,
+            failure_place: u32::MAX,
+            ..Control::default()
+        };
         for (name, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
             self.gpu.queue.write_buffer(&self.buffers[name], 0, bytemuck::cast_slice(words));
         }
         self.species.clone_from(&state.species);
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.clear_buffer(&self.buffers["counts"], 0, None);
+        if let Some(counts) = self.buffers.get("counts") {
+            encoder.clear_buffer(counts, 0, None);
+        }
         self.record(&mut encoder, &self.plan.prepare.clone());
         for sampler in &self.plan.samplers {
             // Neither rows nor windows of the state before go on.
@@ -370,11 +385,32 @@ impl<'a> Engine<'a> {
             return Err(EngineError::Crowded { step });
         }
         let quantity = match control.failures {
-            bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number",
-            bits if bits & 4 != 0 => "a particle moves further than the cutoff in one step",
-            _ => "a momentum is more than 64 times its natural scale",
+            bits if bits & 16 != 0 => "more than 64 times the mean mass is in one cell of the mesh".to_owned(),
+            bits if bits & 32 != 0 => self.shallow_place(control.failure_place),
+            bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
+            bits if bits & 4 != 0 => match self.plan.layout {
+                Layout::Particles { .. } => "a particle moves further than the cutoff in one step".to_owned(),
+                Layout::Water { .. } => "a particle moves further than half the box in one step".to_owned(),
+            },
+            _ => match self.plan.layout {
+                Layout::Particles { .. } => "a momentum is more than 64 times its natural scale".to_owned(),
+                Layout::Water { .. } => "a velocity is more than twice the speed of waves".to_owned(),
+            },
         };
         let suggested_step = crate::engine::error::round_down(0.25 * self.plan.time_step);
         Err(EngineError::Unstable { step, quantity, suggested_step })
+    }
+
+    /// Where the depth has gone, in words.
+    fn shallow_place(&self, node: u32) -> String {
+        let [columns, rows, _] = self.plan.cells;
+        let (k, l) = (node % columns, node / columns);
+        let place =
+            |index: u32, axis: usize, count: u32| f64::from(index) * self.plan.units.lengths[axis] / f64::from(count);
+        format!(
+            "the depth at mesh node ({k}, {l}), x = {:.4}, y = {:.4}, is not positive",
+            place(k, 0, columns),
+            place(l, 1, rows)
+        )
     }
 }

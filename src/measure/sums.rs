@@ -2,7 +2,7 @@
 
 use super::Observables;
 use crate::engine::Sample;
-use crate::model::Model;
+use crate::model::{Model, ShallowWater};
 use crate::plan::Plan;
 
 /// The observables of one sample of the first sampler of a plan.
@@ -10,6 +10,9 @@ use crate::plan::Plan;
 pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observables {
     let sum = |index: usize| sample.sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
     let quanta = plan.quanta;
+    if let Some(water) = &model.shallow_water {
+        return shallow_water(sample.step, sum, plan, model, water);
+    }
     Observables {
         step: sample.step,
         particles: plan.particles,
@@ -26,5 +29,39 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         momentum_is_constant: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+    }
+}
+
+fn shallow_water(
+    step: u64,
+    sum: impl Fn(usize) -> f64,
+    plan: &Plan,
+    model: &Model,
+    water: &ShallowWater,
+) -> Observables {
+    let quanta = plan.quanta;
+    let bath_squares = sum(4) * quanta.bath_squared;
+    let energy_per_square = match &water.bath {
+        Some(bath) if bath.continuous_coupling.is_finite() && bath.continuous_coupling > 0.0 => {
+            0.5 * water.wave_speed.powi(2) / bath.continuous_coupling
+        }
+        _ => 0.0,
+    };
+    Observables {
+        step,
+        particles: water.carriers,
+        dimension: 2,
+        volume: model.units.volume(),
+        mass: water.total_mass() as f64 * water.mass_unit,
+        kinetic_energy: sum(0) * quanta.energy,
+        momentum: [sum(1), sum(2), 0.0].map(|sum| sum * quanta.energy / water.wave_speed),
+        potential_energy: sum(3) * quanta.pair_energy,
+        bath_energy: energy_per_square * bath_squares,
+        bath_square: bath_squares / water.nodes() as f64,
+        momentum_is_constant: false,
+        gradient_squared: 0.0,
+        laplacian: 0.0,
+        conservative_virial: f64::NAN,
+        total_virial: f64::NAN,
     }
 }

@@ -6,6 +6,7 @@ mod shallow_water;
 
 pub use bath::BathStep;
 pub use dpd::PairForce;
+pub(crate) use shallow_water::LARGEST_DEPTH;
 pub use shallow_water::{ShallowWater, Tracers};
 
 use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
@@ -91,6 +92,12 @@ impl Model {
     pub fn splits(&self) -> bool {
         self.integrator == Integrator::Splitting {}
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
+    /// Whether the equations of motion keep the total momentum. A mesh and a rotation do not.
+    #[must_use]
+    pub fn conserves_momentum(&self) -> bool {
+        self.shallow_water.is_none()
     }
 
     /// Number of particles.

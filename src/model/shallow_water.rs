@@ -44,9 +44,13 @@ pub struct Tracers {
     pub closed: bool,
 }
 
-/// Units of mass that fit the largest sum, and how much more than the mean a cell may hold.
+/// Units of mass that fit the largest sum, and how many times the mean a cell may hold.
 const MASS_RANGE: f64 = 2_147_483_648.0;
 const CROWDING: f64 = 128.0;
+/// Units of the heaviest particle: single precision has to round them to integers.
+const LARGEST_MASS: f64 = 8_388_607.0;
+/// The largest depth at the start, in units of the mean.
+pub(crate) const LARGEST_DEPTH: f64 = 4.0;
 
 impl ShallowWater {
     pub(super) fn new(interaction: &ShallowWaterInteraction, scene: &Scene) -> Self {
@@ -57,9 +61,8 @@ impl ShallowWater {
         let carriers: u64 = count(false).sum();
         let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));
         let nodes = f64::from(interaction.mesh[0]) * f64::from(interaction.mesh[1]);
-        // Masses differ with the depth at the start, by less than a factor of four.
-        let heaviest = 4.0 * nodes / carriers.max(1) as f64;
-        let most = CROWDING.max(4.0 * heaviest).log2().ceil().exp2();
+        let heaviest = LARGEST_DEPTH * nodes / carriers.max(1) as f64;
+        let mass_unit = (CROWDING / MASS_RANGE).max(heaviest / LARGEST_MASS).log2().ceil().exp2();
         Self {
             mesh: interaction.mesh,
             spline_order: interaction.spline_order,
@@ -68,7 +71,7 @@ impl ShallowWater {
             smoothing: interaction.smoothing.clone(),
             surface: interaction.surface.clone(),
             bath: interaction.bath.as_ref().map(|bath| bath_step(bath, interaction, scene.time.step)),
-            mass_unit: most / MASS_RANGE,
+            mass_unit,
             carriers,
             tracers: tracers
                 .map(|(group, count)| Tracers {
@@ -92,10 +95,16 @@ impl ShallowWater {
         Surface::new(&self.surface, lengths)
     }
 
-    /// Integer mass that a node holds on average; the sum of all masses is that many times the number of nodes.
+    /// Integer mass of all particles: 1 for every node.
+    #[must_use]
+    pub fn total_mass(&self) -> u64 {
+        if self.carriers == 0 { 0 } else { (self.nodes() as f64 / self.mass_unit).round() as u64 }
+    }
+
+    /// Integer mass that a node holds on average.
     #[must_use]
     pub fn mean_mass(&self) -> i64 {
-        if self.carriers == 0 { 0 } else { (1.0 / self.mass_unit) as i64 }
+        if self.carriers == 0 { 0 } else { (1.0 / self.mass_unit).round() as i64 }
     }
 
     /// The share p of the limit of stability that a time step takes, an upper estimate: the step is stable for p < 1.

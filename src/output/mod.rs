@@ -1,4 +1,4 @@
-//! What a run leaves on disk: tables, trajectories, checkpoints, pictures and a summary.
+//! What a run leaves on disk: tables, arrays, trajectories, checkpoints, pictures and a summary.
 //!
 //! Files written once ([`RunDirectory::write`]) appear under their final name complete or not at all. Files that grow
 //! ([`EnergiesFile`], [`TrajectoryWriter`]) hold whole records after every flush, and a resumed run cuts them back to
@@ -9,6 +9,7 @@ mod directory;
 mod energies;
 mod error;
 pub mod files;
+mod npy;
 mod records;
 pub mod summary;
 mod table;
@@ -18,6 +19,7 @@ pub use checkpoint::Checkpoint;
 pub use directory::{RunDirectory, write_atomically};
 pub use energies::EnergiesFile;
 pub use error::OutputError;
+pub use npy::{write_npy, write_npy_to};
 pub use summary::Summary;
 pub use table::{Table, read_table, write_table};
 pub use trajectory::TrajectoryWriter;

@@ -21,7 +21,80 @@ pub enum Layout {
         tracers: usize,
         /// Nodes that have a bath variable; zero without a bath.
         bath_nodes: usize,
+        /// The bins of particles with mass, if they are not in one array.
+        bins: Option<Bins>,
     },
+}
+
+/// A bin of particles for every cell of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bins {
+    /// Cells on each axis.
+    pub cells: [u32; 2],
+    /// Particles that a bin holds.
+    pub capacity: usize,
+    /// Whether cells are centred on nodes, rather than between them.
+    pub centred: bool,
+}
+
+impl Bins {
+    fn cell(&self, position: [u32; 3]) -> usize {
+        let along = |axis: usize| {
+            let count = u64::from(self.cells[axis]);
+            let shift = if self.centred { 1 << 31 } else { 0 };
+            ((u64::from(position[axis]) * count + shift) >> 32) % count
+        };
+        (along(1) * u64::from(self.cells[0]) + along(0)) as usize
+    }
+
+    fn count(&self) -> usize {
+        self.cells[0] as usize * self.cells[1] as usize
+    }
+
+    /// Puts particles into their bins: the bins, how many are in each, and none on their way.
+    fn pack(&self, particles: &[[u32; WATER]]) -> Result<Vec<Vec<u32>>, Misfit> {
+        let mut bins = vec![0; WATER * self.capacity * self.count()];
+        let mut stayed = vec![0; self.count()];
+        for particle in particles {
+            let cell = self.cell([particle[0], particle[1], 0]);
+            let place = stayed[cell] as usize;
+            if place == self.capacity {
+                return Err(Misfit::Crowded);
+            }
+            let first = WATER * (cell * self.capacity + place);
+            bins[first..first + WATER].copy_from_slice(particle);
+            stayed[cell] += 1;
+        }
+        Ok(vec![bins, stayed, vec![0; self.count()]])
+    }
+
+    /// The particles in bins, at their bottoms and their tops.
+    fn particles<'a>(&self, bins: &'a [u32], stayed: &[u32], arrived: &[u32]) -> Vec<&'a [u32]> {
+        let mut particles = Vec::new();
+        let all = bins.chunks_exact(WATER * self.capacity).zip(stayed.iter().zip(arrived));
+        for (bin, (stayed, arrived)) in all.take(self.count()) {
+            let bin: Vec<&[u32]> = bin.chunks_exact(WATER).collect();
+            let [stayed, arrived] = [stayed, arrived].map(|count| (*count as usize).min(self.capacity));
+            particles.extend(&bin[..stayed]);
+            particles.extend(&bin[self.capacity - arrived..]);
+        }
+        particles
+    }
+}
+
+/// Why a state does not fit a layout.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Misfit {
+    /// A bin would have to hold more particles than it can.
+    Crowded,
+    /// Something the layout stores is not in the state.
+    Missing(String),
+}
+
+impl From<&str> for Misfit {
+    fn from(what: &str) -> Self {
+        Self::Missing(format!("{what} missing"))
+    }
 }
 
 /// Words of a particle or tracer of shallow water.
@@ -33,8 +106,8 @@ impl Layout {
     pub fn buffers(&self) -> Vec<&'static str> {
         match *self {
             Self::Particles { .. } => vec!["particles"],
-            Self::Water { tracers, bath_nodes, .. } => {
-                let mut names = vec!["particles"];
+            Self::Water { tracers, bath_nodes, bins, .. } => {
+                let mut names = if bins.is_some() { vec!["bins", "stayed", "arrived"] } else { vec!["particles"] };
                 if tracers > 0 {
                     names.push("tracers");
                 }
@@ -49,12 +122,12 @@ impl Layout {
     /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
     ///
     /// # Errors
-    /// What is missing in the state.
-    pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, String> {
+    /// [`Misfit`].
+    pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         match *self {
             Self::Particles { predicted, .. } => {
                 if predicted && state.step > 0 && state.predicted.len() != state.len() {
-                    return Err("predicted momenta are missing".to_owned());
+                    return Err("predicted momenta are".into());
                 }
                 let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
                 for &id in order {
@@ -70,22 +143,25 @@ impl Layout {
                 }
                 Ok(vec![words])
             }
-            Self::Water { carriers, tracers, bath_nodes } => {
+            Self::Water { carriers, tracers, bath_nodes, bins } => {
                 if state.masses.len() != state.len() {
-                    return Err("masses are missing".to_owned());
+                    return Err("masses are".into());
                 }
                 if bath_nodes > 0 && state.node_bath.len() != bath_nodes {
-                    return Err("bath variables are missing".to_owned());
+                    return Err("bath variables are".into());
                 }
                 if bath_nodes > 0 && state.step > 0 && state.node_masses.len() != bath_nodes {
-                    return Err("the mesh of the step before is missing".to_owned());
+                    return Err("the mesh of the step before is".into());
                 }
                 let particle = |id: &usize| {
                     let ([x, y, _], [u, v, _]) = (state.positions[*id], state.momenta[*id]);
                     [x, y, u as u32, v as u32, state.masses[*id], *id as u32]
                 };
                 let (water, drifting): (Vec<usize>, Vec<usize>) = order.iter().partition(|id| **id < carriers);
-                let mut contents: Vec<Vec<u32>> = vec![water.iter().flat_map(particle).collect()];
+                let mut contents = match bins {
+                    Some(bins) => bins.pack(&water.iter().map(particle).collect::<Vec<_>>())?,
+                    None => vec![water.iter().flat_map(particle).collect::<Vec<u32>>()],
+                };
                 if tracers > 0 {
                     contents.push(drifting.iter().flat_map(particle).collect());
                 }
@@ -130,18 +206,27 @@ impl Layout {
                     }
                 }
             }
-            Self::Water { carriers, tracers, bath_nodes } => {
+            Self::Water { carriers, tracers, bath_nodes, bins } => {
                 state.masses = vec![0; count];
-                let drifting = if tracers > 0 { contents(1) } else { &[] };
-                let all = contents(0).chunks_exact(WATER).take(carriers);
-                for particle in all.chain(drifting.chunks_exact(WATER).take(tracers)) {
+                let arrays = if bins.is_some() { 3 } else { 1 };
+                let mut particles = match bins {
+                    Some(bins) => bins.particles(contents(0), contents(1), contents(2)),
+                    None => contents(0).chunks_exact(WATER).take(carriers).collect(),
+                };
+                if tracers > 0 {
+                    particles.extend(contents(arrays).chunks_exact(WATER).take(tracers));
+                }
+                if particles.len() != count {
+                    return Err(format!("{} of {count} particles came back", particles.len()));
+                }
+                for particle in particles {
                     let id = place(particle[5])?;
                     state.positions[id] = [particle[0], particle[1], 0];
                     state.momenta[id] = [particle[2] as i32, particle[3] as i32, 0];
                     state.masses[id] = particle[4];
                 }
                 if bath_nodes > 0 {
-                    let first = 1 + usize::from(tracers > 0);
+                    let first = arrays + usize::from(tracers > 0);
                     state.node_masses = contents(first).iter().copied().take(bath_nodes).collect();
                     state.node_bath = contents(first + 1).iter().copied().take(bath_nodes).collect();
                 }

@@ -4,10 +4,10 @@ mod grid;
 mod layout;
 mod pair;
 mod shallow_water;
-mod smoothing;
+pub mod smoothing;
 
 pub use grid::Grid;
-pub use layout::Layout;
+pub use layout::{Bins, Layout, Misfit};
 
 use crate::model::Model;
 use crate::scene::Output;
@@ -36,10 +36,35 @@ pub struct Options {
     pub traversal: Option<Traversal>,
     /// Workgroups that share a row of cells; chosen from the sizes if `None`.
     pub segments: Option<u32>,
+    /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 256; 64
+    /// if `None`.
+    pub workgroup_size: Option<u32>,
     /// Room for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
+    /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
+    pub storage: Option<Storage>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
+}
+
+impl Options {
+    /// Whether there is a plan that takes any crowd, and this is not it.
+    #[must_use]
+    pub fn has_room_left(&self) -> bool {
+        self.copies.is_none()
+    }
+
+    /// The same choices with room for any crowd of so many particles.
+    #[must_use]
+    pub fn with_room(self, particles: u64) -> Self {
+        Self { copies: Some(particles), storage: Some(Storage::Sorted), ..self }
+    }
+
+    /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
+    #[must_use]
+    pub fn workgroup(&self) -> u64 {
+        u64::from(self.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
+    }
 }
 
 /// How pairs are visited.
@@ -51,6 +76,15 @@ pub enum Traversal {
     Clusters,
     /// No pairs at all: the scene has no pair force.
     Alone,
+}
+
+/// How the particles of shallow water are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// In order of cells, sorted every step: for any crowd.
+    Sorted,
+    /// In a bin of fixed capacity for every cell: faster, as long as none is full.
+    Bins,
 }
 
 /// A kernel: the modules it is linked from, its constants and its size.

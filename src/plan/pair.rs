@@ -11,9 +11,6 @@ use crate::state::Units;
 const OBSERVABLES: usize = 9;
 /// Rows of samples kept on the device between two readbacks.
 const SAMPLE_ROWS: u64 = 1024;
-/// Words of 32 candidates kept for each particle between the two passes of a splitting step: room for all but the most
-/// crowded neighbourhoods of a fluid of density 3 to 4; a candidate that is not kept is looked at again.
-const KEPT_WORDS: u32 = 5;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
@@ -162,6 +159,7 @@ impl Builder<'_> {
             ("PROBE_Z", self.grid.ratios[2]),
             ("PROBE_REACH", self.grid.reach_squared),
             ("PARTICLES", self.particles as f64),
+            ("WORKGROUP", self.workgroup_size() as f64),
             ("CAPACITY", (self.particles + capacity) as f64),
             ("CUTOFF", cutoff),
             ("WEIGHT_ROOT_EXPONENT", 0.5 * exponent),
@@ -169,7 +167,6 @@ impl Builder<'_> {
             ("DISPLACEMENT_LIMIT", cutoff),
             ("PAIR_ENERGY", to_force * cutoff / (4.0 * pair_energy)),
             ("PAIR_VIRIAL", to_force / (2.0 * pair_energy)),
-            ("KEPT_WORDS", f64::from(KEPT_WORDS)),
             ("GRADIENT", to_force * to_force / force_squared),
             ("LAPLACIAN", to_force / curvature),
         ]);
@@ -231,7 +228,7 @@ impl Builder<'_> {
     }
 
     fn ordering(&mut self) {
-        let bin = self.simple("bin", &["kernels/bin"], self.particles.div_ceil(64));
+        let bin = self.simple("bin", &["kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting("common/begin_step");
     }
@@ -257,13 +254,17 @@ impl Builder<'_> {
             );
             let tops =
                 self.simple("scan_tops", &[&["common/workgroup_scan"], clock, &["kernels/scan_tops"]].concat(), 1);
-            let last = self.simple("scan_rows", &["common/row_scan", "kernels/scan_rows"], rows.div_ceil(64));
+            let last = self.simple(
+                "scan_rows",
+                &["common/row_scan", "kernels/scan_rows"],
+                rows.div_ceil(self.workgroup_size()),
+            );
             kernels.extend([blocks, tops, last]);
         }
         let scatter = self.simple(
             "scatter",
             &["common/sorted", "kernels/scatter"],
-            self.particles.max(self.grid.count()).div_ceil(64),
+            self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
         );
         kernels.push(scatter);
         kernels
@@ -322,13 +323,13 @@ impl Builder<'_> {
         let lanes = match traversal {
             Traversal::Alone => {
                 modules.push("kernels/alone");
-                64
+                self.workgroup_size()
             }
             Traversal::Rows => {
                 let kept = masks == Masks::Kept;
                 modules.push(if kept { "common/kept_hits_of_rows" } else { "common/hits_of_rows" });
                 modules.push("kernels/rows");
-                64
+                self.workgroup_size()
             }
             Traversal::Clusters => {
                 modules.extend(match masks {
@@ -362,7 +363,7 @@ impl Builder<'_> {
         let groups = if self.splits() { self.split_step() } else { self.leapfrog_step() };
         let record = self.kernel(Kernel {
             name: "record_observables",
-            modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
+            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
             constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", f64::from(groups))],
             renamed: Vec::new(),
@@ -408,6 +409,7 @@ impl Builder<'_> {
     fn split_step(&mut self) -> u32 {
         let observe = ["common/sum64", "common/reduce", "common/observation"];
         let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
+        self.plan.kernels[find].renamed.push(("found", "particles"));
         let relax_pass = ["common/advance", "passes/relax"];
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &relax_pass);
         self.plan.kernels[relax].constants.push(("HALVES", 2.0));
@@ -429,7 +431,7 @@ impl Builder<'_> {
         let rest = self.simple(
             "drift_rest",
             &["common/drift_halves", coefficients, "kernels/drift_rest"],
-            self.particles.div_ceil(64),
+            self.particles.div_ceil(self.workgroup_size()),
         );
         for kernel in [find, motion, configuration, rest] {
             self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
@@ -485,7 +487,7 @@ impl Builder<'_> {
             ("SPAN_Z", span(2)),
         ];
         let rows = self.grid.rows();
-        let segments = (self.particles / rows).div_ceil(64).max(1).min((8192 / rows).max(1));
+        let segments = (self.particles / rows).div_ceil(self.workgroup_size()).max(1).min((8192 / rows).max(1));
         let mut modules = space(&self.model.units, self.predicted());
         modules.extend([
             "common/sorted",
@@ -502,7 +504,7 @@ impl Builder<'_> {
         });
         let record = self.kernel(Kernel {
             name: "record_histogram",
-            modules: vec!["common/control", "kernels/record_histogram"],
+            modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
             workgroups: 1,
             constants: vec![("BINS", f64::from(bins))],
             renamed: vec![("samples", "histogram_samples")],
@@ -525,7 +527,7 @@ impl Builder<'_> {
 
     /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
     fn particle_sampler(&mut self, sampler: ParticleSampler) {
-        let groups = self.particles.div_ceil(64).max(1);
+        let groups = self.particles.div_ceil(self.workgroup_size()).max(1);
         let mut modules = space(&self.model.units, self.predicted());
         modules.extend(["common/sum64", "common/reduce"]);
         modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
@@ -539,7 +541,7 @@ impl Builder<'_> {
         });
         let record = self.kernel(Kernel {
             name: "record_sample",
-            modules: vec!["common/control", "common/sum64", "kernels/record_sample"],
+            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
             constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
             renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
@@ -602,7 +604,12 @@ impl Builder<'_> {
             buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
         };
         add("control", "clock, key of the step's random words, failures", 64, Contents::Zeros);
-        add("particles", "particles in the order they were advanced", particle * self.particles, Contents::Zeros);
+        let purpose = if self.splits() {
+            "particles in the order they were advanced; within a step, which pairs the first pass has found"
+        } else {
+            "particles in the order they were advanced"
+        };
+        add("particles", purpose, particle * self.particles, Contents::Zeros);
         add("sorted", "particles in order of cells", particle * (self.particles + copies), Contents::Zeros);
         add("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies), Contents::Zeros);
         add("cells", "where each cell begins", 4 * (rows * width + 1 + rows), Contents::Zeros);
@@ -610,14 +617,6 @@ impl Builder<'_> {
         add("ranks", "place of each particle in its cell", 4 * self.particles, Contents::Zeros);
         if self.plan.sort.len() > 2 {
             add("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)), Contents::Zeros);
-        }
-        if self.splits() {
-            add(
-                "found",
-                "pairs found by the first pass, one bit a candidate",
-                4 * u64::from(KEPT_WORDS) * self.particles,
-                Contents::Zeros,
-            );
         }
         if !self.single() {
             let count = self.model.species.len();
@@ -632,6 +631,11 @@ impl Builder<'_> {
             add("coefficients", "coefficients of each pair of species", bytes.len() as u64, Contents::Bytes(bytes));
         }
         self.plan.buffers.append(&mut buffers);
+    }
+
+    /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
+    fn workgroup_size(&self) -> u64 {
+        u64::from(self.options.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
     }
 
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.

@@ -1,11 +1,403 @@
 //! The plan of a scene of shallow water.
+//!
+//! A step: particles are sorted by the cells of the mesh; every cell spreads its particles over the nodes, the depth is
+//! smoothed, the bath takes its step; then every cell moves its particles by the slope of the surface.
 
-use super::{Options, Plan};
+use super::smoothing::smoothing;
+use super::{Bins, Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
 use crate::model::{Model, ShallowWater};
-use crate::scene::Output;
+use crate::noise;
+use crate::scene::{Generator, Integrator, Output};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables.
+const OBSERVABLES: usize = 5;
+/// Rows of samples kept on the device between two readbacks.
+const SAMPLE_ROWS: u64 = 1024;
+/// Bytes of tracers kept on the device between two readbacks.
+const TRACER_BYTES: u64 = 1 << 24;
+/// Bytes of a particle or tracer.
+const WATER: u64 = 24;
+/// Rows of cells that a single workgroup still scans faster than three kernels would.
+const SINGLE_SCAN_ROWS: u64 = 1024;
+/// Bytes that every adapter can bind.
+const LARGEST_BINDING: u64 = 1 << 27;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options: Options) -> Plan {
-    let _ = (output, options, super::smoothing::smoothing(water, [model.units.lengths[0], model.units.lengths[1]]));
-    todo!()
+    let storage = options.storage.unwrap_or_else(|| best_storage(water));
+    let mut builder = Builder { model, water, options, storage, plan: empty_plan(model, water, storage) };
+    builder.constants();
+    builder.ordering();
+    builder.depth();
+    builder.motion(output);
+    builder.buffers();
+    builder.plan
+}
+
+/// Places of a bin: for particles spread at random, more than enough for 10¹⁰ of them, and as many again as arrive in a
+/// step.
+fn bin_capacity(water: &ShallowWater) -> u64 {
+    let mean = water.carriers as f64 / water.nodes() as f64;
+    (mean + 6.0 * mean.sqrt()).ceil() as u64 + 8
+}
+
+/// Bins where they cost not much more memory than sorting and stay within what every adapter can bind.
+fn best_storage(water: &ShallowWater) -> Storage {
+    let bins = WATER * bin_capacity(water) * water.nodes();
+    let sorted = (2 * WATER + 4) * water.carriers;
+    if bins <= 2 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
+}
+
+fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
+    let bath_nodes = if water.bath.is_some() { water.nodes() as usize } else { 0 };
+    Plan {
+        particles: model.particle_count(),
+        units: model.units,
+        cells: [water.mesh[0], water.mesh[1], 1],
+        layout: Layout::Water {
+            carriers: water.carriers as usize,
+            tracers: (model.particle_count() - water.carriers) as usize,
+            bath_nodes,
+            bins: match storage {
+                Storage::Sorted => None,
+                Storage::Bins => Some(Bins {
+                    cells: water.mesh,
+                    capacity: bin_capacity(water) as usize,
+                    centred: water.spline_order == 2,
+                }),
+            },
+        },
+        quanta: quanta(model, water),
+        seed_key: noise::seed_key(model.seed, noise::stream::MESH),
+        time_step: model.time_step,
+        kernels: Vec::new(),
+        constants: Vec::new(),
+        buffers: Vec::new(),
+        prepare: Vec::new(),
+        sort: Vec::new(),
+        before_report: Vec::new(),
+        report: Vec::new(),
+        advance: Vec::new(),
+        finish_report: Vec::new(),
+        samplers: Vec::new(),
+        operations_per_particle: 0.0,
+    }
+}
+
+/// Units of the sums: small against the 24 bits of a single term, and large enough for 64 bits to hold all of them. The
+/// scales are a particle, or a node, at the speed of waves, and a bath variable at rest.
+fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
+    let power_of_two = |value: f64| value.log2().ceil().exp2();
+    let speed_squared = water.wave_speed * water.wave_speed;
+    let mass = water.nodes() as f64 / water.carriers.max(1) as f64;
+    let bath = water.bath.as_ref().map_or(0.0, |bath| bath.deviation(model.temperature).powi(2) / speed_squared);
+    Quanta {
+        energy: power_of_two(mass * speed_squared) * 2_f64.powi(-36),
+        pair_energy: power_of_two(speed_squared) * 2_f64.powi(-36),
+        velocity_squared: 0.0,
+        force_squared: 0.0,
+        curvature: 0.0,
+        length_squared: 0.0,
+        bath_squared: power_of_two(bath.max(1e-6)) * 2_f64.powi(-32),
+    }
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    water: &'a ShallowWater,
+    options: Options,
+    storage: Storage,
+    plan: Plan,
+}
+
+impl Builder<'_> {
+    fn tracers(&self) -> u64 {
+        self.model.particle_count() - self.water.carriers
+    }
+
+    fn constants(&mut self) {
+        let (water, units, step) = (self.water, self.model.units, self.model.time_step);
+        let spacing: [f64; 2] = std::array::from_fn(|axis| units.lengths[axis] / f64::from(water.mesh[axis]));
+        let kick = |axis: usize| -0.5 * step * water.wave_speed.powi(2) / (spacing[axis] * units.momentum);
+        let fraction = |axis: usize| units.momentum * 4_294_967_296.0 / units.lengths[axis];
+        let angle = water.rotation * step;
+        // The path of a step bends by the whole angle; where the rotation is apart from the drift, it is straight.
+        let (chord, sagitta) = if water.rotation == 0.0 || !self.gyrates() {
+            (step, 0.0)
+        } else {
+            (angle.sin() / water.rotation, (1.0 - angle.cos()) / water.rotation)
+        };
+        let quanta = self.plan.quanta;
+        let squared = water.wave_speed.powi(2);
+        let carriers = water.carriers as f64;
+        let mut constants = vec![
+            ("WORKGROUP", self.options.workgroup() as f64),
+            ("CELLS_X", f64::from(water.mesh[0])),
+            ("CELLS_Y", f64::from(water.mesh[1])),
+            ("PARTICLES", carriers),
+            ("TRACERS", self.tracers() as f64),
+            ("FIRST_TRACER", carriers),
+            ("KICK_X", kick(0)),
+            ("KICK_Y", kick(1)),
+            ("CHORD_X", chord * fraction(0)),
+            ("CHORD_Y", chord * fraction(1)),
+            ("SAGITTA_X", sagitta * fraction(0)),
+            ("SAGITTA_Y", sagitta * fraction(1)),
+            ("MEAN_MASS", water.mean_mass() as f64),
+            ("KINETIC", 0.5 * water.mass_unit * units.momentum.powi(2) / quanta.energy),
+            ("MOMENTUM", water.mass_unit * units.momentum * water.wave_speed / quanta.energy),
+            ("POTENTIAL", 0.5 * squared * water.mass_unit / quanta.pair_energy),
+            ("BATH_SQUARE", 1.0 / quanta.bath_squared),
+        ];
+        let turn = if self.gyrates() { angle } else { 0.5 * angle };
+        let quarters = (turn / FRAC_PI_2).round();
+        let rest = (turn - quarters * FRAC_PI_2).rem_euclid(TAU);
+        let rest = if rest > 0.5 * TAU { rest - TAU } else { rest };
+        constants.extend([
+            ("QUARTER_TURNS", quarters.rem_euclid(4.0)),
+            ("TURN_TANGENT", (0.5 * rest).tan()),
+            ("TURN_SINE", rest.sin()),
+        ]);
+        if let Some(bath) = &water.bath {
+            constants.extend([
+                ("BATH_PERSISTENCE", bath.persistence),
+                ("BATH_RESPONSE", bath.response() * water.mass_unit),
+                ("BATH_NOISE", bath.noise(self.model.temperature) / water.wave_speed),
+            ]);
+        }
+        self.plan.constants = constants;
+    }
+
+    fn gyrates(&self) -> bool {
+        self.model.integrator != Integrator::Rotate {}
+    }
+
+    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
+        let spline = match self.water.spline_order {
+            1 => "common/spline1",
+            2 => "common/spline2",
+            _ => "common/spline3",
+        };
+        let mut modules = vec!["common/mesh", spline, "common/water", "common/control", "common/dispatch"];
+        modules.extend(extra);
+        self.add(Kernel {
+            name,
+            modules,
+            workgroups: workgroups.max(1) as u32,
+            constants: Vec::new(),
+            renamed: Vec::new(),
+        })
+    }
+
+    fn add(&mut self, kernel: Kernel) -> usize {
+        self.plan.kernels.push(kernel);
+        self.plan.kernels.len() - 1
+    }
+
+    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        let bytes = bytes.max(64).next_multiple_of(16);
+        self.plan.buffers.push(Buffer { name, purpose, bytes, contents: Contents::Zeros });
+    }
+
+    /// Counting sort by cell, where bins do not keep the order.
+    fn ordering(&mut self) {
+        if self.storage == Storage::Bins {
+            return;
+        }
+        let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
+        let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
+        self.plan.prepare.push(bin);
+        let rows = u64::from(self.water.mesh[1]);
+        let clock = ["common/begin_step", "common/threefry"];
+        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
+            let modules =
+                [&["common/mesh_cells", "common/row_scan", "common/workgroup_scan"][..], &clock, &["kernels/scan"]]
+                    .concat();
+            let scan = self.kernel("scan", &modules, 1);
+            self.plan.sort.push(scan);
+        } else {
+            let modules = ["common/mesh_cells", "common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"];
+            let blocks = self.kernel("scan_blocks", &modules, rows.div_ceil(256));
+            let modules =
+                [&["common/mesh_cells", "common/workgroup_scan"][..], &clock, &["kernels/scan_tops"]].concat();
+            let tops = self.kernel("scan_tops", &modules, 1);
+            let last = self.kernel(
+                "scan_rows",
+                &["common/mesh_cells", "common/row_scan", "kernels/scan_rows"],
+                rows.div_ceil(self.options.workgroup()),
+            );
+            self.plan.sort.extend([blocks, tops, last]);
+            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        }
+        let scatter = self.kernel("scatter", &["common/mesh_cells", "kernels/scatter_water"], particle_groups);
+        self.plan.sort.push(scatter);
+    }
+
+    /// From particles to the surface that drives them.
+    fn depth(&mut self) {
+        let cell_groups = self.water.nodes().div_ceil(self.options.workgroup());
+        let (collect, begin) = match self.storage {
+            Storage::Sorted => ("common/collect_sorted", &["common/begun_by_sort"][..]),
+            Storage::Bins => {
+                ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
+            }
+        };
+        let modules = [self.stored(), &[collect, "kernels/deposit"]].concat();
+        let deposit = self.kernel("deposit", &modules, cell_groups);
+        let gather = self.kernel("gather_nodes", &[begin, &["kernels/gather_nodes"]].concat(), cell_groups);
+        self.plan.before_report.extend([deposit, gather]);
+        let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
+        let smoothing = smoothing(self.water, lengths, self.options);
+        self.plan.buffers.extend(smoothing.buffers);
+        let first = self.plan.kernels.len();
+        self.plan.kernels.extend(smoothing.kernels);
+        self.plan.before_report.extend(smoothing.order.iter().map(|kernel| first + kernel));
+        let Some(bath) = &self.water.bath else { return };
+        let mut modules = Vec::new();
+        if bath.noise(self.model.temperature) > 0.0 {
+            modules.extend(["common/mesh_noise_on", "common/noise_gaussian"]);
+            match self.model.generator {
+                Generator::Pcg4d => modules.push("common/words_pcg4d"),
+                Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),
+            }
+        } else {
+            modules.push("common/mesh_noise_off");
+        }
+        modules.push("kernels/mesh_bath");
+        let bath = self.kernel("mesh_bath", &modules, cell_groups);
+        self.plan.before_report.push(bath);
+    }
+
+    /// Modules of the stored particles.
+    fn stored(&self) -> &'static [&'static str] {
+        match self.storage {
+            Storage::Sorted => &["common/mesh_cells", "common/store_sorted"],
+            Storage::Bins => &["common/store_bins"],
+        }
+    }
+
+    /// Modules that move a particle.
+    fn moving(&self) -> Vec<&'static str> {
+        vec![
+            if self.water.bath.is_some() { "common/surface_bath" } else { "common/surface_plain" },
+            "common/surface_slope",
+            "common/motion_limits",
+            if self.gyrates() { "common/gyro" } else { "common/rotate" },
+            if self.water.rotation == 0.0 { "common/turn_off" } else { "common/turn" },
+        ]
+    }
+
+    fn motion(&mut self, output: &Output) {
+        let groups = self.water.nodes().div_ceil(self.options.workgroup());
+        let moving = self.moving();
+        let (store_moved, store_reported) = match self.storage {
+            Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
+            Storage::Bins => ("common/move_bins", "common/report_bins"),
+        };
+        let with = |last: &[&'static str]| [&moving[..], self.stored(), last].concat();
+        let push_modules = with(&[store_moved, "kernels/push"]);
+        let report = with(&[store_reported, "common/sum64", "common/reduce", "kernels/report_water"]);
+        let push = self.kernel("push", &push_modules, groups);
+        let push_on = self.kernel("push_from_report", &push_modules, groups);
+        let report = self.kernel("report", &report, groups);
+        self.plan.kernels[push].constants.push(("CLOSES", 1.0));
+        self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
+        self.plan.advance.push(push);
+        self.plan.finish_report.push(push_on);
+        self.plan.report.push(report);
+        let record = self.add(Kernel {
+            name: "record_observables",
+            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
+            workgroups: 1,
+            constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", groups as f64)],
+            renamed: Vec::new(),
+        });
+        self.plan.samplers.push(Sampler {
+            name: "observables",
+            first: 0,
+            every: output.energies.every,
+            kernels: vec![record],
+            samples: "samples",
+            quantities: OBSERVABLES,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * OBSERVABLES as u64 * groups);
+        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)));
+        if self.tracers() > 0 {
+            self.drifting(output, &moving);
+        }
+        let width = f64::from(self.water.spline_order + 1);
+        let per_cell = self.water.nodes() as f64 / self.water.carriers.max(1) as f64;
+        // Moments and gradient of a particle; polynomials, contributions and transforms of a cell.
+        self.plan.operations_per_particle = 4.0 * width * width + 70.0 + per_cell * (8.0 * width.powi(3) + 150.0);
+    }
+
+    fn drifting(&mut self, output: &Output, moving: &[&'static str]) {
+        let tracers = self.tracers();
+        let groups = tracers.div_ceil(self.options.workgroup());
+        let with = |last: &'static str| [moving, &[last]].concat();
+        let push = self.kernel("push_tracers", &with("kernels/push_tracers"), groups);
+        let push_on = self.kernel("push_tracers_from_report", &with("kernels/push_tracers"), groups);
+        let report = self.kernel("report_tracers", &with("kernels/report_tracers"), groups);
+        self.plan.kernels[push].constants.push(("CLOSES", 1.0));
+        self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
+        self.plan.advance.push(push);
+        self.plan.finish_report.push(push_on);
+        self.plan.report.push(report);
+        let record = self.add(Kernel {
+            name: "record_tracers",
+            modules: vec!["common/water", "common/control", "kernels/record_tracers"],
+            workgroups: 1,
+            constants: Vec::new(),
+            renamed: vec![("samples", "tracer_samples")],
+        });
+        let row = 8 * (1 + 2 * tracers);
+        // Two rows at the least: one is taken, and room is left for the next.
+        let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
+        self.buffer("tracers", "particles without mass", WATER * tracers);
+        self.buffer("tracer_samples", "tracers at reports, waiting to be read", 8 + capacity * row);
+        self.plan.samplers.push(Sampler {
+            name: "tracers",
+            first: 0,
+            every: output.energies.every,
+            kernels: vec![record],
+            samples: "tracer_samples",
+            quantities: 2 * tracers as usize,
+            capacity,
+            needs_report: true,
+        });
+    }
+
+    fn buffers(&mut self) {
+        let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
+        let width = u64::from(self.water.spline_order + 1);
+        self.buffer("control", "clock, key of the step's random words, failures", 64);
+        match self.storage {
+            Storage::Sorted => {
+                self.buffer("particles", "particles in the order they were moved", WATER * particles);
+                self.buffer("sorted", "particles in order of cells", WATER * particles);
+                self.buffer("ranks", "place of each particle in its cell", 4 * particles);
+                self.buffer("counts", "particles in each cell", 4 * nodes);
+                self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
+            }
+            Storage::Bins => {
+                let capacity = bin_capacity(self.water);
+                self.plan.constants.push(("CAPACITY", capacity as f64));
+                self.buffer("bins", "particles of each cell", WATER * capacity * nodes);
+                self.buffer("residents", "particles of each cell at the beginning of the step", 4 * nodes);
+                self.buffer("stayed", "particles that stay in each cell", 4 * nodes);
+                self.buffer("arrived", "particles that arrive in each cell", 4 * nodes);
+            }
+        }
+        self.buffer("contributions", "what each cell adds to the nodes around it", 4 * width * width * nodes);
+        self.buffer("node_masses", "mass on each node", 4 * nodes);
+        self.buffer("depths", "smoothed depth on each node", 4 * nodes);
+        if self.water.bath.is_some() {
+            self.buffer("node_bath", "bath variable of each node", 4 * nodes);
+            self.buffer("previous_masses", "mass on each node one step before", 4 * nodes);
+            self.buffer("surface", "depth and bath together", 4 * nodes);
+        }
+    }
 }

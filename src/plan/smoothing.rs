@@ -4,12 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Buffer, Contents, Kernel};
+use super::{Buffer, Contents, Kernel, Options};
 use crate::model::ShallowWater;
 use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
-/// Invocations in a workgroup of every kernel here.
-const WORKGROUP: u64 = 64;
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
 /// The largest radix of a pass, as a power of two.
@@ -28,25 +26,27 @@ pub struct SmoothingPlan {
 
 /// The kernels and buffers that turn the masses of the nodes (`node_masses`, unsigned integers in units of the model)
 /// into the smoothed deviation of the depth from its mean of 1 (`depths`, real numbers). Both these buffers belong to the
-/// caller. `lengths` are the edges of the box.
+/// caller. `lengths` are the edges of the box. A plan whose workgroups are not of the default size has to have the
+/// constant `WORKGROUP`.
 ///
 /// With [`SmoothingSolver::Fft`] and a smoothing length the edges of the mesh have to be powers of two, at least 2.
 #[must_use]
-pub fn smoothing(water: &ShallowWater, lengths: [f64; 2]) -> SmoothingPlan {
+pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> SmoothingPlan {
+    let workgroup = options.workgroup();
     let constants = [("MEAN_MASS", water.mean_mass() as f64), ("MASS_UNIT", water.mass_unit)];
     if water.smoothing.length == 0.0 {
         let kernel = Kernel {
             name: "depths",
             modules: vec!["common/dispatch", "common/deviation", "kernels/deviation"],
-            workgroups: workgroups(water.nodes()),
+            workgroups: workgroups(water.nodes(), workgroup),
             constants: [constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat(),
             renamed: Vec::new(),
         };
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
     match water.smoothing.solver {
-        SmoothingSolver::Fft { symbol } => Fourier { water, lengths, symbol, constants }.plan(),
-        SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, &constants),
+        SmoothingSolver::Fft { .. } => Fourier { water, lengths, workgroup, constants }.plan(),
+        SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, workgroup, &constants),
     }
 }
 
@@ -72,8 +72,8 @@ pub fn iterations(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> u3
     Polynomial::new(water, lengths, tolerance).weights.len() as u32
 }
 
-fn workgroups(invocations: u64) -> u32 {
-    invocations.div_ceil(WORKGROUP) as u32
+fn workgroups(invocations: u64, workgroup: u64) -> u32 {
+    invocations.div_ceil(workgroup) as u32
 }
 
 /// Λ²/Δ² of each axis.
@@ -114,7 +114,7 @@ fn scratch(name: &'static str, purpose: &'static str, bytes: u64) -> Buffer {
 struct Fourier<'a> {
     water: &'a ShallowWater,
     lengths: [f64; 2],
-    symbol: LaplacianSymbol,
+    workgroup: u64,
     constants: [(&'static str, f64); 2],
 }
 
@@ -145,7 +145,8 @@ impl Fourier<'_> {
         let passes = self.passes();
         let kernels: Vec<Kernel> =
             passes.iter().enumerate().map(|(number, &pass)| self.kernel(pass, number)).collect();
-        SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: self.buffers(passes.len()) }
+        let twisted = passes.iter().any(|pass| pass.finished > 1);
+        SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: self.buffers(twisted) }
     }
 
     /// Columns that are transformed.
@@ -215,28 +216,25 @@ impl Fourier<'_> {
         Kernel {
             name: pass.name,
             modules,
-            workgroups: workgroups(u64::from(lines) * u64::from(length / pass.radix)),
+            workgroups: workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup),
             constants,
             renamed: if number.is_multiple_of(2) { swapped } else { Vec::new() },
         }
     }
 
-    fn buffers(&self, passes: usize) -> Vec<Buffer> {
+    fn buffers(&self, twisted: bool) -> Vec<Buffer> {
         let [width, height] = self.water.mesh;
         let bytes = 8 * u64::from(height) * u64::from(self.columns());
-        let mut buffers = vec![scratch("waves", "depth in Fourier space", bytes)];
-        if passes > 2 {
-            buffers.push(scratch("waves_next", "the same after the next pass", bytes));
-        }
         // Rows that went through as one come apart twice as large.
         let scale = 0.5 / self.water.nodes() as f64;
         let waves = (0..=height / 2).flat_map(|l| (0..=width / 2).map(move |k| [k, l]));
-        buffers.push(table(
-            "symbols",
-            "smoothing of each wave",
-            waves.map(|wave| (scale * transfer(self.water, self.lengths, wave)) as f32),
-        ));
-        if passes > 0 {
+        let symbols = waves.map(|wave| (scale * transfer(self.water, self.lengths, wave)) as f32);
+        let mut buffers = vec![
+            scratch("waves", "depth in Fourier space", bytes),
+            scratch("waves_next", "the same after the next pass", bytes),
+            table("symbols", "smoothing of each wave", symbols),
+        ];
+        if twisted {
             let roots = self.roots();
             buffers.push(table("roots", "roots of unity", (0..roots).flat_map(|index| root(index, roots))));
         }
@@ -244,7 +242,7 @@ impl Fourier<'_> {
     }
 }
 
-/// exp(-2πi index/count), from angles within an eighth of a turn, so that it is symmetric to the bit.
+/// exp(-2πi index/count).
 fn root(index: u32, count: u32) -> [f32; 2] {
     let angle = TAU * f64::from(index) / f64::from(count);
     [angle.cos() as f32, -angle.sin() as f32]
@@ -273,16 +271,10 @@ struct Polynomial {
 impl Polynomial {
     fn new(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> Self {
         let [x, y] = stiffness(water, lengths);
-        let radius = 2.0 * (x + y);
+        let radius = (2.0 * (x + y)).max(f64::MIN_POSITIVE);
         let centre = 1.0 + radius;
         let iterations = ((1.0 / tolerance).acosh() / (centre / radius).acosh()).ceil().max(1.0) as usize;
-        let ratio = (radius / centre).powi(2);
-        let mut weights = vec![1.0];
-        while weights.len() < iterations {
-            let factor = if weights.len() == 1 { 0.5 } else { 0.25 };
-            weights.push(1.0 / (1.0 - factor * ratio * weights[weights.len() - 1]));
-        }
-        Self { centre, radius, weights }
+        Self { centre, radius, weights: weights(centre, radius, iterations) }
     }
 
     /// The polynomial of an eigenvalue of the operator: nearly its inverse.
@@ -294,27 +286,108 @@ impl Polynomial {
     }
 }
 
+/// Weights of the iterations for a spectrum with this centre and half width.
+fn weights(centre: f64, radius: f64, iterations: usize) -> Vec<f64> {
+    let ratio = (radius / centre).powi(2);
+    let next = |(number, weight): &(usize, f64)| {
+        let share = if *number == 0 { 0.5 } else { 0.25 };
+        Some((number + 1, 1.0 / (1.0 - share * ratio * weight)))
+    };
+    std::iter::successors(Some((0, 1.0)), next).take(iterations).map(|(_, weight)| weight).collect()
+}
+
 fn chebyshev(
     water: &ShallowWater,
     lengths: [f64; 2],
     tolerance: f64,
+    workgroup: u64,
     constants: &[(&'static str, f64)],
 ) -> SmoothingPlan {
     let polynomial = Polynomial::new(water, lengths, tolerance);
+    let iterations = polynomial.weights.len();
     let [width, height] = water.mesh;
     let [stiffness_x, stiffness_y] = stiffness(water, lengths);
+    let constants = [
+        constants,
+        &[
+            ("NODES_X", f64::from(width)),
+            ("NODES_Y", f64::from(height)),
+            ("STIFFNESS_X", stiffness_x),
+            ("STIFFNESS_Y", stiffness_y),
+            ("INVERSE_CENTRE", 1.0 / polynomial.centre),
+        ],
+    ]
+    .concat();
+    let strips = workgroups(u64::from(width) * u64::from(height.div_ceil(STRIP)), workgroup);
     let mut plan = SmoothingPlan { kernels: Vec::new(), order: Vec::new(), buffers: Vec::new() };
     for application in 1..=water.smoothing.power {
-        let first = application == 1;
-        let last = application == water.smoothing.power;
-        // `depths` receives the last result, and until then what the last application is given.
-        let (result, spare) = match (first, last) {
-            (_, true) if first => ("depths", "waves"),
-            (_, true) => ("depths", "waves_next"),
-            _ => ("waves", "depths"),
+        let given = if application == 1 {
+            &["common/deviation", "common/chebyshev_of_masses"][..]
+        } else {
+            &["common/chebyshev_of_smoothed"]
         };
-        let _ = (result, spare);
+        let result = if application == water.smoothing.power { "depths" } else { "once_smoothed" };
+        // Iterations go to and fro between two buffers, and the last one ends in the right one.
+        let (odd, even) = if iterations % 2 == 1 { (result, "waves") } else { ("waves", result) };
+        let mut kernel = |name, entry, workgroups, parity: u32, [from, to]: [&'static str; 2]| {
+            let mut modules = vec!["common/dispatch", "common/chebyshev"];
+            modules.extend(given);
+            modules.push(entry);
+            plan.kernels.push(Kernel {
+                name,
+                modules,
+                workgroups,
+                constants: [constants.as_slice(), &[("PARITY", f64::from(parity))]].concat(),
+                renamed: vec![("waves", from), ("waves_next", to)],
+            });
+            plan.kernels.len() - 1
+        };
+        let all = workgroups(water.nodes(), workgroup);
+        plan.order.push(kernel("begin smoothing", "kernels/chebyshev_begin", all, 0, [even, odd]));
+        let pair: Vec<usize> = [[odd, even], [even, odd]]
+            .into_iter()
+            .take(iterations - 1)
+            .zip(0..)
+            .map(|(buffers, parity)| kernel("smooth", "kernels/chebyshev_iterate", strips, parity, buffers))
+            .collect();
+        plan.order.extend(pair.iter().cycle().take(iterations - 1));
     }
-    let _ = (polynomial, width, height, stiffness_x, stiffness_y, constants, STRIP, &mut plan);
+    let bytes = 4 * water.nodes();
+    plan.buffers.push(scratch("waves", "depth between iterations", bytes));
+    if water.smoothing.power > 1 {
+        plan.buffers.push(scratch("once_smoothed", "depth smoothed once", bytes));
+    }
+    // After two counters.
+    let counters = [0, 0].map(f32::from_bits).into_iter();
+    let weights = polynomial.weights.iter().map(|weight| *weight as f32);
+    plan.buffers.push(table("iteration", "weights of the iterations", counters.chain(weights)));
     plan
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radices_make_the_length_in_few_passes() {
+        for bits in 1..=16 {
+            let radices = radices(1 << bits);
+            assert_eq!(radices.iter().product::<u32>(), 1 << bits);
+            assert!(radices.iter().all(|radix| (2..=16).contains(radix)));
+            assert_eq!(radices.len(), bits.div_ceil(4) as usize);
+        }
+    }
+
+    #[test]
+    fn the_polynomial_is_that_of_its_recurrence() {
+        let polynomial = Polynomial { centre: 65.0, radius: 64.0, weights: weights(65.0, 64.0, 17) };
+        for eigenvalue in [1.0, 1.3, 7.0, 65.0, 100.0, 129.0] {
+            let (mut previous, mut x) = (0.0, 1.0 / polynomial.centre);
+            for weight in &polynomial.weights[1..] {
+                let next = previous + weight * ((1.0 - eigenvalue * x) / polynomial.centre + x - previous);
+                (previous, x) = (x, next);
+            }
+            assert!((polynomial.inverse(eigenvalue) / x - 1.0).abs() < 1e-12, "{eigenvalue}");
+        }
+    }
 }

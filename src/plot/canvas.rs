@@ -83,8 +83,8 @@ pub(super) struct Canvas {
     pub paper: Colour,
     pub shapes: Vec<Shape>,
     pub batches: Vec<Batch>,
-    /// Batches painted before the particles of a snapshot.
-    pub under_particles: usize,
+    /// Batches painted before the particles of a snapshot or the image of a field.
+    pub background: usize,
     pub typesetter: Typesetter,
 }
 
@@ -94,7 +94,7 @@ impl Canvas {
     pub(super) fn new(width: u32, height: u32, paper: Colour) -> Result<Self, PlotError> {
         let typesetter = Typesetter::new()?;
         let batches = vec![Batch { shapes: 0..0, clip: None }];
-        Ok(Self { width, height, paper, shapes: Vec::new(), batches, under_particles: 0, typesetter })
+        Ok(Self { width, height, paper, shapes: Vec::new(), batches, background: 0, typesetter })
     }
 
     /// What follows is painted only inside this area.
@@ -103,9 +103,9 @@ impl Canvas {
         self.batches.push(Batch { shapes: next..next, clip });
     }
 
-    /// What follows is painted over the particles.
+    /// What follows is painted over the particles or the image.
     pub(super) fn end_of_background(&mut self) {
-        self.under_particles = self.batches.len();
+        self.background = self.batches.len();
         self.clip(None);
     }
 

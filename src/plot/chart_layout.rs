@@ -15,16 +15,16 @@ const SMALLEST: f64 = 1e-300;
 
 /// Sizes in pixels, all in proportion to the picture.
 #[derive(Debug, Clone, Copy)]
-struct Sizes {
-    title: f64,
-    label: f64,
-    line: f64,
-    rule: f64,
-    gap: f64,
+pub(super) struct Sizes {
+    pub title: f64,
+    pub label: f64,
+    pub line: f64,
+    pub rule: f64,
+    pub gap: f64,
 }
 
 impl Sizes {
-    fn new(style: &PlotStyle, panels: usize) -> Self {
+    pub(super) fn new(style: &PlotStyle, panels: usize) -> Self {
         let natural = (f64::from(style.width) / 1600.0).min(f64::from(style.height) / 900.0);
         // Type never grows so large that it leaves the data no room.
         let largest_label = (f64::from(style.height) / (9 + 5 * panels) as f64).min(f64::from(style.width) / 24.0);

@@ -1,6 +1,7 @@
-//! Pictures drawn off-screen by the GPU: charts of what was measured and snapshots of the particles.
+//! Pictures drawn off-screen by the GPU: charts of what was measured, snapshots of the particles, and
+//! fields on a mesh.
 //!
-//! A [`Chart`] or a [`ParticlePicture`] is first laid out on the CPU as a list of shapes (lines, markers, letters),
+//! A [`Chart`], a [`ParticlePicture`] or a [`FieldPicture`] is first laid out on the CPU as a list of shapes (lines, markers, letters),
 //! which needs no device, and then painted by a [`Plotter`] in a few draw calls. Coverage and blending are computed in
 //! linear light, so thin lines keep their weight on light and dark paper. Type and lines are sized for a picture that
 //! is shown 16 cm wide, whatever its number of pixels; [`PlotStyle::scale`](crate::scene::PlotStyle::scale) changes that.
@@ -20,9 +21,13 @@
 mod canvas;
 mod chart;
 mod chart_layout;
+mod color_map;
 mod error;
+mod field;
+mod field_renderer;
 mod palette;
 mod particles;
+mod periodic_curve;
 mod presets;
 mod renderer;
 mod series_path;
@@ -30,9 +35,13 @@ mod text;
 mod ticks;
 
 pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesStyle};
+pub use color_map::ColorMap;
 pub use error::PlotError;
+pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use particles::ParticlePicture;
-pub use presets::{EnergyTable, correlation_chart, energies_chart, radial_distribution_chart};
+pub use presets::{
+    EnergyTable, circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+};
 pub use renderer::Plotter;
 
 use crate::scene::{PlotStyle, Snapshot, Theme};
@@ -63,4 +72,17 @@ pub fn draw_particles(
     theme: Theme,
 ) -> Result<RgbaImage, PlotError> {
     Plotter::new(device, queue)?.draw_particles(picture, style, theme)
+}
+
+/// Draws one picture of a field; [`Plotter`] is cheaper for several.
+///
+/// # Errors
+/// See [`Plotter::draw_field`].
+pub fn draw_field(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    picture: &FieldPicture<'_>,
+    style: &PlotStyle,
+) -> Result<RgbaImage, PlotError> {
+    Plotter::new(device, queue)?.draw_field(picture, style)
 }

@@ -64,6 +64,59 @@ pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, tem
     chart
 }
 
+/// Energies of shallow water over time, the change of the conserved one relative to its first value, and, in a bath, the
+/// temperature.
+///
+/// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, and with a bath `bath_energy`,
+/// `extended_energy` and `temperature`, of which `temperature` is the set kT.
+#[must_use]
+pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option<f64>) -> Chart {
+    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
+    let mut energies = Panel::new("Time (time units)", "Energy (energy units)");
+    for (column, name) in [
+        ("kinetic_energy", "kinetic"),
+        ("potential_energy", "potential"),
+        ("total_energy", "kinetic and potential"),
+        ("bath_energy", "bath"),
+        ("extended_energy", "with the bath"),
+    ] {
+        if let Some(points) = table.points(column, 1.0) {
+            energies.series.push(Series::line(name, points));
+        }
+    }
+    chart.panels.push(energies);
+    match temperature {
+        Some(set) => {
+            let points = table.points("temperature", 1.0).unwrap_or_default();
+            let panel = Panel::new("Time (time units)", "Temperature (energy units)");
+            let panel = panel.with(Series::line("kinetic", points));
+            chart.panels.push(panel.with_reference(&format!("set, kT = {}", short_number(set)), set));
+        }
+        None => {
+            let points = table.points("total_energy", 1.0).unwrap_or_default();
+            let first = points.first().map_or(f64::NAN, |point| point[1]);
+            let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
+            let panel = Panel::new("Time (time units)", "Relative change of the energy");
+            chart.panels.push(panel.with(Series::line("energy", change)).with_reference("none", 0.0));
+        }
+    }
+    chart
+}
+
+/// Circulations of material loops over time, relative to their first values.
+#[must_use]
+pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
+    let mut panel = Panel::new("Time (time units)", "Relative change of the circulation").with_reference("none", 0.0);
+    for column in table.columns.iter().filter(|column| *column != "time") {
+        let points = table.points(column, 1.0).unwrap_or_default();
+        let first = points.first().map_or(f64::NAN, |point| point[1]);
+        panel
+            .series
+            .push(Series::line(column, points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect()));
+    }
+    Chart { title: title.to_owned(), panels: vec![panel], ..Chart::default() }
+}
+
 /// The radial distribution function g(r), with the value 1 of an ideal gas as a reference.
 #[must_use]
 pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64]) -> Chart {

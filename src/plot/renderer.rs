@@ -4,6 +4,8 @@ use super::canvas::{Area, Batch, Canvas, Shape};
 use super::chart::Chart;
 use super::chart_layout;
 use super::error::PlotError;
+use super::field::{self, FieldPicture, FieldScene};
+use super::field_renderer::{draw_field, field_pipeline};
 use super::palette::linear;
 use super::particles::{self, ParticleInstance, ParticlePicture, SphereScene};
 use crate::scene::{PlotStyle, Snapshot, Theme};
@@ -55,6 +57,14 @@ pub struct Plotter {
     shapes: wgpu::RenderPipeline,
     spheres: wgpu::RenderPipeline,
     composite: wgpu::RenderPipeline,
+    field: wgpu::RenderPipeline,
+}
+
+/// What lies between the shapes of the background and those of the foreground.
+enum Content<'a> {
+    Nothing,
+    Particles(&'a SphereScene),
+    Field(&'a FieldScene),
 }
 
 /// Runs device work and turns what the device reports meanwhile into an error.
@@ -84,7 +94,8 @@ impl Plotter {
         let shapes = checked(device, "pipeline of the shapes", || shapes_pipeline(device))?;
         let spheres = checked(device, "pipeline of the particles", || spheres_pipeline(device))?;
         let composite = checked(device, "pipeline of the overlay", || composite_pipeline(device))?;
-        Ok(Self { device: device.clone(), queue: queue.clone(), shapes, spheres, composite })
+        let field = checked(device, "pipeline of the fields", || field_pipeline(device))?;
+        Ok(Self { device: device.clone(), queue: queue.clone(), shapes, spheres, composite, field })
     }
 
     /// Draws a chart into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
@@ -95,7 +106,7 @@ impl Plotter {
     /// not one per point, [`PlotError::TypeTooLarge`] if `scale` is excessive, and what the device reports.
     pub fn draw_chart(&self, chart: &Chart, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
         self.check_size(style.width, style.height)?;
-        self.paint(&chart_layout::lay_out(chart, style)?, None)
+        self.paint(&chart_layout::lay_out(chart, style)?, &Content::Nothing)
     }
 
     /// Draws the particles into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same
@@ -112,7 +123,26 @@ impl Plotter {
     ) -> Result<RgbaImage, PlotError> {
         self.check_size(style.width, style.height)?;
         let (canvas, scene) = particles::lay_out(picture, style, theme)?;
-        self.paint(&canvas, Some(&scene))
+        self.paint(&canvas, &Content::Particles(&scene))
+    }
+
+    /// Draws a field into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
+    /// on one adapter and driver.
+    ///
+    /// # Errors
+    /// [`PlotError::Size`] if the adapter has no texture as large as the picture, [`PlotError::Input`] if it has none as
+    /// large as the mesh or the parts of the field do not fit together, [`PlotError::TypeTooLarge`] if `scale` is
+    /// excessive, and what the device reports.
+    pub fn draw_field(&self, picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
+        self.check_size(style.width, style.height)?;
+        let limit = self.device.limits().max_texture_dimension_2d;
+        let [kx, ky] = picture.field.nodes;
+        if kx.max(ky) > limit as usize {
+            let message = format!("the mesh has {kx} x {ky} nodes; this adapter draws {limit} along an axis at most");
+            return Err(PlotError::Input(message));
+        }
+        let (canvas, scene) = field::lay_out(picture, style)?;
+        self.paint(&canvas, &Content::Field(&scene))
     }
 
     fn check_size(&self, width: u32, height: u32) -> Result<(), PlotError> {
@@ -123,7 +153,7 @@ impl Plotter {
         Ok(())
     }
 
-    fn paint(&self, canvas: &Canvas, scene: Option<&SphereScene>) -> Result<RgbaImage, PlotError> {
+    fn paint(&self, canvas: &Canvas, content: &Content<'_>) -> Result<RgbaImage, PlotError> {
         let target = checked(&self.device, "picture", || {
             self.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("plot: picture"),
@@ -145,10 +175,16 @@ impl Plotter {
             b: f64::from(linear(paper[2])),
             a: 1.0,
         };
-        let (under, over) = canvas.batches.split_at(canvas.under_particles);
+        let (under, over) = canvas.batches.split_at(canvas.background);
         checked(&self.device, "background", || self.shapes_pass(canvas, under, &view, &atlas, Some(clear)))?;
-        if let Some(scene) = scene {
-            checked(&self.device, "particles", || self.spheres_passes(canvas, scene, &view))?;
+        match content {
+            Content::Nothing => {}
+            Content::Particles(scene) => {
+                checked(&self.device, "particles", || self.spheres_passes(canvas, scene, &view))?;
+            }
+            Content::Field(scene) => {
+                checked(&self.device, "field", || self.field_pass(canvas, scene, &view))?;
+            }
         }
         checked(&self.device, "foreground", || self.shapes_pass(canvas, over, &view, &atlas, None))?;
         self.read_back(&target)
@@ -239,6 +275,15 @@ impl Plotter {
             }
         }
         self.queue.submit([encoder.finish()]);
+    }
+
+    fn field_pass(&self, canvas: &Canvas, scene: &FieldScene, view: &wgpu::TextureView) {
+        let [left, top, width, height] = scene.area.map(f64::from);
+        let area = Area { left, top, right: left + width, bottom: top + height };
+        // In a picture too small for its type the image may stand out of it.
+        if let Some(clip) = scissor(Some(area), canvas) {
+            draw_field(&self.device, &self.queue, &self.field, scene, clip, view);
+        }
     }
 
     /// Draws the particles enlarged, tile by tile, and lays each tile over the picture.
@@ -412,7 +457,10 @@ impl Plotter {
     }
 }
 
-fn colour_attachment(view: &wgpu::TextureView, clear: Option<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+pub(super) fn colour_attachment(
+    view: &wgpu::TextureView,
+    clear: Option<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
     let load = clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear);
     wgpu::RenderPassColorAttachment {
         view,
@@ -450,7 +498,7 @@ fn camera(scene: &SphereScene, tile: [u32; 2], target: [u32; 2]) -> Camera {
     }
 }
 
-fn pipeline(
+pub(super) fn pipeline(
     device: &wgpu::Device,
     label: &str,
     module: &wgpu::ShaderModule,
@@ -493,7 +541,7 @@ fn pipeline(
     })
 }
 
-fn module(device: &wgpu::Device, label: &str, source: &'static str) -> wgpu::ShaderModule {
+pub(super) fn module(device: &wgpu::Device, label: &str, source: &'static str) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
         source: wgpu::ShaderSource::Wgsl(source.into()),

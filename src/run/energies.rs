@@ -15,14 +15,20 @@ type Cell = fn(&Observables, f64) -> f64;
 fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     let repulsive = model.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0);
     let spatial = model.units.dimension == 3;
-    let all: [(&'static str, bool, Cell); 14] = [
+    let water = model.shallow_water.as_ref();
+    let bath = water.and_then(|water| water.bath);
+    let memory = bath.is_some_and(|bath| bath.continuous_coupling.is_finite());
+    let all: [(&'static str, bool, Cell); 17] = [
         ("time", true, |row, step| row.step as f64 * step),
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
-        ("potential_energy", repulsive, |row, _| row.potential_energy),
+        ("potential_energy", repulsive || water.is_some(), |row, _| row.potential_energy),
         ("total_energy", true, |row, _| row.total_energy()),
+        ("bath_energy", memory, |row, _| row.bath_energy),
+        ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
+        ("bath_square", bath.is_some(), |row, _| row.bath_square),
         ("temperature", true, |row, _| row.kinetic_temperature()),
         (CONFIGURATIONAL, repulsive, |row, _| row.configurational_temperature()),
-        ("pressure", true, |row, _| row.pressure()),
+        ("pressure", water.is_none(), |row, _| row.pressure()),
         ("pressure_conservative", repulsive, |row, _| row.conservative_pressure()),
         ("momentum_x", true, |row, _| row.momentum[0]),
         ("momentum_y", true, |row, _| row.momentum[1]),

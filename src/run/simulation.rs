@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
-use crate::scene::{self, Scene, TrajectoryFormat, placement};
+use crate::scene::{self, Integrator, Scene, TrajectoryFormat, placement};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -118,11 +118,15 @@ impl Simulation {
         let task = Task { scene, model, directory, momentum };
         loop {
             match task.attempt(&gpu, options, &start, &mut pace, observer) {
-                Err(RunError::Engine(EngineError::Crowded { .. })) if options.copies.is_none() => {
-                    // Too rare for every run to pay for it in memory.
-                    options.copies = Some(task.model.particle_count());
-                    start = checkpoint::load(&task.directory.file(files::CHECKPOINT))?;
-                    let reason = "the particles crowd at the ends of the box";
+                Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
+                    // Too rare for every run to pay for it in memory or time.
+                    options = options.with_room(task.model.particle_count());
+                    start = task.last_checkpoint(start)?;
+                    let reason = if task.model.shallow_water.is_some() {
+                        "the particles crowd in one cell of the mesh"
+                    } else {
+                        "the particles crowd at the ends of the box"
+                    };
                     observer(Event::Repeating { from: start.state.step, reason });
                     gpu = open_adapter(&task.scene, &task.model, choice, options)?;
                 }
@@ -142,6 +146,12 @@ struct Task {
 }
 
 impl Task {
+    /// The last checkpoint on disk; the start itself if nothing was saved since.
+    fn last_checkpoint(&self, start: Checkpoint) -> Result<Checkpoint, RunError> {
+        let path = self.directory.file(files::CHECKPOINT);
+        if path.exists() { Ok(checkpoint::load(&path)?) } else { Ok(start) }
+    }
+
     /// Runs from `start` to the end.
     fn attempt(
         &self,
@@ -170,7 +180,7 @@ impl Task {
                 "went on from a checkpoint at step {step}: a window of `output.diffusion` open there is left out"
             ));
         }
-        if run.momentum != self.momentum {
+        if self.model.conserves_momentum() && run.momentum != self.momentum {
             warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
         }
         run.conclude(warnings, pace.done())
@@ -363,8 +373,8 @@ impl<'a> Run<'a> {
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
         self.analyses.conclude(self.directory, &mut summary)?;
-        summary.conserved_exactly = vec!["mass".to_owned(), "total momentum, to the last bit".to_owned()];
-        summary.not_conserved = vec![energy_statement(self.model).to_owned()];
+        summary.conserved_exactly = conserved(self.model).map(str::to_owned).to_vec();
+        summary.not_conserved = not_conserved(self.model).into_iter().map(str::to_owned).collect();
         // Numbers first: they are worth more than pictures if the disk is full.
         summary.save(&self.directory.file(files::SUMMARY))?;
         self.pictures.energies(&self.energies.table(), self.model)?;
@@ -384,13 +394,30 @@ fn trajectory_name(format: TrajectoryFormat) -> &'static str {
     }
 }
 
-fn energy_statement(model: &Model) -> &'static str {
-    let frictional = model.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0);
-    if !frictional {
-        "total energy: only as well as the time step integrates the forces"
-    } else if model.temperature > 0.0 {
-        "total energy: exchanged with the heat bath"
-    } else {
-        "total energy: taken away by friction"
+fn conserved(model: &Model) -> [&'static str; 2] {
+    match (&model.shallow_water, &model.integrator) {
+        (None, _) => ["mass", "total momentum, to the last bit"],
+        (Some(_), Integrator::Rotate {}) => ["mass", "mass on the mesh, to the last bit"],
+        (Some(_), _) => ["mass on the mesh, to the last bit", "the circulation of material loops, to rounding"],
     }
+}
+
+fn not_conserved(model: &Model) -> Vec<&'static str> {
+    let thermal = model.temperature > 0.0;
+    let Some(water) = &model.shallow_water else {
+        let frictional = model.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0);
+        return vec![if !frictional {
+            "total energy: only as well as the time step integrates the forces"
+        } else if thermal {
+            "total energy: exchanged with the heat bath"
+        } else {
+            "total energy: taken away by friction"
+        }];
+    };
+    let energy = if water.bath.is_some() {
+        "total energy: exchanged with the bath on the mesh, which also slows a uniform flow down"
+    } else {
+        "total energy: only as well as the time step integrates the forces"
+    };
+    vec![energy, "total momentum: the mesh is fixed in space, and a rotation turns it"]
 }

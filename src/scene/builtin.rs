@@ -19,5 +19,14 @@ macro_rules! builtin {
 /// The scenes inside the program, the main one first.
 #[must_use]
 pub fn builtin() -> &'static [Builtin] {
-    builtin!["dpd-fluid", "dpd-fluid-2d", "binary-mixture", "ideal-dissipative-gas", "shallow-water"]
+    builtin![
+        "dpd-fluid",
+        "dpd-fluid-2d",
+        "binary-mixture",
+        "ideal-dissipative-gas",
+        "shallow-water",
+        "shallow-water-memory",
+        "shallow-water-equilibrium",
+        "vortex-merger"
+    ]
 }

@@ -58,7 +58,7 @@ fn fill(state: &mut State, group: &ParticleGroup, first: usize, model: &Model, w
 
 /// Scales the masses so that they add up to 1 a node, to the last unit.
 fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
-    let wanted = water.mean_mass() as u64 * water.nodes();
+    let wanted = water.total_mass();
     let sum: u64 = masses.iter().map(|mass| u64::from(*mass)).sum();
     if sum == 0 {
         return;

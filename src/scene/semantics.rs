@@ -130,7 +130,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
         match interaction {
             Interaction::Dpd(dpd) => {
                 if index > 0 {
-                    let found = "a second interaction, which defines the same pairs of species again";
+                    let found = "a second `dpd` interaction defines the same pairs of species again";
                     let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
                     problems.push(Problem::new(&path, found, accepted));
                 }

@@ -3,6 +3,7 @@
 use super::error::Problem;
 use super::surface::Surface;
 use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities};
+use crate::model::LARGEST_DEPTH;
 
 /// Points on each axis at which the depth at the start is tried.
 const TRIALS: u32 = 128;
@@ -90,12 +91,15 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
         let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
         [fraction[0] * lengths[0], fraction[1] * lengths[1]]
     });
-    let depths = points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point));
-    let (depth, [x, y]) =
-        depths.fold((f64::INFINITY, [0.0; 2]), |least, depth| if depth.0 < least.0 { depth } else { least });
-    if depth <= 0.0 {
+    let mut depths =
+        points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point));
+    // Masses are integers with room for so much.
+    let misfit = depths.find(|(depth, _)| *depth <= 0.0 || *depth > LARGEST_DEPTH);
+    if let Some((depth, [x, y])) = misfit {
         let found = format!("found features that make a depth of {depth:.4} at ({x:.3}, {y:.3})");
-        let accepted = "a positive depth everywhere: lower or wider features, or a shorter `smoothing.length`";
+        let accepted = format!(
+            "a depth above 0 and up to {LARGEST_DEPTH} everywhere: lower or wider features, or a shorter `smoothing.length`"
+        );
         problems.push(Problem::new(format!("{path}.surface"), found, accepted));
     }
 }

@@ -43,6 +43,24 @@ pub fn fluid(changes: &[&str]) -> Scene {
     }
 }
 
+/// A small scene of shallow water with changes, given as `path=value`.
+pub fn water(changes: &[&str]) -> Scene {
+    let text = r#"{
+        "title": "test", "space": {"box": [6.283185307179586, 6.283185307179586]},
+        "time": {"step": 0.02, "steps": 1}, "temperature": 0.0,
+        "particles": [{"species": "water", "count": 4096, "placement": {"type": "lattice"},
+            "velocities": {"type": "geostrophic"}}],
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6.283185307179586,
+            "rotation": 6.283185307179586, "smoothing": {"length": 0.8},
+            "surface": [{"type": "wave", "periods": [1, 2], "amplitude": 0.05}]}]
+    }"#;
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", text, &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
 /// A scene's model and initial state.
 pub fn start(scene: &Scene) -> (Model, State) {
     let model = Model::new(scene);

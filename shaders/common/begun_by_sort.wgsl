@@ -1,0 +1,2 @@
+// The sort has begun the step.
+fn begin_unsorted_step() {}

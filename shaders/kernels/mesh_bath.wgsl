@@ -1,0 +1,26 @@
+// One step of the bath on every node, which then adds to the depth that drives the particles.
+override BATH_PERSISTENCE: f32;
+override BATH_RESPONSE: f32;    // per unit of integer mass
+@group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
+@group(0) @binding(13) var<storage, read_write> depths: array<f32>;
+@group(0) @binding(16) var<storage, read_write> node_bath: array<f32>;
+@group(0) @binding(17) var<storage, read_write> previous_masses: array<u32>;
+@group(0) @binding(20) var<storage, read_write> surface: array<f32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let node = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (node >= CELLS_X * CELLS_Y) { return; }
+    var s = node_bath[node];
+    let mass = node_masses[node];
+    // At step 0 the variable is that of the beginning.
+    if (control.closing == 1) {
+        prepare_noise();
+        let change = f32(bitcast<i32>(mass - previous_masses[node]));
+        s = BATH_PERSISTENCE * s + BATH_RESPONSE * change + mesh_noise(node);
+        node_bath[node] = s;
+    }
+    previous_masses[node] = mass;
+    surface[node] = depths[node] + s;
+}

@@ -1,0 +1,25 @@
+// Moves the particles of a cell by one step, from before the closing kick or, after a report, from the report point.
+override CLOSES: u32; // 1 from before the closing kick
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (cell >= CELLS_X * CELLS_Y) { return; }
+    // Water without depth has no waves, only instability; NaN is no depth either.
+    raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > -1.0), cell);
+    let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
+    let closes = CLOSES == 1u && control.closing == 1;
+    let end = end_of(cell);
+    begin_moving(cell);
+    for (var index = first_of(cell); index < end; index++) {
+        var particle = stored(index);
+        let x = place_along(particle.position.x, CELLS_X).offset;
+        let y = place_along(particle.position.y, CELLS_Y).offset;
+        let kick = half_kick(polynomial, x, y);
+        if (closes) { particle.velocity = closed(particle.velocity, kick); }
+        store_moved(cell, index, opened(particle, kick));
+    }
+    end_moving(cell);
+    raise(failures_of_motion);
+}

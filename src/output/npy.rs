@@ -1,0 +1,56 @@
+//! Arrays in NumPy's `.npy` format, version 1.0: `numpy.load(path)` gives them back.
+
+use super::{OutputError, write_atomically};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Magic string, version, and the length of the header.
+const PREAMBLE: usize = 10;
+/// The data begin at a multiple of this, so that they can be mapped into memory.
+const ALIGNMENT: usize = 64;
+/// Numbers turned into bytes at a time.
+const CHUNK: usize = 8192;
+
+/// Writes an array file, which appears complete or not at all.
+///
+/// The values are float64, little-endian, in C order: the last index runs fastest. That is the order of
+/// [`Field::values`](crate::measure::Field::values), whose shape is its `nodes`.
+///
+/// # Errors
+/// [`OutputError::Io`] when the file cannot be written, or when `shape` does not hold as many values as there are.
+pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), OutputError> {
+    write_atomically(path, |writer| write_npy_to(writer, shape, values))
+}
+
+/// Writes the content of an array file; see [`write_npy`].
+///
+/// # Errors
+/// What the writer returns, and [`io::ErrorKind::InvalidInput`] when `shape` does not hold as many values as there are.
+pub fn write_npy_to(writer: &mut dyn Write, shape: &[usize], values: &[f64]) -> io::Result<()> {
+    let held = shape.iter().try_fold(1_usize, |product, length| product.checked_mul(*length));
+    if held != Some(values.len()) {
+        let message = format!("{} values do not fill an array of shape {shape:?}", values.len());
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    }
+    writer.write_all(&header(shape)?)?;
+    for chunk in values.chunks(CHUNK) {
+        let bytes: Vec<u8> = chunk.iter().flat_map(|value| value.to_le_bytes()).collect();
+        writer.write_all(&bytes)?;
+    }
+    Ok(())
+}
+
+fn header(shape: &[usize]) -> io::Result<Vec<u8>> {
+    // Python writes a tuple of one with a comma after it, and takes one after every tuple but the empty.
+    let lengths: String = shape.iter().map(|length| format!("{length}, ")).collect();
+    let description = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", lengths.trim_end());
+    let whole = (PREAMBLE + description.len() + 1).next_multiple_of(ALIGNMENT);
+    let length = u16::try_from(whole - PREAMBLE)
+        .map_err(|_| io::Error::new(io::ErrorKind::InvalidInput, "an array of so many dimensions has no header"))?;
+    let mut header = b"\x93NUMPY\x01\x00".to_vec();
+    header.extend_from_slice(&length.to_le_bytes());
+    header.extend_from_slice(description.as_bytes());
+    header.resize(whole - 1, b' ');
+    header.push(b'\n');
+    Ok(header)
+}
