@@ -55,7 +55,7 @@ fn smooth(mesh: [u32; 2]) -> Vec<u32> {
     let depth = |index: usize| {
         let x = TAU * f64::from(index as u32 % mesh[0]) / width;
         let y = TAU * f64::from(index as u32 / mesh[0]) / height;
-        1.0 + 0.1 * (2.0 * (y + 0.1 * (3.0 * x).sin() - 0.1 * (2.0 * x).sin()).sin()).tanh()
+        1.0 + 0.1 * (2.0 * (0.3 + y + 0.1 * (3.0 * x).sin() - 0.1 * (2.0 * x).sin()).sin()).tanh()
     };
     (0..nodes(mesh)).map(|index| (depth(index) * 2_f64.powi(24)) as u32).collect()
 }
@@ -261,10 +261,13 @@ fn rounding(mesh: [u32; 2]) -> f64 {
     2_f64.powi(-24) * (2.0 * (nodes(mesh) as f64).log2()).sqrt()
 }
 
-fn check(water: &ShallowWater, tolerance: f64) {
+/// The error is a part of the result, or of what was smoothed.
+fn check(water: &ShallowWater, of_result: f64, of_given: f64) {
     for (name, masses) in [("random", random(water.mesh, 1)), ("smooth", smooth(water.mesh))] {
-        let expected = direct(&deviations(&masses), water.mesh, |wave| exact(water, wave));
+        let given = deviations(&masses);
+        let expected = direct(&given, water.mesh, |wave| exact(water, wave));
         let error = relative(&solve(water, &masses), &expected);
+        let tolerance = of_result + of_given * (dot(&given, &given) / dot(&expected, &expected)).sqrt();
         let what = format!("{name} {:?} {:?}", water.mesh, water.smoothing);
         println!("{what}: {error:.2e}");
         assert!(error <= tolerance, "{what}: {error:e}, allowed {tolerance:e}");
@@ -281,11 +284,12 @@ fn without_smoothing_the_depths_are_the_deviations() {
 
 #[test]
 fn fourier_solves_are_those_of_double_precision() {
-    let meshes = [[2, 2], [2, 8], [8, 2], [4, 4], [8, 4], [16, 16], [32, 128], [64, 64], [64, 256], [1024, 8], [8, 1024]];
+    let meshes =
+        [[2, 2], [2, 8], [8, 2], [4, 4], [8, 4], [16, 16], [32, 128], [64, 64], [64, 256], [1024, 8], [8, 1024]];
     for mesh in meshes {
         for power in [1, 2] {
             for solver in [FIVE_POINT, SPECTRAL] {
-                check(&water(mesh, 4.0, power, solver), rounding(mesh));
+                check(&water(mesh, 4.0, power, solver), rounding(mesh), 0.0);
             }
         }
     }
@@ -295,14 +299,14 @@ fn fourier_solves_are_those_of_double_precision() {
 #[test]
 fn fourier_solves_of_large_meshes_are_those_of_double_precision() {
     for mesh in [[1024, 1024], [512, 4096], [2048, 512]] {
-        check(&water(mesh, 4.0, 1, FIVE_POINT), rounding(mesh));
+        check(&water(mesh, 4.0, 1, FIVE_POINT), rounding(mesh), 0.0);
     }
 }
 
 #[test]
 #[ignore = "takes a minute and 2 GB of memory"]
 fn the_largest_mesh_is_solved() {
-    check(&water([4096, 4096], 4.0, 1, FIVE_POINT), rounding([4096, 4096]));
+    check(&water([4096, 4096], 4.0, 1, FIVE_POINT), rounding([4096, 4096]), 0.0);
 }
 
 #[test]
@@ -315,14 +319,15 @@ fn no_bit_depends_on_the_size_of_a_workgroup() {
     }
 }
 
-/// Errors of the polynomial are those it is allowed, of two applications twice that; rounding is small against them.
+/// Errors of the polynomial are those it is allowed, of two applications twice that. A residual that is rounded to 24 bits
+/// of what is smoothed leaves its error in the mean, where 1 - Λ²∇² does not shrink it.
 #[test]
 fn iterations_solve_within_their_tolerance() {
     for mesh in [[4, 4], [5, 7], [48, 60], [64, 64], [100, 100], [2, 3]] {
         for power in [1, 2] {
             for tolerance in [1e-1, 1e-3, 1e-6] {
                 let water = water(mesh, 3.0, power, SmoothingSolver::Chebyshev { tolerance });
-                check(&water, f64::from(power) * tolerance + 5e-7);
+                check(&water, f64::from(power) * tolerance, 3e-7);
             }
         }
     }
