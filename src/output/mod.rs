@@ -20,4 +20,5 @@ pub use energies::EnergiesFile;
 pub use error::OutputError;
 pub use summary::Summary;
 pub use table::{Table, read_table, write_table};
+pub(crate) use table::{push_number, quoted};
 pub use trajectory::TrajectoryWriter;

@@ -21,6 +21,7 @@ mod canvas;
 mod chart;
 mod chart_layout;
 mod error;
+mod overlay;
 mod palette;
 mod particles;
 mod presets;
@@ -29,8 +30,9 @@ mod series_path;
 mod text;
 mod ticks;
 
-pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesStyle};
+pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
 pub use error::PlotError;
+pub use overlay::{Curve, overlay_chart, quantity_label};
 pub use particles::ParticlePicture;
 pub use presets::{EnergyTable, correlation_chart, energies_chart, radial_distribution_chart};
 pub use renderer::Plotter;
