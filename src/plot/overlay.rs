@@ -35,10 +35,12 @@ pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
 }
 
-/// Whether one of `count` curves in order gets a name: the ends do, and those at even distances between them.
+/// Whether one of `count` curves in order gets a name: every so many of them do, and the last.
 fn is_named(place: usize, count: usize) -> bool {
-    count <= MOST_NAMES
-        || (0..MOST_NAMES).any(|name| (2 * name * (count - 1) + MOST_NAMES - 1) / (2 * (MOST_NAMES - 1)) == place)
+    let every = count.saturating_sub(1).div_ceil(MOST_NAMES - 1).max(1);
+    let last = count.saturating_sub(1);
+    // One that would stand close to the last gives way to it.
+    place == last || place.is_multiple_of(every) && (every == 1 || last - place >= every.div_ceil(2))
 }
 
 /// The label of an axis for a column of the table of energies, with its unit.
@@ -79,11 +81,14 @@ mod tests {
     #[test]
     fn few_curves_are_all_named_and_many_at_even_distances() {
         assert!((0..12).all(|place| is_named(place, 12)));
-        for count in [13, 20, 99] {
+        for count in [13, 16, 20, 30, 99, 1000] {
             let named: Vec<usize> = (0..count).filter(|place| is_named(*place, count)).collect();
-            assert_eq!((named.len(), named[0], named[11]), (12, 0, count - 1), "{named:?}");
-            let steps: Vec<usize> = named.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            assert!(steps.iter().max().unwrap_or(&0) - steps.iter().min().unwrap_or(&0) <= 1, "{named:?}");
+            assert_eq!((named[0], named[named.len() - 1]), (0, count - 1));
+            assert!((7..=12).contains(&named.len()), "{named:?}");
+            let mut steps: Vec<usize> = named.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            let last = steps.pop().unwrap_or(0);
+            assert!(steps.iter().all(|step| *step == steps[0]), "{named:?}");
+            assert!(2 * last >= steps[0] && last < 2 * steps[0], "{named:?}");
         }
     }
 
@@ -95,7 +100,7 @@ mod tests {
         let chart = overlay_chart("t", "s", "total_energy", true, curves);
         let panel = &chart.panels[0];
         assert_eq!(panel.series.len(), 31);
-        assert_eq!(panel.series.iter().filter(|series| !series.name.is_empty()).count(), 13);
+        assert_eq!(panel.series.iter().filter(|series| !series.name.is_empty()).count(), 11 + 1);
         assert_eq!(panel.series[30].name, "limit");
         assert_eq!(panel.x.label, "Time (time units)");
     }
