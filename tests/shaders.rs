@@ -13,7 +13,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, mod
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
 use mesoscope::scene::Scene;
-use support::{INTEGRATORS, PREDICTED, fluid};
+use support::{INTEGRATORS, PREDICTED, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;

@@ -12,6 +12,8 @@ mod run;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod sweep;
+mod sweep_report;
 mod table;
 
 use std::io::Write as _;
@@ -48,6 +50,7 @@ enum Command {
     Run(run::Arguments),
     Check(check::Arguments),
     Resume(resume::Arguments),
+    Sweep(sweep::Arguments),
     Plot(plot::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
@@ -64,6 +67,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Resume(arguments) => resume::execute(&arguments),
+        Command::Sweep(arguments) => sweep::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Schema(arguments) => schema::execute(&arguments),

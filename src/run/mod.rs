@@ -26,8 +26,11 @@ mod pictures;
 mod schedule;
 mod simulation;
 
+pub(crate) use energies::quantities;
 pub use error::RunError;
 pub use pictures::redraw;
+pub(crate) use pictures::{save, show_settled};
+pub(crate) use simulation::adapter_for;
 pub use simulation::{Outcome, Simulation};
 
 use crate::gpu::AdapterDescription;

@@ -72,7 +72,8 @@ impl<'a> Pictures<'a> {
     pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
-        if show_settled(&mut chart) {
+        let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
+        if temperatures.is_some_and(show_settled) {
             chart.subtitle.push_str("; temperatures at the start are off the scale");
         }
         self.chart(files::ENERGIES_PLOT, &chart)
@@ -154,26 +155,28 @@ impl<'a> Pictures<'a> {
     }
 
     fn save(&self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
-        let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
-        self.directory.write(name, |writer| {
-            PngEncoder::new(writer)
-                .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
-                .map_err(io::Error::other)
-        })?;
-        Ok(())
+        save(self.directory, name, drawn)
     }
+}
+
+/// Writes a picture, which appears complete or not at all.
+pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+    let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
+    directory.write(name, |writer| {
+        PngEncoder::new(writer)
+            .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
+            .map_err(io::Error::other)
+    })?;
+    Ok(())
 }
 
 /// The part of a run after which temperatures are expected to have settled.
 const SETTLED: f64 = 0.1;
 
-/// Gives the temperatures the range that they have once the run has settled: where particles start at random places,
-/// the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns whether
-/// anything is off that scale.
-fn show_settled(chart: &mut Chart) -> bool {
-    let Some(panel) = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature")) else {
-        return false;
-    };
+/// Gives a panel of temperatures the range that they have once the run has settled: where particles start at random
+/// places, the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns
+/// whether anything is off that scale.
+pub(crate) fn show_settled(panel: &mut Panel) -> bool {
     let points = || panel.series.iter().flat_map(|series| &series.points).filter(|point| point[1].is_finite());
     let end = points().map(|point| point[0]).fold(0.0, f64::max);
     let settled = points().filter(|point| point[0] >= SETTLED * end).map(|point| point[1]);
@@ -237,11 +240,11 @@ mod tests {
             (0..100).map(|row| vec![f64::from(row), if row == 0 { 30.0 } else { 1.0 + 0.1 * f64::from(row % 2) }]);
         let mut table = EnergyTable { columns, rows: rows.collect() };
         let mut chart = energies_chart("hot", &table, 1, 1.0);
-        assert!(show_settled(&mut chart));
+        assert!(show_settled(&mut chart.panels[0]));
         assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.25 * (1.1 - 1.0), 1.1 + 0.25 * (1.1 - 1.0)]));
         table.rows[0][1] = 1.0;
         let mut chart = energies_chart("settled", &table, 1, 1.0);
-        assert!(!show_settled(&mut chart));
+        assert!(!show_settled(&mut chart.panels[0]));
         assert_eq!(chart.panels[0].y.range, None);
     }
 

@@ -198,6 +198,11 @@ pub(super) fn open_adapter(
     Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
 }
 
+/// Opens the adapter that a run of this scene would open.
+pub(crate) fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    open_adapter(scene, &Model::new(scene), choice, Options::default())
+}
+
 /// The plan of a scene on an adapter.
 pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
     let hardware = Hardware { subgroup_size: gpu.subgroup_size() };
