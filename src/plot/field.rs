@@ -269,7 +269,7 @@ impl Layout<'_> {
     fn place_with(&self, headings: &[Heading], margin: f64, ticks: AllTicks) -> Place {
         let Sizes { label, gap, .. } = self.sizes;
         let line = LINE_HEIGHT * label;
-        let text_line = |text: &str| if text.is_empty() { 0.0 } else { line + 0.8 * gap };
+        let text_line = |text: &str| if text.is_empty() { 0.0 } else { line + gap };
         let beside_ticks = self.rule() + self.tick_length() + 0.6 * gap;
         let multiplied = ticks.y.multiplier.is_some() || ticks.bar.multiplier.is_some();
         let above = headings.iter().map(|heading| LINE_HEIGHT * heading.style.size).sum::<f64>()
@@ -278,11 +278,8 @@ impl Layout<'_> {
         let below = beside_ticks + CAPITAL_HEIGHT * label + text_line(self.picture.axes[0]);
         let left = text_line(self.picture.axes[1]) + self.widest(&ticks.y) + beside_ticks;
         let between = 2.4 * gap;
-        let right = between
-            + self.bar_width()
-            + beside_ticks
-            + self.widest(&ticks.bar)
-            + text_line(&self.picture.field.label);
+        let right =
+            between + self.bar_width() + beside_ticks + self.widest(&ticks.bar) + text_line(&self.picture.field.label);
         let page = [self.canvas.width, self.canvas.height].map(|side| f64::from(side) - 2.0 * margin);
         let room = [page[0] - left - right, page[1] - above - below].map(|side| side.max(4.0));
 
@@ -437,14 +434,14 @@ impl Layout<'_> {
         }
         let name = &self.picture.field.label;
         let labels_end = foot + self.tick_length() + 0.6 * gap + self.widest(&place.ticks.bar);
-        let end = labels_end + if name.is_empty() { 0.0 } else { LINE_HEIGHT * label + 0.8 * gap };
+        let end = labels_end + if name.is_empty() { 0.0 } else { LINE_HEIGHT * label + gap };
         if let Some(multiplier) = &place.ticks.bar.multiplier {
             let left = bar.left.min(end - self.width(multiplier));
             self.canvas.text(multiplier, [left, bar.top - self.arrowhead() - 0.8 * gap], Anchor::Start, style);
         }
         let room = bar.height() + 2.0 * self.arrowhead();
         let text = self.canvas.typesetter.shorten(name, style.weight, label, room);
-        let baseline = labels_end + 0.8 * gap + CAPITAL_HEIGHT * label;
+        let baseline = labels_end + gap + 0.95 * label;
         self.canvas.text_upwards(&text, [baseline, bar.centre()[1]], Anchor::Middle, style);
     }
 
