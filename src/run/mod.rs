@@ -19,11 +19,13 @@
 //! ```
 
 mod analyses;
+mod circulations;
 mod energies;
 mod error;
 mod pace;
 mod pictures;
 mod schedule;
+mod shown_field;
 mod simulation;
 
 pub(crate) use energies::quantities;

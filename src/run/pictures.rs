@@ -1,15 +1,17 @@
 //! The pictures of a run, drawn from its tables and states.
 
 use super::RunError;
-use super::simulation::{open_adapter, plan_for};
+use super::shown_field::{ShownField, closed_loops};
+use super::simulation::{mesh_depth, open_adapter, plan_for};
 use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::model::Model;
-use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table};
+use crate::measure::MeshFlow;
+use crate::model::{Model, ShallowWater};
+use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
-    Axis, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Series, correlation_chart, energies_chart,
-    radial_distribution_chart,
+    Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
+    circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
@@ -42,15 +44,23 @@ pub fn redraw(
             written.push(plot);
         }
     }
-    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default());
-    let state = Engine::new(&gpu, plan, &checkpoint.state)?.reported()?;
-    pictures.snapshot(files::SNAPSHOT, &state, &model)?;
-    written.push(files::SNAPSHOT);
+    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
+    let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
+    let state = engine.reported()?;
+    if let Some(water) = &model.shallow_water {
+        let depth = mesh_depth(&mut engine, water)?;
+        let names = pictures.fields(None, &state, &depth, &model, water)?;
+        written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
+    } else {
+        pictures.snapshot(files::SNAPSHOT, &state, &model)?;
+        written.push(files::SNAPSHOT);
+    }
     Ok(written)
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 3] = [
+const ANALYSES: [(&str, &str); 4] = [
+    (files::CIRCULATION, files::CIRCULATION_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
     (files::VISCOSITY, files::VISCOSITY_PLOT),
@@ -70,6 +80,15 @@ impl<'a> Pictures<'a> {
     }
 
     pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
+        if let Some(water) = &model.shallow_water {
+            let set = water.bath.is_some().then_some(model.temperature);
+            let mut chart = shallow_water_chart(&self.scene.title, table, set);
+            chart.subtitle = format!(
+                "{} particles, mesh {} × {}, time step {}",
+                water.carriers, water.mesh[0], water.mesh[1], model.time_step
+            );
+            return self.chart(files::ENERGIES_PLOT, &chart);
+        }
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
         let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
@@ -106,6 +125,10 @@ impl<'a> Pictures<'a> {
                 let [displacement, velocity] = ["mean_squared_displacement", "velocity_autocorrelation"].map(column);
                 (files::DIFFUSION_PLOT, correlation_chart(title, &column("time"), &displacement, &velocity))
             }
+            files::CIRCULATION => {
+                let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
+                (files::CIRCULATION_PLOT, circulation_chart(title, &table))
+            }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
         self.chart(plot, &chart)?;
@@ -138,6 +161,45 @@ impl<'a> Pictures<'a> {
         let theme = self.scene.output.plot.theme;
         let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, style, theme));
         self.save(name, drawn)
+    }
+
+    /// Draws the fields of shallow water that the scene asks for, and writes them as arrays. Returns the names.
+    pub(super) fn fields(
+        &mut self,
+        number: Option<u64>,
+        state: &State,
+        depth: &[f64],
+        model: &Model,
+        water: &ShallowWater,
+    ) -> Result<Vec<String>, RunError> {
+        let flow = MeshFlow::new(model, water, state);
+        let loops: Vec<Vec<[f64; 2]>> = closed_loops(state, model, water);
+        let curves: Vec<PeriodicCurve<'_>> =
+            loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
+        let mut written = Vec::new();
+        for quantity in self.scene.output.fields.clone().unwrap_or_default().quantities {
+            let shown = ShownField::new(quantity, &flow, depth);
+            let field = shown.field(model, water);
+            let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+            let picture = FieldPicture {
+                title: &self.scene.title,
+                subtitle: &subtitle,
+                map: shown.map,
+                curves: &curves,
+                ..FieldPicture::new(&field)
+            };
+            let name = files::field(shown.stem, number, "png");
+            let drawn = {
+                let style = &self.scene.output.plot;
+                self.plotter().and_then(|plotter| plotter.draw_field(&picture, style))
+            };
+            self.save(&name, drawn)?;
+            written.push(name);
+            let name = files::field(shown.stem, number, "npy");
+            write_npy(&self.directory.file(&name), &field.nodes, &field.values)?;
+            written.push(name);
+        }
+        Ok(written)
     }
 
     fn chart(&mut self, name: &str, chart: &Chart) -> Result<(), RunError> {
