@@ -80,10 +80,7 @@ impl Place {
     }
 
     /// The arguments of a sweep into the directory of this name.
-    fn sweep<'a>(&self, out: &str, further: &[&'a str]) -> Vec<String>
-    where
-        Self: 'a,
-    {
+    fn sweep(&self, out: &str, further: &[&str]) -> Vec<String> {
         let own = ["sweep".to_owned(), self.argument("scene.json"), "--out".to_owned(), self.argument(out)];
         own.into_iter().chain(further.iter().map(|argument| (*argument).to_owned())).collect()
     }
@@ -192,7 +189,7 @@ fn table_summary_and_plots() {
     let run = Summary::load(&out.join(names[1]).join(files::SUMMARY)).unwrap();
     let cells: Vec<&str> = lines[2].split("\",").nth(1).unwrap().split(',').collect();
     let cell = |name: &str| {
-        let column = header.iter().rposition(|column| *column == name).unwrap() - 1;
+        let column = header.iter().position(|column| *column == name).unwrap() - 1;
         cells[column].parse::<f64>().unwrap()
     };
     for name in ["kinetic_energy", "total_energy", "pressure", "configurational_temperature"] {
@@ -204,8 +201,11 @@ fn table_summary_and_plots() {
         run.results["radial_distribution"]["peak_height"].as_f64().unwrap()
     );
 
+    // A key that is varied keeps its name, and an observable of that name gives way.
+    assert_eq!(cell("temperature_mean"), run.means["temperature"]["mean"].as_f64().unwrap());
+
     // A plot for every quantity that changes, of the size that the scene asks for.
-    let plots: Vec<String> = listing(&out).into_iter().filter(|name| name.ends_with(".png")).collect();
+    let plots: Vec<String> = listing(&out).into_iter().filter(|name| name.starts_with("sweep-")).collect();
     let expected = ["configurational_temperature", "kinetic_energy", "potential_energy", "pressure"];
     let expected = expected.into_iter().chain(["pressure_conservative", "temperature", "total_energy"]);
     assert_eq!(plots, expected.map(|quantity| format!("sweep-{quantity}.png")).collect::<Vec<_>>());
@@ -319,7 +319,7 @@ fn an_interrupted_sweep_can_be_finished() {
     assert_eq!(states(&place.summary("parts")), [VariantState::Finished; 3]);
     let whole = place.path("whole");
     assert_eq!(listing(&whole), listing(&parts));
-    for name in listing(&whole).iter().filter(|name| name.ends_with(".png")) {
+    for name in listing(&whole).iter().filter(|name| name.starts_with("sweep-")) {
         assert!(bytes(&whole.join(name)) == bytes(&parts.join(name)), "{name} differs");
     }
     for seed in [1, 2, 3] {

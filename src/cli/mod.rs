@@ -35,6 +35,7 @@ pub use scene_arguments::SceneArguments;
 Examples:
   mesoscope run dpd-fluid                     simulate the standard DPD fluid on the best adapter
   mesoscope run my-scene.json --out results   simulate a scene of your own
+  mesoscope sweep dpd-fluid --vary seed=1,2   compare variants of a scene
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 

@@ -8,7 +8,11 @@ const LARGE: u64 = 16_000;
 /// How many of `variants` to run at once on an adapter, where the user does not say; `largest` is the number of
 /// particles of the largest of them.
 ///
-/// PLACEHOLDER
+/// On lavapipe with two cores, two variants of 3000 particles at once were done 1.2 times as fast as one after the other
+/// (median of ten rounds, 1.0 to 1.4): one prepares, measures and draws while the other computes. With 24 000 particles
+/// it was 1.1 (nine rounds, 0.8 to 1.9; 1.0 to 1.1 in the quietest three), which is not worth twice the memory, and three at
+/// once did not differ clearly from two. The machine had other work meanwhile, so these are rough. No GPU has been
+/// measured: there, variants run one after the other unless the user says otherwise.
 #[must_use]
 pub fn default_jobs(adapter: &AdapterDescription, largest: u64, variants: usize) -> usize {
     let wanted = if adapter.kind == "software" && largest < LARGE { 2 } else { 1 };

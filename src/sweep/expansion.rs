@@ -95,10 +95,9 @@ impl Sweep {
         if !mistakes.is_empty() {
             return Err(SweepError::Arguments { mistakes });
         }
-        let base = match serde_json::from_str(text.trim_start_matches('\u{feff}')) {
-            Ok(base) => base,
+        let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
             // The reader of scenes says what is wrong in better words.
-            Err(_) => return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene)),
+            return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene));
         };
         let variants = expand(&name, &text, set, &read, &beside)?;
         Ok(Self { scene: name, base, set: set.to_vec(), vary: read, also: beside, variants })
@@ -212,7 +211,7 @@ mod tests {
 
     fn sweep(vary: &[&str], also: &[&str]) -> Result<Sweep, SweepError> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
-        Sweep::load("dpd-fluid", &["time.steps=100".to_owned()], &owned(vary), &owned(also))
+        Sweep::load("dpd-fluid", &owned(&["time.equilibration=0", "time.steps=100"]), &owned(vary), &owned(also))
     }
 
     fn names(sweep: &Sweep) -> Vec<&str> {

@@ -103,7 +103,8 @@ pub(super) fn draw(
     }
     let inks = inks(sweep);
     let place = RunDirectory::open(directory)?;
-    let mut plotter = None;
+    let plotter = Plotter::new(gpu.device(), gpu.queue());
+    let plotter = plotter.map_err(|source| run::RunError::Plot { name: files::plot("*"), source })?;
     let mut written = Vec::new();
     for quantity in quantities {
         let mut curves: Vec<Curve> = Vec::new();
@@ -121,14 +122,6 @@ pub(super) fn draw(
         if hot && chart.panels.iter_mut().any(run::show_settled) {
             chart.subtitle.push_str("; the start is off the scale");
         }
-        let plotter = match &plotter {
-            Some(plotter) => plotter,
-            None => {
-                let made = Plotter::new(gpu.device(), gpu.queue());
-                let made = made.map_err(|source| run::RunError::Plot { name: files::plot(quantity), source })?;
-                &*plotter.insert(made)
-            }
-        };
         let name = files::plot(quantity);
         run::save(&place, &name, plotter.draw_chart(&chart, style))?;
         written.push(name);
@@ -145,8 +138,8 @@ fn subtitle(sweep: &Sweep, summary: &SweepSummary) -> String {
             summary.variants.iter().filter(|variant| variant.state == state).map(|v| v.label.as_str()).collect();
         match names.as_slice() {
             [] => {}
-            [only] => text.push_str(&format!("; {words}: {only}")),
-            several => text.push_str(&format!("; {} variants {words}", several.len())),
+            [only] => text = format!("{text}; {words}: {only}"),
+            several => text = format!("{text}; {} variants {words}", several.len()),
         }
     }
     text

@@ -93,7 +93,7 @@ impl SweepRun {
     /// sweep there is replaced.
     #[must_use]
     pub fn start(sweep: Sweep, directory: impl Into<PathBuf>, look: Look, force: bool) -> Self {
-        let summary = SweepSummary::new(&sweep, &look);
+        let summary = SweepSummary::new(&sweep, look);
         Self { sweep, summary, directory: directory.into(), beginning: Beginning::New { force } }
     }
 
@@ -107,7 +107,7 @@ impl SweepRun {
         let mut summary = SweepSummary::load(&directory)?;
         let sweep = summary.sweep()?;
         let look = look.unwrap_or_else(|| summary.plots.clone());
-        summary = SweepSummary { adapter: summary.adapter.take(), ..SweepSummary::new(&sweep, &look) };
+        summary = SweepSummary { adapter: summary.adapter.take(), ..SweepSummary::new(&sweep, look) };
         for (variant, entry) in sweep.variants().iter().zip(&mut summary.variants) {
             if let Some(run) = finished(&directory.join(&variant.name), variant.scene.time.steps) {
                 entry.finish(&run);

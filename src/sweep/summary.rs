@@ -90,7 +90,7 @@ impl VariantState {
 
 impl SweepSummary {
     /// The summary of a sweep before anything has run.
-    pub(super) fn new(sweep: &Sweep, look: &Look) -> Self {
+    pub(super) fn new(sweep: &Sweep, look: Look) -> Self {
         let waiting = |variant: &super::Variant| VariantSummary {
             name: variant.name.clone(),
             label: variant.label.clone(),
@@ -112,7 +112,7 @@ impl SweepSummary {
             vary: sweep.vary.clone(),
             also: sweep.also.clone(),
             set: sweep.set.clone(),
-            plots: look.clone(),
+            plots: look,
             variants: sweep.variants().iter().map(waiting).collect(),
             base: sweep.base.clone(),
         }
@@ -160,8 +160,8 @@ impl VariantSummary {
         self.steps = run.steps;
         self.wall_seconds = run.wall_seconds;
         self.particle_steps_per_second = run.particle_steps_per_second;
-        self.means = run.means.clone();
-        self.results = run.results.clone();
+        self.means.clone_from(&run.means);
+        self.results.clone_from(&run.results);
         self.warnings.clone_from(&run.warnings);
     }
 

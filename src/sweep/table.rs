@@ -36,7 +36,9 @@ fn text(summary: &SweepSummary, keys: &[&str]) -> String {
     let mut header: Vec<String> = ["variant"].into_iter().chain(keys.iter().copied()).map(str::to_owned).collect();
     header.extend(["state", "steps", "particles", "wall_seconds", "particle_steps_per_second"].map(str::to_owned));
     for (name, has_error) in &columns {
-        header.push((*name).to_owned());
+        // Set and measured may have the same name: `temperature`.
+        let mean = if header.iter().any(|known| known == name) { "_mean" } else { "" };
+        header.push(format!("{name}{mean}"));
         if *has_error {
             header.push(format!("{name}_error"));
         }
