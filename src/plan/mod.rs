@@ -4,7 +4,7 @@ mod grid;
 mod layout;
 mod pair;
 mod shallow_water;
-mod smoothing;
+pub mod smoothing;
 
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Misfit};

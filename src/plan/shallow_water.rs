@@ -248,12 +248,11 @@ impl Builder<'_> {
         let gather = self.kernel("gather_nodes", &[begin, &["kernels/gather_nodes"]].concat(), cell_groups);
         self.plan.before_report.extend([deposit, gather]);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
-        let (kernels, mut buffers) = smoothing(self.water, lengths);
-        self.plan.buffers.append(&mut buffers);
-        for kernel in kernels {
-            let kernel = self.add(kernel);
-            self.plan.before_report.push(kernel);
-        }
+        let smoothing = smoothing(self.water, lengths, self.options);
+        self.plan.buffers.extend(smoothing.buffers);
+        let first = self.plan.kernels.len();
+        self.plan.kernels.extend(smoothing.kernels);
+        self.plan.before_report.extend(smoothing.order.iter().map(|kernel| first + kernel));
         let Some(bath) = &self.water.bath else { return };
         let mut modules = Vec::new();
         if bath.noise(self.model.temperature) > 0.0 {

@@ -1,18 +1,393 @@
 //! Kernels of the smoothing (1 - Λ²∇²)^-power on the mesh of shallow water.
+//!
+//! Either solver is a fixed, linear, symmetric and positive operator, so that particles driven by it keep their energy.
 
-use super::{Buffer, Kernel};
+use std::f64::consts::TAU;
+
+use super::{Buffer, Contents, Kernel, Options};
 use crate::model::ShallowWater;
+use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
-/// The kernels, in order, and buffers that turn the masses of the nodes (`node_masses`, unsigned integers) into the
-/// smoothed deviation of the depth from its mean of 1 (`depths`, real numbers). Both these buffers belong to the caller.
-pub(super) fn smoothing(water: &ShallowWater, lengths: [f64; 2]) -> (Vec<Kernel>, Vec<Buffer>) {
-    let _ = lengths;
-    let deviation = Kernel {
-        name: "deviation",
-        modules: vec!["common/dispatch", "kernels/deviation"],
-        workgroups: water.nodes().div_ceil(64) as u32,
-        constants: vec![("NODES", water.nodes() as f64), ("MASS_UNIT", water.mass_unit)],
-        renamed: Vec::new(),
+/// Rows on which an invocation of the iteration works, as the shader has it.
+const STRIP: u32 = 4;
+/// The largest radix of a pass, as a power of two.
+const LARGEST_RADIX: u32 = 4;
+
+/// The part of a plan that smooths the depth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothingPlan {
+    /// The kernels.
+    pub kernels: Vec<Kernel>,
+    /// The order in which they run, as indices into `kernels`; a kernel of an iteration runs many times.
+    pub order: Vec<usize>,
+    /// Scratch buffers and tables.
+    pub buffers: Vec<Buffer>,
+}
+
+/// The kernels and buffers that turn the masses of the nodes (`node_masses`, unsigned integers in units of the model)
+/// into the smoothed deviation of the depth from its mean of 1 (`depths`, real numbers). Both these buffers belong to the
+/// caller. `lengths` are the edges of the box. A plan whose workgroups are not of the default size has to have the
+/// constant `WORKGROUP`.
+///
+/// With [`SmoothingSolver::Fft`] and a smoothing length the edges of the mesh have to be powers of two, at least 2.
+#[must_use]
+pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> SmoothingPlan {
+    let workgroup = options.workgroup();
+    let constants = [("MEAN_MASS", water.mean_mass() as f64), ("MASS_UNIT", water.mass_unit)];
+    if water.smoothing.length == 0.0 {
+        let kernel = Kernel {
+            name: "depths",
+            modules: vec!["common/dispatch", "common/deviation", "kernels/deviation"],
+            workgroups: workgroups(water.nodes(), workgroup),
+            constants: [constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat(),
+            renamed: Vec::new(),
+        };
+        return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
+    }
+    match water.smoothing.solver {
+        SmoothingSolver::Fft { .. } => Fourier { water, lengths, workgroup, constants }.plan(),
+        SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, workgroup, &constants),
+    }
+}
+
+/// The factor by which the smoothing multiplies the mode of the mesh with these wave numbers, which count waves in the
+/// box: what the kernels compute, but for rounding.
+#[must_use]
+pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 {
+    let smoothing = &water.smoothing;
+    let once = match smoothing.solver {
+        _ if smoothing.length == 0.0 => 1.0,
+        SmoothingSolver::Fft { symbol } => 1.0 / operator(water, lengths, symbol, wave),
+        SmoothingSolver::Chebyshev { tolerance } => {
+            let five_point = LaplacianSymbol::FivePoint;
+            Polynomial::new(water, lengths, tolerance).inverse(operator(water, lengths, five_point, wave))
+        }
     };
-    (vec![deviation], Vec::new())
+    once.powi(smoothing.power as i32)
+}
+
+/// Number of iterations of [`SmoothingSolver::Chebyshev`], in which (1 - Λ²∇²)⁻¹ is a polynomial of that degree less one.
+#[must_use]
+pub fn iterations(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> u32 {
+    Polynomial::new(water, lengths, tolerance).weights.len() as u32
+}
+
+fn workgroups(invocations: u64, workgroup: u64) -> u32 {
+    invocations.div_ceil(workgroup) as u32
+}
+
+/// Λ²/Δ² of each axis.
+fn stiffness(water: &ShallowWater, lengths: [f64; 2]) -> [f64; 2] {
+    std::array::from_fn(|axis| (water.smoothing.length * f64::from(water.mesh[axis]) / lengths[axis]).powi(2))
+}
+
+/// The eigenvalue of 1 - Λ²∇² of a mode of the mesh.
+fn operator(water: &ShallowWater, lengths: [f64; 2], symbol: LaplacianSymbol, wave: [u32; 2]) -> f64 {
+    let stiffness = stiffness(water, lengths);
+    let laplacian = |axis: usize| {
+        let nodes = water.mesh[axis];
+        let wave = wave[axis] % nodes;
+        let angle = TAU * f64::from(wave.min(nodes - wave)) / f64::from(nodes);
+        let frequency = match symbol {
+            LaplacianSymbol::FivePoint => 2.0 * (0.5 * angle).sin(),
+            LaplacianSymbol::Spectral => angle,
+        };
+        stiffness[axis] * frequency * frequency
+    };
+    1.0 + laplacian(0) + laplacian(1)
+}
+
+fn table(name: &'static str, purpose: &'static str, values: impl Iterator<Item = f32>) -> Buffer {
+    let bytes: Vec<u8> = values.flat_map(f32::to_ne_bytes).collect();
+    Buffer { name, purpose, bytes: bytes.len() as u64, contents: Contents::Bytes(bytes) }
+}
+
+fn scratch(name: &'static str, purpose: &'static str, bytes: u64) -> Buffer {
+    Buffer { name, purpose, bytes, contents: Contents::Zeros }
+}
+
+/// The solver by Fourier transforms.
+///
+/// Two rows half a mesh apart go through the transform along x as the real and imaginary part of one. The first pass along
+/// y, which needs both, separates them, and the last pass back joins them. Of the columns only those up to the middle are
+/// kept: the others are their conjugates.
+struct Fourier<'a> {
+    water: &'a ShallowWater,
+    lengths: [f64; 2],
+    workgroup: u64,
+    constants: [(&'static str, f64); 2],
+}
+
+/// An axis along which lines are transformed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Axis {
+    Rows,
+    Columns,
+}
+
+/// One pass over all lines of an axis.
+#[derive(Clone, Copy)]
+struct Pass {
+    name: &'static str,
+    axis: Axis,
+    entry: &'static str,
+    load: &'static str,
+    store: &'static str,
+    radix: u32,
+    /// Length of the transforms that are finished before.
+    finished: u32,
+    /// Where the pass's results belong: the length of the transforms finished before, or 1 where the transform turns back.
+    span: u32,
+}
+
+impl Fourier<'_> {
+    fn plan(&self) -> SmoothingPlan {
+        let passes = self.passes();
+        let kernels: Vec<Kernel> =
+            passes.iter().enumerate().map(|(number, &pass)| self.kernel(pass, number)).collect();
+        let twisted = passes.iter().any(|pass| pass.finished > 1);
+        SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: self.buffers(twisted) }
+    }
+
+    /// Columns that are transformed.
+    fn columns(&self) -> u32 {
+        self.water.mesh[0] / 2 + 1
+    }
+
+    /// Length of the longest line.
+    fn roots(&self) -> u32 {
+        self.water.mesh[0].max(self.water.mesh[1])
+    }
+
+    fn passes(&self) -> Vec<Pass> {
+        let [rows, columns] = self.water.mesh.map(radices);
+        let (waves, waves_next) = ("common/fourier_load_waves", "common/fourier_store_waves");
+        let mut passes = Vec::new();
+        let mut line = |name, axis, radices: &[u32], mut finished: u32| {
+            for &radix in radices {
+                let entry = "kernels/fourier_pass";
+                passes.push(Pass { name, axis, entry, load: waves, store: waves_next, radix, finished, span: finished });
+                finished *= radix;
+            }
+        };
+        line("smooth rows", Axis::Rows, &rows, 1);
+        // The last pass forth along columns is the first one back.
+        line("smooth columns", Axis::Columns, &columns, 1);
+        let (turn, others) = columns.split_last().map_or((2, &[][..]), |(last, others)| (*last, others));
+        line("smooth columns", Axis::Columns, others, turn);
+        line("smooth rows", Axis::Rows, &rows, 1);
+        let turning = &mut passes[rows.len() + columns.len() - 1];
+        (turning.entry, turning.span) = ("kernels/fourier_turn", 1);
+        passes[0].load = "common/fourier_load_masses";
+        passes[rows.len()].load = "common/fourier_load_rows";
+        let last = passes.len() - 1;
+        passes[last - rows.len()].store = "common/fourier_store_rows";
+        passes[last].store = "common/fourier_store_depths";
+        passes
+    }
+
+    fn kernel(&self, pass: Pass, number: usize) -> Kernel {
+        let [width, height] = self.water.mesh;
+        let (length, lines, lines_module) = match pass.axis {
+            Axis::Rows => (width, height / 2, "common/fourier_rows"),
+            Axis::Columns => (height, self.columns(), "common/fourier_columns"),
+        };
+        let radix = match pass.radix {
+            2 => "common/fourier_radix2",
+            4 => "common/fourier_radix4",
+            8 => "common/fourier_radix8",
+            _ => "common/fourier_radix16",
+        };
+        let twist = if pass.finished == 1 { "common/fourier_twist_off" } else { "common/fourier_twist_on" };
+        let mut modules = vec!["common/dispatch", "common/fourier", "common/fourier_short", radix, twist];
+        modules.extend([lines_module, pass.load, pass.store, pass.entry]);
+        let mut constants = vec![
+            ("LENGTH", f64::from(length)),
+            ("LINES", f64::from(lines)),
+            ("SPAN", f64::from(pass.span)),
+            ("ROOTS", f64::from(self.roots())),
+            ("ROW_LENGTH", f64::from(width)),
+        ];
+        if number == 0 {
+            modules.insert(1, "common/deviation");
+            constants.extend(self.constants);
+        }
+        let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
+        Kernel {
+            name: pass.name,
+            modules,
+            workgroups: workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup),
+            constants,
+            renamed: if number.is_multiple_of(2) { swapped } else { Vec::new() },
+        }
+    }
+
+    fn buffers(&self, twisted: bool) -> Vec<Buffer> {
+        let [width, height] = self.water.mesh;
+        let bytes = 8 * u64::from(height) * u64::from(self.columns());
+        // Rows that went through as one come apart twice as large.
+        let scale = 0.5 / self.water.nodes() as f64;
+        let waves = (0..=height / 2).flat_map(|l| (0..=width / 2).map(move |k| [k, l]));
+        let symbols = waves.map(|wave| (scale * transfer(self.water, self.lengths, wave)) as f32);
+        let mut buffers = vec![
+            scratch("waves", "depth in Fourier space", bytes),
+            scratch("waves_next", "the same after the next pass", bytes),
+            table("symbols", "smoothing of each wave", symbols),
+        ];
+        if twisted {
+            let roots = self.roots();
+            buffers.push(table("roots", "roots of unity", (0..roots).flat_map(|index| root(index, roots))));
+        }
+        buffers
+    }
+}
+
+/// exp(-2πi index/count).
+fn root(index: u32, count: u32) -> [f32; 2] {
+    let angle = TAU * f64::from(index) / f64::from(count);
+    [angle.cos() as f32, -angle.sin() as f32]
+}
+
+/// The radices of the passes along a line, whose length is a power of two: as few as possible, and as equal.
+fn radices(length: u32) -> Vec<u32> {
+    let bits = length.trailing_zeros();
+    let passes = bits.div_ceil(LARGEST_RADIX);
+    (0..passes).map(|pass| 1 << ((bits + passes - 1 - pass) / passes)).collect()
+}
+
+/// Chebyshev's polynomial for 1 - Λ²∇² with the five-point Laplacian.
+///
+/// From x = 0, n iterations leave of every mode the part T_n(μ)/T_n(μ₀), with μ in [-1, 1] across the spectrum and
+/// μ₀ > 1 where the operator would vanish. That is less than one, so the polynomial is positive for any n.
+struct Polynomial {
+    /// Middle of the spectrum.
+    centre: f64,
+    /// Half its width.
+    radius: f64,
+    /// Weights ω of the iterations.
+    weights: Vec<f64>,
+}
+
+impl Polynomial {
+    fn new(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> Self {
+        let [x, y] = stiffness(water, lengths);
+        let radius = (2.0 * (x + y)).max(f64::MIN_POSITIVE);
+        let centre = 1.0 + radius;
+        let iterations = ((1.0 / tolerance).acosh() / (centre / radius).acosh()).ceil().max(1.0) as usize;
+        Self { centre, radius, weights: weights(centre, radius, iterations) }
+    }
+
+    /// The polynomial of an eigenvalue of the operator: nearly its inverse.
+    fn inverse(&self, eigenvalue: f64) -> f64 {
+        let degree = self.weights.len() as f64;
+        let at_zero = degree * (self.centre / self.radius).acosh();
+        let place = ((self.centre - eigenvalue) / self.radius).clamp(-1.0, 1.0);
+        (1.0 - (degree * place.acos()).cos() / at_zero.cosh()) / eigenvalue
+    }
+}
+
+/// Weights of the iterations for a spectrum with this centre and half width.
+fn weights(centre: f64, radius: f64, iterations: usize) -> Vec<f64> {
+    let ratio = (radius / centre).powi(2);
+    let next = |(number, weight): &(usize, f64)| {
+        let share = if *number == 0 { 0.5 } else { 0.25 };
+        Some((number + 1, 1.0 / (1.0 - share * ratio * weight)))
+    };
+    std::iter::successors(Some((0, 1.0)), next).take(iterations).map(|(_, weight)| weight).collect()
+}
+
+fn chebyshev(
+    water: &ShallowWater,
+    lengths: [f64; 2],
+    tolerance: f64,
+    workgroup: u64,
+    constants: &[(&'static str, f64)],
+) -> SmoothingPlan {
+    let polynomial = Polynomial::new(water, lengths, tolerance);
+    let iterations = polynomial.weights.len();
+    let [width, height] = water.mesh;
+    let [stiffness_x, stiffness_y] = stiffness(water, lengths);
+    let constants = [
+        constants,
+        &[
+            ("NODES_X", f64::from(width)),
+            ("NODES_Y", f64::from(height)),
+            ("STIFFNESS_X", stiffness_x),
+            ("STIFFNESS_Y", stiffness_y),
+            ("INVERSE_CENTRE", 1.0 / polynomial.centre),
+        ],
+    ]
+    .concat();
+    let strips = workgroups(u64::from(width) * u64::from(height.div_ceil(STRIP)), workgroup);
+    let mut plan = SmoothingPlan { kernels: Vec::new(), order: Vec::new(), buffers: Vec::new() };
+    for application in 1..=water.smoothing.power {
+        let given = if application == 1 {
+            &["common/deviation", "common/chebyshev_of_masses"][..]
+        } else {
+            &["common/chebyshev_of_smoothed"]
+        };
+        let result = if application == water.smoothing.power { "depths" } else { "once_smoothed" };
+        // Iterations go to and fro between two buffers, and the last one ends in the right one.
+        let (odd, even) = if iterations % 2 == 1 { (result, "waves") } else { ("waves", result) };
+        let mut kernel = |name, entry, workgroups, parity: u32, [from, to]: [&'static str; 2]| {
+            let mut modules = vec!["common/dispatch", "common/chebyshev"];
+            modules.extend(given);
+            modules.push(entry);
+            plan.kernels.push(Kernel {
+                name,
+                modules,
+                workgroups,
+                constants: [constants.as_slice(), &[("PARITY", f64::from(parity))]].concat(),
+                renamed: vec![("waves", from), ("waves_next", to)],
+            });
+            plan.kernels.len() - 1
+        };
+        let all = workgroups(water.nodes(), workgroup);
+        plan.order.push(kernel("begin smoothing", "kernels/chebyshev_begin", all, 0, [even, odd]));
+        let pair: Vec<usize> = [[odd, even], [even, odd]]
+            .into_iter()
+            .take(iterations - 1)
+            .zip(0..)
+            .map(|(buffers, parity)| kernel("smooth", "kernels/chebyshev_iterate", strips, parity, buffers))
+            .collect();
+        plan.order.extend(pair.iter().cycle().take(iterations - 1));
+    }
+    let bytes = 4 * water.nodes();
+    plan.buffers.push(scratch("waves", "depth between iterations", bytes));
+    if water.smoothing.power > 1 {
+        plan.buffers.push(scratch("once_smoothed", "depth smoothed once", bytes));
+    }
+    // After two counters.
+    let counters = [0, 0].map(f32::from_bits).into_iter();
+    let weights = polynomial.weights.iter().map(|weight| *weight as f32);
+    plan.buffers.push(table("iteration", "weights of the iterations", counters.chain(weights)));
+    plan
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radices_make_the_length_in_few_passes() {
+        for bits in 1..=16 {
+            let radices = radices(1 << bits);
+            assert_eq!(radices.iter().product::<u32>(), 1 << bits);
+            assert!(radices.iter().all(|radix| (2..=16).contains(radix)));
+            assert_eq!(radices.len(), bits.div_ceil(4) as usize);
+        }
+    }
+
+    #[test]
+    fn the_polynomial_is_that_of_its_recurrence() {
+        let polynomial = Polynomial { centre: 65.0, radius: 64.0, weights: weights(65.0, 64.0, 17) };
+        for eigenvalue in [1.0, 1.3, 7.0, 65.0, 100.0, 129.0] {
+            let (mut previous, mut x) = (0.0, 1.0 / polynomial.centre);
+            for weight in &polynomial.weights[1..] {
+                let next = previous + weight * ((1.0 - eigenvalue * x) / polynomial.centre + x - previous);
+                (previous, x) = (x, next);
+            }
+            assert!((polynomial.inverse(eigenvalue) / x - 1.0).abs() < 1e-12, "{eigenvalue}");
+        }
+    }
 }

@@ -1,0 +1,2 @@
+// What is smoothed first.
+fn given(node: u32) -> f32 { return deviation(node); }

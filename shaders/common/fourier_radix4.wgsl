@@ -1,0 +1,36 @@
+// Butterflies of four legs.
+const RADIX = 4u;
+alias Legs = array<vec2<f32>, 4>;
+
+fn transformed(v: Legs) -> Legs { return fourier4(v[0], v[1], v[2], v[3]); }
+
+fn gathered(site: Site) -> Legs {
+    let a = load_pair(site, 0u);
+    let b = load_pair(site, 1u);
+    return Legs(a.xy, b.xy, a.zw, b.zw);
+}
+fn scattered(site: Site, v: Legs) {
+    store_pair(site, 0u, vec4<f32>(v[0], v[2]));
+    store_pair(site, 1u, vec4<f32>(v[1], v[3]));
+}
+
+// Leg j by the j-th power of a root of unity.
+fn turned(v: Legs, step: u32) -> Legs {
+    let w1 = roots[step];
+    let w2 = roots[2u * step];
+    let w3 = times(w2, w1);
+    return Legs(
+        v[0],
+        times(v[1], w1),
+        times(v[2], w2),
+        times(v[3], w3),
+    );
+}
+fn weighed(v: Legs, site: Site) -> Legs {
+    return Legs(
+        v[0].yx * symbol(site, 0u),
+        v[1].yx * symbol(site, 1u),
+        v[2].yx * symbol(site, 2u),
+        v[3].yx * symbol(site, 3u),
+    );
+}
