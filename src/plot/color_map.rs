@@ -165,8 +165,7 @@ mod tests {
 
     #[test]
     fn the_arms_of_the_diverging_scale_darken_evenly_and_alike() {
-        let colours: Vec<[f64; 3]> =
-            (0..=32).map(|step| lab(diverging_colour(f64::from(step) / 32.0))).collect();
+        let colours: Vec<[f64; 3]> = (0..=32).map(|step| lab(diverging_colour(f64::from(step) / 32.0))).collect();
         let mean = (colours[16][0] - colours[0][0]) / 16.0;
         assert!(mean > 3.5, "there is contrast: {mean}");
         for step in 1..=16 {

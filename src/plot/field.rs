@@ -278,11 +278,8 @@ impl Layout<'_> {
         let below = beside_ticks + CAPITAL_HEIGHT * label + text_line(self.picture.axes[0]);
         let left = text_line(self.picture.axes[1]) + self.widest(&ticks.y) + beside_ticks;
         let between = 2.4 * gap;
-        let right = between
-            + self.bar_width()
-            + beside_ticks
-            + self.widest(&ticks.bar)
-            + text_line(&self.picture.field.label);
+        let right =
+            between + self.bar_width() + beside_ticks + self.widest(&ticks.bar) + text_line(&self.picture.field.label);
         let page = [self.canvas.width, self.canvas.height].map(|side| f64::from(side) - 2.0 * margin);
         let room = [page[0] - left - right, page[1] - above - below].map(|side| side.max(4.0));
 

@@ -457,7 +457,10 @@ impl Plotter {
     }
 }
 
-pub(super) fn colour_attachment(view: &wgpu::TextureView, clear: Option<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+pub(super) fn colour_attachment(
+    view: &wgpu::TextureView,
+    clear: Option<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
     let load = clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear);
     wgpu::RenderPassColorAttachment {
         view,
