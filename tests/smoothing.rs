@@ -281,7 +281,8 @@ fn without_smoothing_the_depths_are_the_deviations() {
 
 #[test]
 fn fourier_solves_are_those_of_double_precision() {
-    let meshes = [[2, 2], [2, 8], [8, 2], [4, 4], [8, 4], [16, 16], [32, 128], [64, 64], [64, 256], [1024, 8], [8, 1024]];
+    let meshes =
+        [[2, 2], [2, 8], [8, 2], [4, 4], [8, 4], [16, 16], [32, 128], [64, 64], [64, 256], [1024, 8], [8, 1024]];
     for mesh in meshes {
         for power in [1, 2] {
             for solver in [FIVE_POINT, SPECTRAL] {

@@ -143,8 +143,7 @@ struct Pass {
 impl Fourier<'_> {
     fn plan(&self) -> SmoothingPlan {
         let passes = self.passes();
-        let kernels: Vec<Kernel> =
-            passes.iter().enumerate().map(|(number, &pass)| self.kernel(pass, number)).collect();
+        let kernels: Vec<Kernel> = passes.iter().enumerate().map(|(number, &pass)| self.kernel(pass, number)).collect();
         let twisted = passes.iter().any(|pass| pass.finished > 1);
         SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: self.buffers(twisted) }
     }
@@ -166,7 +165,16 @@ impl Fourier<'_> {
         let mut line = |name, axis, radices: &[u32], mut finished: u32| {
             for &radix in radices {
                 let entry = "kernels/fourier_pass";
-                passes.push(Pass { name, axis, entry, load: waves, store: waves_next, radix, finished, span: finished });
+                passes.push(Pass {
+                    name,
+                    axis,
+                    entry,
+                    load: waves,
+                    store: waves_next,
+                    radix,
+                    finished,
+                    span: finished,
+                });
                 finished *= radix;
             }
         };
@@ -370,7 +378,7 @@ mod tests {
 
     #[test]
     fn radices_make_the_length_in_few_passes() {
-        for bits in 1..=16 {
+        for bits in 1_u32..=16 {
             let radices = radices(1 << bits);
             assert_eq!(radices.iter().product::<u32>(), 1 << bits);
             assert!(radices.iter().all(|radix| (2..=16).contains(radix)));
