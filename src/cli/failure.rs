@@ -36,6 +36,11 @@ impl Failure {
         Self { exit_code: 5, message: message.into() }
     }
 
+    /// The failure of a run, in other words.
+    pub fn of_run(error: &RunError, message: impl Into<String>) -> Self {
+        Self { exit_code: exit_code(error), message: message.into() }
+    }
+
     /// What the process returns.
     pub fn exit_code(&self) -> u8 {
         self.exit_code
@@ -83,13 +88,19 @@ impl From<RunError> for Failure {
         match error {
             RunError::Gpu(error) => error.into(),
             RunError::Scene(error) => error.into(),
-            RunError::Unstable { .. } => Self::unstable(error.to_string()),
-            // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
-            RunError::Plot {
-                source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, ..
-            } => Self::usage(error.to_string()),
-            RunError::Plot { .. } | RunError::Engine(_) => Self::no_adapter(error.to_string()),
-            _ => Self::input_output(error.to_string()),
+            error => Self::of_run(&error, error.to_string()),
         }
+    }
+}
+
+fn exit_code(error: &RunError) -> u8 {
+    match error {
+        RunError::Unstable { .. } => 4,
+        RunError::Scene(SceneError::Read { .. }) => 5,
+        // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
+        RunError::Scene(_)
+        | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,
+        RunError::Gpu(_) | RunError::Plot { .. } | RunError::Engine(_) => 3,
+        _ => 5,
     }
 }

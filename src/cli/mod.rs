@@ -12,6 +12,8 @@ mod run;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod sweep;
+mod sweep_report;
 mod table;
 
 use std::io::Write as _;
@@ -33,6 +35,7 @@ pub use scene_arguments::SceneArguments;
 Examples:
   mesoscope run dpd-fluid                     simulate the standard DPD fluid on the best adapter
   mesoscope run my-scene.json --out results   simulate a scene of your own
+  mesoscope sweep dpd-fluid --vary seed=1,2   compare variants of a scene
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 
@@ -48,6 +51,7 @@ enum Command {
     Run(run::Arguments),
     Check(check::Arguments),
     Resume(resume::Arguments),
+    Sweep(sweep::Arguments),
     Plot(plot::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
@@ -64,6 +68,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::execute(&arguments),
         Command::Check(arguments) => check::execute(&arguments),
         Command::Resume(arguments) => resume::execute(&arguments),
+        Command::Sweep(arguments) => sweep::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Schema(arguments) => schema::execute(&arguments),

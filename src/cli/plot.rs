@@ -1,21 +1,21 @@
-//! `mesoscope plot`: draw a run again.
+//! `mesoscope plot`: draw a run or a sweep again.
 
 use std::path::PathBuf;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::RunDirectory;
-use mesoscope::run;
+use mesoscope::{run, sweep};
 
 use super::{Failure, print};
 
-/// Draw the plots of a run again from the files it left
+/// Draw the plots of a run, or of a sweep, again from the files it left
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   mesoscope plot dpd-fluid
   mesoscope plot dpd-fluid --set output.plot.theme=dark --set output.plot.width=800")]
 pub struct Arguments {
-    /// Directory of the run
+    /// Directory of the run or of the sweep
     directory: PathBuf,
 
     /// Change the look, as in a scene: `output.plot.width=800`, `output.snapshot.color=speed`; may be repeated
@@ -38,9 +38,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
         )));
     }
-    let directory = RunDirectory::open(&arguments.directory)?;
     let choice = AdapterChoice::parse(arguments.adapter.as_deref());
-    let written = run::redraw(&directory, &choice, &arguments.set)?;
+    let written = if arguments.directory.join(sweep::files::SUMMARY).exists() {
+        sweep::redraw(&arguments.directory, &choice, &arguments.set)?
+    } else {
+        let directory = RunDirectory::open(&arguments.directory)?;
+        run::redraw(&directory, &choice, &arguments.set)?.into_iter().map(str::to_owned).collect()
+    };
     print(&format!(
         "wrote {}/: {}
 ",

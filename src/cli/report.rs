@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::model::Model;
-use mesoscope::output::Summary;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{self, Scene};
 
@@ -35,14 +34,19 @@ pub fn execute(simulation: Simulation, adapter: Option<&str>, directory: &str, q
 
 /// The directory of a run whose user names none.
 pub fn default_directory(arguments: &SceneArguments) -> String {
-    let stem = std::path::Path::new(&arguments.scene).file_stem().and_then(|stem| stem.to_str());
-    stem.unwrap_or("run").to_owned()
+    stem(&arguments.scene).to_owned()
+}
+
+/// The name of a scene or of its file, without directories and extension.
+pub fn stem(scene: &str) -> &str {
+    std::path::Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("run")
 }
 
 /// A short run needs no lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(1);
 
-fn line(text: &str) {
+/// A line on standard error.
+pub fn line(text: &str) {
     // Nobody is left to tell if standard error is closed.
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
@@ -146,7 +150,8 @@ fn describe(progress: &Progress) -> String {
     parts.join("  ")
 }
 
-fn duration(seconds: u64) -> String {
+/// A time for people.
+pub fn duration(seconds: u64) -> String {
     match seconds {
         0..60 => format!("{seconds} s"),
         60..3600 => format!("{} min {:02} s", seconds / 60, seconds % 60),
@@ -162,7 +167,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         ("configurational_temperature", "configurational temperature"),
         ("pressure", "pressure"),
     ] {
-        if let Some(value) = mean(summary, column) {
+        if let Some(value) = mean(&summary.means, column) {
             rows.push(vec![label.to_owned(), value]);
         }
     }
@@ -199,8 +204,9 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
 }
 
-fn mean(summary: &Summary, column: &str) -> Option<String> {
-    let mean = summary.means.get(column)?;
+/// The mean of a column with its error.
+pub fn mean(means: &serde_json::Map<String, serde_json::Value>, column: &str) -> Option<String> {
+    let mean = means.get(column)?;
     let text = with_error(mean["mean"].as_f64()?, mean["standard_error"].as_f64());
     // An error that has not settled is a lower bound.
     let unsettled = mean["converged"] == false && mean["standard_error"].is_number();

@@ -288,6 +288,18 @@ impl<'a> Engine<'a> {
         Ok(state)
     }
 
+    /// The words of a buffer of the plan, as they are once the device is done.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device failed or the plan has no such buffer.
+    pub fn words(&mut self, buffer: &str) -> Result<Vec<u32>, EngineError> {
+        self.wait_all()?;
+        let Some(buffer) = self.buffers.get(buffer) else {
+            return Err(EngineError::State { reason: format!("the plan has no buffer `{buffer}`") });
+        };
+        Ok(bytemuck::pod_collect_to_vec(&readback::read(self.gpu, buffer)?))
+    }
+
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
         let names = self.plan.layout.buffers();

@@ -1,11 +1,14 @@
 //! Averages, fields and derived quantities from raw sums.
 
+pub mod circulation;
 pub mod correlation;
 mod field;
+mod mesh_fields;
 mod observables;
 pub mod statistics;
 mod sums;
 
 pub use field::{Field, FieldError};
+pub use mesh_fields::MeshFlow;
 pub use observables::Observables;
 pub use sums::observables_of;

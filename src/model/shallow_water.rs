@@ -4,6 +4,7 @@ use super::bath::BathStep;
 use crate::scene::surface::Surface;
 use crate::scene::{BathRate, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Particles that carry water, the mesh on which their depth is formed, and the bath on its nodes.
 ///
@@ -87,6 +88,17 @@ impl ShallowWater {
     #[must_use]
     pub fn nodes(&self) -> u64 {
         u64::from(self.mesh[0]) * u64::from(self.mesh[1])
+    }
+
+    /// Name and particle numbers of every group of tracers that form a closed loop.
+    pub fn closed_loops(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
+        let mut first = self.carriers as usize;
+        let ranges = self.tracers.iter().map(move |group| {
+            let range = first..first + group.count as usize;
+            first = range.end;
+            (group, range)
+        });
+        ranges.filter(|(group, _)| group.closed).map(|(group, range)| (group.name.as_str(), range))
     }
 
     /// The surface at the start in a box with these edges.

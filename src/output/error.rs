@@ -91,7 +91,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// Adds what was attempted, and on which path, to an error of the operating system.
-    pub(super) fn io(attempted: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn io(attempted: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_path_buf();
         move |source| Self::Io { attempted, path, source }
     }

@@ -33,8 +33,16 @@ pub const VISCOSITY: &str = "viscosity.csv";
 /// The plot of the autocorrelation of transverse momentum waves.
 pub const VISCOSITY_PLOT: &str = "viscosity.png";
 
+/// The circulations of material loops.
+pub const CIRCULATION: &str = "circulation.csv";
+/// The plot of the circulations of material loops.
+pub const CIRCULATION_PLOT: &str = "circulation.png";
+
+/// What the names of pictures and arrays of fields on the mesh begin with.
+pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
+
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 13] = [
+pub const ALL: [&str; 23] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -48,6 +56,16 @@ pub const ALL: [&str; 13] = [
     DIFFUSION_PLOT,
     VISCOSITY,
     VISCOSITY_PLOT,
+    CIRCULATION,
+    CIRCULATION_PLOT,
+    "depth.png",
+    "depth.npy",
+    "potential_vorticity.png",
+    "potential_vorticity.npy",
+    "vorticity.png",
+    "vorticity.npy",
+    "speed.png",
+    "speed.npy",
 ];
 
 /// The name of a numbered snapshot; the first has number 1.
@@ -60,11 +78,32 @@ pub fn snapshot(number: u64) -> String {
     format!("snapshot-{number:06}.png")
 }
 
-/// The number in the name of a numbered snapshot.
+/// The name of a picture (`png`) or an array (`npy`) of a field, numbered from 1 or of the end.
+///
+/// ```
+/// use mesoscope::output::files;
+/// assert_eq!(files::field("depth", Some(1), "npy"), "depth-000001.npy");
+/// assert_eq!(files::field("depth", None, "png"), "depth.png");
+/// ```
+#[must_use]
+pub fn field(stem: &str, number: Option<u64>, extension: &str) -> String {
+    match number {
+        Some(number) => format!("{stem}-{number:06}.{extension}"),
+        None => format!("{stem}.{extension}"),
+    }
+}
+
+/// The number in the name of a numbered snapshot or field.
 #[must_use]
 pub fn snapshot_number(name: &str) -> Option<u64> {
-    let number = name.strip_prefix("snapshot-")?.strip_suffix(".png")?.parse().ok()?;
-    (snapshot(number) == name).then_some(number)
+    let (stem, rest) = name.split_once('-')?;
+    let (digits, extension) = rest.split_once('.')?;
+    let number = digits.parse().ok()?;
+    let known = match stem {
+        "snapshot" => extension == "png",
+        stem => FIELDS.contains(&stem) && ["png", "npy"].contains(&extension),
+    };
+    (known && field(stem, Some(number), extension) == name).then_some(number)
 }
 
 /// Whether a run may have written a file of this name, finished or not.
@@ -84,7 +123,18 @@ mod tests {
             assert_eq!(snapshot_number(&snapshot(number)), Some(number));
         }
         assert!(snapshot(9) < snapshot(10));
-        for stranger in ["snapshot-1.png", "snapshot-+00001.png", "snapshot-000001.jpg", "snapshot.png"] {
+        for name in ["depth-000007.npy", "potential_vorticity-000007.png"] {
+            assert_eq!(snapshot_number(name), Some(7), "{name}");
+        }
+        for stranger in [
+            "depth-000007.csv",
+            "height-000007.png",
+            "snapshot-000007.npy",
+            "snapshot-1.png",
+            "snapshot-+00001.png",
+            "snapshot-000001.jpg",
+            "snapshot.png",
+        ] {
             assert_eq!(snapshot_number(stranger), None, "{stranger}");
         }
     }

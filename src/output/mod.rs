@@ -22,4 +22,5 @@ pub use error::OutputError;
 pub use npy::{write_npy, write_npy_to};
 pub use summary::Summary;
 pub use table::{Table, read_table, write_table};
+pub(crate) use table::{push_number, quoted};
 pub use trajectory::TrajectoryWriter;

@@ -1,4 +1,4 @@
-//! Arrays in NumPy's `.npy` format, version 1.0: `numpy.load(path)` gives them back.
+//! Arrays in the `.npy` format of `NumPy`, version 1.0: `numpy.load(path)` gives them back.
 
 use super::{OutputError, write_atomically};
 use std::io::{self, Write};
@@ -42,8 +42,8 @@ pub fn write_npy_to(writer: &mut dyn Write, shape: &[usize], values: &[f64]) -> 
 
 fn header(shape: &[usize]) -> io::Result<Vec<u8>> {
     // Python writes a tuple of one with a comma after it, and takes one after every tuple but the empty.
-    let lengths: String = shape.iter().map(|length| format!("{length}, ")).collect();
-    let description = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", lengths.trim_end());
+    let lengths: Vec<String> = shape.iter().map(|length| format!("{length},")).collect();
+    let description = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", lengths.join(" "));
     let whole = (PREAMBLE + description.len() + 1).next_multiple_of(ALIGNMENT);
     let length = u16::try_from(whole - PREAMBLE)
         .map_err(|_| io::Error::new(io::ErrorKind::InvalidInput, "an array of so many dimensions has no header"))?;

@@ -1,6 +1,7 @@
 //! Tables of numbers as comma-separated text.
 
 use super::{OutputError, write_atomically};
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -89,16 +90,19 @@ pub(super) fn header_line<'a>(path: &Path, names: impl Iterator<Item = &'a str>)
         if !header.is_empty() {
             header.push(',');
         }
-        if name.contains([',', '"']) {
-            header.push('"');
-            header.push_str(&name.replace('"', "\"\""));
-            header.push('"');
-        } else {
-            header.push_str(name);
-        }
+        header.push_str(&quoted(name));
     }
     header.push('\n');
     Ok(header)
+}
+
+/// A cell of text, quoted as in RFC 4180 where it has to be.
+pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(text)
+    }
 }
 
 fn split_header(line: &str) -> Option<Vec<String>> {
@@ -125,7 +129,7 @@ fn number_of(cell: &str) -> Option<f64> {
 }
 
 /// Appends the shortest digits that read back as the same `f64`; nothing for NaN.
-pub(super) fn push_number(text: &mut Vec<u8>, value: f64) {
+pub(crate) fn push_number(text: &mut Vec<u8>, value: f64) {
     let magnitude = value.abs();
     let written = if value.is_nan() {
         Ok(())

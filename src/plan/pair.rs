@@ -633,9 +633,8 @@ impl Builder<'_> {
         self.plan.buffers.append(&mut buffers);
     }
 
-    /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
     fn workgroup_size(&self) -> u64 {
-        u64::from(self.options.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
+        self.options.workgroup()
     }
 
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.

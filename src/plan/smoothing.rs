@@ -378,7 +378,7 @@ mod tests {
 
     #[test]
     fn radices_make_the_length_in_few_passes() {
-        for bits in 1..=16 {
+        for bits in 1_u32..=16 {
             let radices = radices(1 << bits);
             assert_eq!(radices.iter().product::<u32>(), 1 << bits);
             assert!(radices.iter().all(|radix| (2..=16).contains(radix)));

@@ -96,19 +96,28 @@ pub struct Series {
     pub errors: Option<Vec<f64>>,
     /// How the points are drawn.
     pub style: SeriesStyle,
+    /// What it is drawn with.
+    pub ink: SeriesInk,
 }
 
 impl Series {
     /// Points joined by a line.
     #[must_use]
     pub fn line(name: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Line }
+        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Line, ink: SeriesInk::Own }
     }
 
     /// Separate markers.
     #[must_use]
     pub fn markers(name: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Markers }
+        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Markers, ink: SeriesInk::Own }
+    }
+
+    /// The series drawn with this ink.
+    #[must_use]
+    pub fn with_ink(mut self, ink: SeriesInk) -> Self {
+        self.ink = ink;
+        self
     }
 
     /// The series with an error for every point.
@@ -131,6 +140,26 @@ pub enum SeriesStyle {
     LineMarkers,
     /// A line inside a shaded band as wide as the errors.
     Band,
+}
+
+/// What a series is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum SeriesInk {
+    /// A colour, dashes and markers that tell it from the series around it (default).
+    #[default]
+    Own,
+    /// The colour of a place, 0 to 1, on a scale whose lightness rises evenly: for series in an order of their own.
+    Scale {
+        /// The place on the scale.
+        place: f64,
+        /// Number of the pattern of dashes; 0 is a solid line.
+        pattern: usize,
+    },
+    /// The ink of the axes, for a series that the others are compared with.
+    Ink {
+        /// Number of the pattern of dashes; 0 is a solid line.
+        pattern: usize,
+    },
 }
 
 /// A horizontal line to compare with.

@@ -1,13 +1,13 @@
 //! Lays a chart out: margins, axes, ticks, legends, series.
 
 use super::canvas::{Anchor, Area, Canvas, Type};
-use super::chart::{Axis, Chart, Panel, Scale, Series, SeriesStyle};
+use super::chart::{Axis, Chart, Panel, Scale, Series, SeriesInk, SeriesStyle};
 use super::error::PlotError;
-use super::palette::{Colour, Inks, inks, with_alpha};
+use super::palette::{Colour, Inks, inks, line_colour, with_alpha};
 use super::series_path::{Run, clipped, length, runs, segments, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{AxisMap, Ticks, grouped, ticks};
-use crate::scene::PlotStyle;
+use crate::scene::{PlotStyle, Theme};
 
 /// Values beyond this cannot be told from infinity once margins are added.
 const LARGEST: f64 = 1e300;
@@ -106,6 +106,7 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
     let mut layout = Layout {
         canvas: Canvas::new(style.width, style.height, inks.paper)?,
         inks,
+        theme: style.theme,
         sizes: Sizes::new(style, chart.panels.len()),
         prepared: prepare(&chart.panels),
         rough: false,
@@ -206,7 +207,8 @@ struct Look {
     colour: Colour,
     /// Lengths drawn and skipped, in line widths; empty for a solid line.
     dashes: &'static [f64],
-    marker: usize,
+    /// Number of its marker; none where the colour alone has to tell it from its neighbours.
+    marker: Option<usize>,
 }
 
 const DASHES: [&[f64]; 7] = [
@@ -223,6 +225,7 @@ const REFERENCE_DASHES: &[f64] = &[3.5, 3.0];
 struct Layout<'a> {
     canvas: Canvas,
     inks: Inks,
+    theme: Theme,
     sizes: Sizes,
     prepared: Vec<Prepared<'a>>,
     /// Lines of the chart are too jagged for dashes; known once the panels have their places.
@@ -307,17 +310,23 @@ impl Layout<'_> {
             .series
             .iter()
             .enumerate()
-            .map(|(number, series)| Entry { name: &series.name, series: Some((series, self.look(number))) });
+            .map(|(number, series)| Entry { name: &series.name, series: Some((series, self.look(number, series))) });
         let references = panel.references.iter().map(|reference| Entry { name: &reference.label, series: None });
         series.chain(references).filter(|entry| !entry.name.is_empty()).collect()
     }
 
-    fn look(&self, number: usize) -> Look {
-        let count = self.inks.series.len();
-        Look {
-            colour: self.inks.series[number % count],
-            dashes: DASHES[(number + number / count) % DASHES.len()],
-            marker: number,
+    fn look(&self, number: usize, series: &Series) -> Look {
+        let dashes = |pattern: usize| DASHES[pattern % DASHES.len()];
+        match series.ink {
+            SeriesInk::Own => {
+                let count = self.inks.series.len();
+                let colour = self.inks.series[number % count];
+                Look { colour, dashes: dashes(number + number / count), marker: Some(number) }
+            }
+            SeriesInk::Scale { place, pattern } => {
+                Look { colour: line_colour(self.theme, place), dashes: dashes(pattern), marker: None }
+            }
+            SeriesInk::Ink { pattern } => Look { colour: self.inks.ink, dashes: dashes(pattern), marker: None },
         }
     }
 
@@ -508,7 +517,7 @@ impl Layout<'_> {
         let rough = self.rough;
         self.canvas.clip(Some(place.area.grown(0.5 * self.sizes.rule)));
         for (number, series) in panel.series.iter().enumerate().rev() {
-            let colour = self.look(number).colour;
+            let colour = self.look(number, series).colour;
             match (&series.errors, series.style) {
                 (Some(errors), SeriesStyle::Band) => self.band(place, series, errors, colour),
                 (Some(errors), _) => self.error_bars(place, series, errors, colour),
@@ -521,9 +530,9 @@ impl Layout<'_> {
             .map(|series| runs(&series.points, |point| place.pixel(point)).iter().map(|run| thinned(run)).collect())
             .collect();
         for (number, series) in panel.series.iter().enumerate().rev() {
-            let look = self.look(number);
+            let look = self.look(number, series);
             let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
-            let dashes = if rough { &[] } else { look.dashes };
+            let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
             for run in pieces[number].iter().filter(|_| series.style != SeriesStyle::Markers) {
                 self.stroke(run, place, dashes, look.colour, width);
             }
@@ -536,12 +545,12 @@ impl Layout<'_> {
             }
         }
         for (number, series) in panel.series.iter().enumerate().rev() {
-            let look = self.look(number);
+            let look = self.look(number, series);
             match series.style {
                 SeriesStyle::Markers | SeriesStyle::LineMarkers => {
                     self.markers(pieces[number].iter().flatten().copied(), place, look, panel);
                 }
-                SeriesStyle::Line | SeriesStyle::Band if rough && panel.series.len() > 1 => {
+                SeriesStyle::Line | SeriesStyle::Band if rough && panel.series.len() > 1 && look.marker.is_some() => {
                     self.sparse_markers(&pieces[number], place, look, panel.series.len());
                 }
                 SeriesStyle::Line | SeriesStyle::Band => {}
@@ -566,7 +575,7 @@ impl Layout<'_> {
     /// One marker; the paper-coloured rim keeps it apart from lines and neighbours.
     fn marker(&mut self, at: [f64; 2], radius: f64, look: Look) {
         // Angles in quarter turns of a circle; sizes give every shape about the same area.
-        let shape = match look.marker % 6 {
+        let shape = match look.marker.unwrap_or(0) % 6 {
             0 => None,
             1 => Some((4, 0.5, 1.2)),
             2 => Some((3, -1.0, 1.4)),
@@ -606,7 +615,7 @@ impl Layout<'_> {
             pieces.iter().flatten().copied().filter(|point| place.area.contains(*point)).collect();
         let count = 7;
         for index in 0..count {
-            let shift = (look.marker as f64 + 0.5) / series as f64;
+            let shift = (look.marker.unwrap_or(0) as f64 + 0.5) / series as f64;
             let target = place.area.left + (f64::from(index) + shift) / f64::from(count) * place.area.width();
             let nearest = points.iter().min_by(|a, b| (a[0] - target).abs().total_cmp(&(b[0] - target).abs()));
             if let Some(point) = nearest.filter(|point| (point[0] - target).abs() < 0.05 * place.area.width()) {
@@ -818,11 +827,11 @@ impl Layout<'_> {
                     self.canvas.rectangle(band, with_alpha(look.colour, 64));
                 }
                 if style != SeriesStyle::Markers {
-                    let dashes = if rough { &[] } else { look.dashes };
+                    let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
                     self.stroke(&run, &around, dashes, look.colour, self.sizes.line);
                 }
                 let marked = matches!(style, SeriesStyle::Markers | SeriesStyle::LineMarkers);
-                if marked || (rough && panel.series.len() > 1) {
+                if marked || (rough && panel.series.len() > 1 && look.marker.is_some()) {
                     self.marker(middle, self.marker_radius(), look);
                 }
             }

@@ -146,8 +146,9 @@ struct Place {
     image: Area,
     /// The colour bar without its arrowheads.
     bar: Area,
-    /// Left edge of the whole group.
+    /// Edges of the whole group.
     left: f64,
+    right: f64,
     /// Top of the headings.
     top: f64,
     ticks: AllTicks,
@@ -269,29 +270,39 @@ impl Layout<'_> {
     fn place_with(&self, headings: &[Heading], margin: f64, ticks: AllTicks) -> Place {
         let Sizes { label, gap, .. } = self.sizes;
         let line = LINE_HEIGHT * label;
-        let text_line = |text: &str| if text.is_empty() { 0.0 } else { line + 0.8 * gap };
+        let text_line = |text: &str| if text.is_empty() { 0.0 } else { line + gap };
         let beside_ticks = self.rule() + self.tick_length() + 0.6 * gap;
+        let half_capital = 0.5 * CAPITAL_HEIGHT * label;
         let multiplied = ticks.y.multiplier.is_some() || ticks.bar.multiplier.is_some();
         let above = headings.iter().map(|heading| LINE_HEIGHT * heading.style.size).sum::<f64>()
             + if headings.is_empty() { 0.0 } else { gap }
-            + if multiplied { line + 0.5 * gap } else { 0.5 * CAPITAL_HEIGHT * label };
+            + half_capital
+            + if multiplied { line + 0.5 * gap } else { 0.0 };
         let below = beside_ticks + CAPITAL_HEIGHT * label + text_line(self.picture.axes[0]);
         let left = text_line(self.picture.axes[1]) + self.widest(&ticks.y) + beside_ticks;
-        let between = 2.4 * gap;
-        let right =
-            between + self.bar_width() + beside_ticks + self.widest(&ticks.bar) + text_line(&self.picture.field.label);
+        let bar = self.bar_width() + beside_ticks + self.widest(&ticks.bar) + text_line(&self.picture.field.label);
         let page = [self.canvas.width, self.canvas.height].map(|side| f64::from(side) - 2.0 * margin);
-        let room = [page[0] - left - right, page[1] - above - below].map(|side| side.max(4.0));
-
         let lengths = self.picture.field.lengths;
-        let image = if lengths[0] / lengths[1] * room[1] <= room[0] {
-            [lengths[0] / lengths[1] * room[1], room[1]]
-        } else {
-            [room[0], lengths[1] / lengths[0] * room[0]]
+        let high = (page[1] - above - below).max(4.0);
+        let fit = |between: f64| {
+            let wide = (page[0] - left - between - bar).max(4.0);
+            let image = if lengths[0] / lengths[1] * high <= wide {
+                [lengths[0] / lengths[1] * high, high]
+            } else {
+                [wide, lengths[1] / lengths[0] * wide]
+            };
+            // Beside a flat image the bar is higher than it, or its ticks would have no room.
+            let image = image.map(|side| side.round().max(1.0));
+            ([wide, high], image, image[1].max(high.min(9.0 * label)).round())
         };
-        let image = image.map(|side| side.round().max(1.0));
-        // Beside a flat image the bar is higher than it, or its ticks would have no room.
-        let bar_height = image[1].max(room[1].min(9.0 * label)).round();
+        let mut between = 2.4 * gap;
+        let (mut room, mut image, mut bar_height) = fit(between);
+        if bar_height > image[1] {
+            // There it must keep clear of the last label of the x axis.
+            let last = ticks.x.major.last().map_or(0.0, |(_, text)| self.width(text));
+            between = between.max(0.5 * last + 1.6 * gap);
+            (room, image, bar_height) = fit(between);
+        }
         let group_left = (margin + 0.5 * (room[0] - image[0])).max(0.0).floor();
         let group_top = (margin + 0.5 * (room[1] - bar_height)).max(0.0).floor();
         let corner = [(group_left + left).round(), (group_top + above + 0.5 * (bar_height - image[1])).round()];
@@ -307,6 +318,7 @@ impl Layout<'_> {
                 bottom: bar_top + bar_height - inset,
             },
             left: group_left,
+            right: corner[0] + image[0] + between + bar,
             top: group_top,
             ticks,
         }
@@ -378,16 +390,19 @@ impl Layout<'_> {
             self.canvas.text(text.as_deref().unwrap_or(""), [x, baseline], Anchor::Middle, style);
         }
         let baseline = baseline + 0.8 * gap + CAPITAL_HEIGHT * label + 0.2 * label;
-        let mut right = place.bar.left.max(area.right);
-        if let Some(multiplier) = &place.ticks.x.multiplier {
-            self.canvas.text(multiplier, [area.right, baseline], Anchor::End, style);
-            right = area.right - self.width(multiplier) - gap;
-        }
         // Under a narrow image the label may stand out on both sides.
         let middle = area.centre()[0];
-        let room = 2.0 * (middle - place.left).min((right - middle).max(0.35 * (right - area.left)));
-        let text = self.canvas.typesetter.shorten(self.picture.axes[0], style.weight, label, room);
-        let middle = middle.min(right - 0.5 * self.width(&text));
+        let room = 2.0 * (middle - place.left).min(place.right - middle);
+        let mut text = self.picture.axes[0].to_owned();
+        if let Some(multiplier) = &place.ticks.x.multiplier {
+            let beside = 2.0 * (area.right - middle - self.width(multiplier) - gap);
+            if self.width(&text) <= beside {
+                self.canvas.text(multiplier, [area.right, baseline], Anchor::End, style);
+            } else {
+                text = format!("{multiplier} {text}");
+            }
+        }
+        let text = self.canvas.typesetter.shorten(&text, style.weight, label, room);
         self.canvas.text(&text, [middle, baseline], Anchor::Middle, style);
     }
 
@@ -434,14 +449,15 @@ impl Layout<'_> {
         }
         let name = &self.picture.field.label;
         let labels_end = foot + self.tick_length() + 0.6 * gap + self.widest(&place.ticks.bar);
-        let end = labels_end + if name.is_empty() { 0.0 } else { LINE_HEIGHT * label + 0.8 * gap };
         if let Some(multiplier) = &place.ticks.bar.multiplier {
-            let left = bar.left.min(end - self.width(multiplier));
-            self.canvas.text(multiplier, [left, bar.top - self.arrowhead() - 0.8 * gap], Anchor::Start, style);
+            // Over the label of the last tick, which may stand at the very top.
+            let above = self.arrowhead().max(0.5 * CAPITAL_HEIGHT * label) + 0.8 * gap;
+            let left = bar.left.min(place.right - self.width(multiplier));
+            self.canvas.text(multiplier, [left, bar.top - above], Anchor::Start, style);
         }
         let room = bar.height() + 2.0 * self.arrowhead();
         let text = self.canvas.typesetter.shorten(name, style.weight, label, room);
-        let baseline = labels_end + 0.8 * gap + CAPITAL_HEIGHT * label;
+        let baseline = labels_end + gap + 0.95 * label;
         self.canvas.text_upwards(&text, [baseline, bar.centre()[1]], Anchor::Middle, style);
     }
 

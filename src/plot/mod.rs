@@ -25,6 +25,7 @@ mod color_map;
 mod error;
 mod field;
 mod field_renderer;
+mod overlay;
 mod palette;
 mod particles;
 mod periodic_curve;
@@ -34,10 +35,11 @@ mod series_path;
 mod text;
 mod ticks;
 
-pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesStyle};
+pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
 pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
+pub use overlay::{Curve, overlay_chart, quantity_label};
 pub use particles::ParticlePicture;
 pub use presets::{
     EnergyTable, circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,

@@ -86,6 +86,15 @@ pub(super) fn scale_colour(fraction: f64) -> Colour {
     [channel(0), channel(1), channel(2), 255]
 }
 
+/// Colour of a line at a place on the scale, 0 to 1, without the end that would be lost on the paper.
+pub(super) fn line_colour(theme: Theme, place: f64) -> Colour {
+    let [first, last] = match theme {
+        Theme::Light => [0.0, 0.86],
+        Theme::Dark => [0.28, 1.0],
+    };
+    scale_colour(first + (last - first) * place.clamp(0.0, 1.0))
+}
+
 /// Linear-light value of an sRGB channel.
 pub(super) fn linear(channel: u8) -> f32 {
     let value = f32::from(channel) / 255.0;

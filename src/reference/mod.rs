@@ -14,8 +14,11 @@ mod cotter_reich;
 mod groot_warren;
 mod observables;
 mod pairs;
+mod shallow_water;
 mod splitting;
 
+pub use shallow_water::ShallowWaterReference;
+pub(crate) use shallow_water::mesh_splines;
 pub use splitting::Relaxation;
 
 use crate::measure::Observables;
@@ -28,7 +31,7 @@ use pairs::Pair;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unstable {
-    /// A momentum beyond 2³¹ units.
+    /// A momentum beyond 2³¹ units; in shallow water a velocity beyond 2³⁰.
     #[error("step {step}: the momentum of particle {particle} left the range of the integer state")]
     Momentum {
         /// The step.
@@ -43,6 +46,14 @@ pub enum Unstable {
         step: u64,
         /// The particle's id.
         particle: usize,
+    },
+    /// A smoothed depth of shallow water that is not positive.
+    #[error("step {step}: there is no depth left at mesh node ({}, {})", node[0], node[1])]
+    Depth {
+        /// The step.
+        step: u64,
+        /// The node (k, l).
+        node: [u32; 2],
     },
 }
 

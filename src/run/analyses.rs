@@ -1,6 +1,7 @@
 //! What is gathered from the samplers beside the observables, and what comes out in the end.
 
 use super::RunError;
+use super::circulations::Circulations;
 use crate::engine::Sample;
 use crate::measure::correlation::{
     ShearViscosity, TransverseMode, WindowedAverage, diffusion_from_displacement, diffusion_from_velocity,
@@ -26,6 +27,7 @@ pub(super) fn numbers(bytes: &[u8]) -> Vec<f64> {
 const RADIAL_DISTRIBUTION: &str = "radial_distribution";
 const DIFFUSION: &str = "diffusion";
 const VISCOSITY: &str = "viscosity";
+const CIRCULATION: &str = "tracers";
 
 /// The analyses that a scene asks for.
 pub(super) struct Analyses {
@@ -41,6 +43,7 @@ enum Gathered {
     RadialDistribution { range: f64, samples: f64, counts: Vec<f64> },
     Diffusion { interval: f64, window: usize, scales: [f64; 2], displacement: Vec<f64>, velocity: Vec<f64> },
     Viscosity { interval: f64, window: usize, unit: f64, modes: Vec<TransverseMode> },
+    Circulation(Circulations),
 }
 
 impl Analyses {
@@ -68,9 +71,13 @@ impl Analyses {
                     unit: model.units.momentum,
                     modes: transverse_modes(model),
                 },
+                CIRCULATION => match &model.shallow_water {
+                    Some(water) => Gathered::Circulation(Circulations::new(model, water)),
+                    None => continue,
+                },
                 _ => continue,
             };
-            if let Some((_, section)) = sections.iter().find(|(name, _)| name == sampler.name) {
+            if let Some((_, section)) = sections.iter().find(|(name, _)| name == entry.name()) {
                 entry.restore(&numbers(section));
             }
             gathered.push((index, entry));
@@ -116,6 +123,10 @@ impl Analyses {
                 Gathered::Viscosity { interval, window, modes, .. } => {
                     let (table, result) = self.viscosity(*interval, *window, modes);
                     (table, files::VISCOSITY, result)
+                }
+                Gathered::Circulation(circulations) if circulations.is_empty() => continue,
+                Gathered::Circulation(circulations) => {
+                    (circulations.table(), files::CIRCULATION, Ok(circulations.result()))
                 }
             };
             match result {
@@ -239,12 +250,14 @@ impl Gathered {
             Self::RadialDistribution { .. } => RADIAL_DISTRIBUTION,
             Self::Diffusion { .. } => DIFFUSION,
             Self::Viscosity { .. } => VISCOSITY,
+            Self::Circulation(_) => "circulation",
         }
     }
 
     fn add(&mut self, sample: &Sample, particles: f64) {
         let sums = sample.sums.iter().map(|sum| *sum as f64);
         match self {
+            Self::Circulation(circulations) => circulations.add(sample),
             Self::RadialDistribution { samples, counts, .. } => {
                 *samples += 1.0;
                 counts.iter_mut().zip(sums).for_each(|(count, found)| *count += found);
@@ -266,6 +279,7 @@ impl Gathered {
 
     fn section(&self) -> Vec<u8> {
         match self {
+            Self::Circulation(circulations) => circulations.section(),
             Self::RadialDistribution { samples, counts, .. } => {
                 bytes(std::iter::once(*samples).chain(counts.iter().copied()))
             }
@@ -282,6 +296,7 @@ impl Gathered {
 
     fn restore(&mut self, numbers: &[f64]) {
         match self {
+            Self::Circulation(circulations) => circulations.restore(numbers),
             Self::RadialDistribution { samples, counts, .. } => {
                 if let Some((first, rest)) = numbers.split_first()
                     && rest.len() == counts.len()
@@ -394,6 +409,7 @@ mod tests {
                     assert_eq!(modes[0].amplitudes, [[8.0, -16.0], [0.0, -32.0]]);
                     assert_eq!(modes[1].amplitudes, [[2.0, -4.0], [6.0, -8.0]]);
                 }
+                Gathered::Circulation(_) => unreachable!(),
             }
         }
     }

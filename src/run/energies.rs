@@ -40,6 +40,11 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     all.into_iter().filter(|(_, applies, _)| *applies).map(|(name, _, cell)| (name, cell)).collect()
 }
 
+/// Names of the quantities that the table of energies of a model holds.
+pub(crate) fn quantities(model: &Model) -> Vec<&'static str> {
+    columns(model).into_iter().map(|(name, _)| name).filter(|name| *name != "time").collect()
+}
+
 const CONFIGURATIONAL: &str = "configurational_temperature";
 
 /// The rows so far, on disk and in memory.

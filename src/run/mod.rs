@@ -19,15 +19,20 @@
 //! ```
 
 mod analyses;
+mod circulations;
 mod energies;
 mod error;
 mod pace;
 mod pictures;
 mod schedule;
+mod shown_field;
 mod simulation;
 
+pub(crate) use energies::quantities;
 pub use error::RunError;
 pub use pictures::redraw;
+pub(crate) use pictures::{save, show_settled};
+pub(crate) use simulation::adapter_for;
 pub use simulation::{Outcome, Simulation};
 
 use crate::gpu::AdapterDescription;

@@ -1,15 +1,17 @@
 //! The pictures of a run, drawn from its tables and states.
 
 use super::RunError;
-use super::simulation::{open_adapter, plan_for};
+use super::shown_field::{ShownField, closed_loops};
+use super::simulation::{mesh_depth, open_adapter, plan_for};
 use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::model::Model;
-use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table};
+use crate::measure::MeshFlow;
+use crate::model::{Model, ShallowWater};
+use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
-    Axis, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Series, correlation_chart, energies_chart,
-    radial_distribution_chart,
+    Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
+    circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
@@ -42,15 +44,23 @@ pub fn redraw(
             written.push(plot);
         }
     }
-    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default());
-    let state = Engine::new(&gpu, plan, &checkpoint.state)?.reported()?;
-    pictures.snapshot(files::SNAPSHOT, &state, &model)?;
-    written.push(files::SNAPSHOT);
+    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
+    let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
+    let state = engine.reported()?;
+    if let Some(water) = &model.shallow_water {
+        let depth = mesh_depth(&mut engine, water)?;
+        let names = pictures.fields(None, &state, &depth, &model, water)?;
+        written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
+    } else {
+        pictures.snapshot(files::SNAPSHOT, &state, &model)?;
+        written.push(files::SNAPSHOT);
+    }
     Ok(written)
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 3] = [
+const ANALYSES: [(&str, &str); 4] = [
+    (files::CIRCULATION, files::CIRCULATION_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
     (files::VISCOSITY, files::VISCOSITY_PLOT),
@@ -70,9 +80,19 @@ impl<'a> Pictures<'a> {
     }
 
     pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
+        if let Some(water) = &model.shallow_water {
+            let set = water.bath.is_some().then_some(model.temperature);
+            let mut chart = shallow_water_chart(&self.scene.title, table, set);
+            chart.subtitle = format!(
+                "{} particles, mesh {} × {}, time step {}",
+                water.carriers, water.mesh[0], water.mesh[1], model.time_step
+            );
+            return self.chart(files::ENERGIES_PLOT, &chart);
+        }
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
-        if show_settled(&mut chart) {
+        let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
+        if temperatures.is_some_and(show_settled) {
             chart.subtitle.push_str("; temperatures at the start are off the scale");
         }
         self.chart(files::ENERGIES_PLOT, &chart)
@@ -104,6 +124,10 @@ impl<'a> Pictures<'a> {
             files::DIFFUSION => {
                 let [displacement, velocity] = ["mean_squared_displacement", "velocity_autocorrelation"].map(column);
                 (files::DIFFUSION_PLOT, correlation_chart(title, &column("time"), &displacement, &velocity))
+            }
+            files::CIRCULATION => {
+                let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
+                (files::CIRCULATION_PLOT, circulation_chart(title, &table))
             }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
@@ -139,6 +163,45 @@ impl<'a> Pictures<'a> {
         self.save(name, drawn)
     }
 
+    /// Draws the fields of shallow water that the scene asks for, and writes them as arrays. Returns the names.
+    pub(super) fn fields(
+        &mut self,
+        number: Option<u64>,
+        state: &State,
+        depth: &[f64],
+        model: &Model,
+        water: &ShallowWater,
+    ) -> Result<Vec<String>, RunError> {
+        let flow = MeshFlow::new(model, water, state);
+        let loops: Vec<Vec<[f64; 2]>> = closed_loops(state, model, water);
+        let curves: Vec<PeriodicCurve<'_>> =
+            loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
+        let mut written = Vec::new();
+        for quantity in self.scene.output.fields.clone().unwrap_or_default().quantities {
+            let shown = ShownField::new(quantity, &flow, depth);
+            let field = shown.field(model, water);
+            let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+            let picture = FieldPicture {
+                title: &self.scene.title,
+                subtitle: &subtitle,
+                map: shown.map,
+                curves: &curves,
+                ..FieldPicture::new(&field)
+            };
+            let name = files::field(shown.stem, number, "png");
+            let drawn = {
+                let style = &self.scene.output.plot;
+                self.plotter().and_then(|plotter| plotter.draw_field(&picture, style))
+            };
+            self.save(&name, drawn)?;
+            written.push(name);
+            let name = files::field(shown.stem, number, "npy");
+            write_npy(&self.directory.file(&name), &field.nodes, &field.values)?;
+            written.push(name);
+        }
+        Ok(written)
+    }
+
     fn chart(&mut self, name: &str, chart: &Chart) -> Result<(), RunError> {
         let style = &self.scene.output.plot;
         let drawn = self.plotter().and_then(|plotter| plotter.draw_chart(chart, style));
@@ -154,26 +217,28 @@ impl<'a> Pictures<'a> {
     }
 
     fn save(&self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
-        let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
-        self.directory.write(name, |writer| {
-            PngEncoder::new(writer)
-                .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
-                .map_err(io::Error::other)
-        })?;
-        Ok(())
+        save(self.directory, name, drawn)
     }
+}
+
+/// Writes a picture, which appears complete or not at all.
+pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+    let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
+    directory.write(name, |writer| {
+        PngEncoder::new(writer)
+            .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
+            .map_err(io::Error::other)
+    })?;
+    Ok(())
 }
 
 /// The part of a run after which temperatures are expected to have settled.
 const SETTLED: f64 = 0.1;
 
-/// Gives the temperatures the range that they have once the run has settled: where particles start at random places,
-/// the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns whether
-/// anything is off that scale.
-fn show_settled(chart: &mut Chart) -> bool {
-    let Some(panel) = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature")) else {
-        return false;
-    };
+/// Gives a panel of temperatures the range that they have once the run has settled: where particles start at random
+/// places, the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns
+/// whether anything is off that scale.
+pub(crate) fn show_settled(panel: &mut Panel) -> bool {
     let points = || panel.series.iter().flat_map(|series| &series.points).filter(|point| point[1].is_finite());
     let end = points().map(|point| point[0]).fold(0.0, f64::max);
     let settled = points().filter(|point| point[0] >= SETTLED * end).map(|point| point[1]);
@@ -237,11 +302,11 @@ mod tests {
             (0..100).map(|row| vec![f64::from(row), if row == 0 { 30.0 } else { 1.0 + 0.1 * f64::from(row % 2) }]);
         let mut table = EnergyTable { columns, rows: rows.collect() };
         let mut chart = energies_chart("hot", &table, 1, 1.0);
-        assert!(show_settled(&mut chart));
+        assert!(show_settled(&mut chart.panels[0]));
         assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.25 * (1.1 - 1.0), 1.1 + 0.25 * (1.1 - 1.0)]));
         table.rows[0][1] = 1.0;
         let mut chart = energies_chart("settled", &table, 1, 1.0);
-        assert!(!show_settled(&mut chart));
+        assert!(!show_settled(&mut chart.panels[0]));
         assert_eq!(chart.panels[0].y.range, None);
     }
 

@@ -1,6 +1,6 @@
 //! When a run has to stop for something.
 
-use crate::scene::Scene;
+use crate::scene::{Interaction, Scene};
 
 /// The steps of checkpoints, snapshots and frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,10 +14,14 @@ pub(super) struct Schedule {
 impl Schedule {
     pub(super) fn new(scene: &Scene) -> Self {
         let output = &scene.output;
+        let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
+        // Shallow water shows fields, all others particles.
+        let pictures =
+            if water { output.fields.as_ref().map_or(0, |fields| fields.every) } else { output.snapshot.every };
         Self {
             last: scene.time.steps,
             checkpoint: output.checkpoint.every.max(1),
-            snapshot: (output.snapshot.every > 0).then_some(output.snapshot.every),
+            snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
         }
     }

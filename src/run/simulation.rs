@@ -9,7 +9,7 @@ use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::measure::observables_of;
-use crate::model::Model;
+use crate::model::{Model, ShallowWater};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
@@ -198,6 +198,11 @@ pub(super) fn open_adapter(
     Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
 }
 
+/// Opens the adapter that a run of this scene would open.
+pub(crate) fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    open_adapter(scene, &Model::new(scene), choice, Options::default())
+}
+
 /// The plan of a scene on an adapter.
 pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
     let hardware = Hardware { subgroup_size: gpu.subgroup_size() };
@@ -323,11 +328,18 @@ impl<'a> Run<'a> {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
             }
-            if let Some(number) = number {
-                self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
-            }
-            if last {
-                self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+            if let Some(water) = &self.model.shallow_water {
+                let depth = mesh_depth(engine, water)?;
+                for number in number.map(Some).into_iter().chain(last.then_some(None)) {
+                    self.pictures.fields(number, &state, &depth, self.model, water)?;
+                }
+            } else {
+                if let Some(number) = number {
+                    self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+                }
+                if last {
+                    self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+                }
             }
         }
         Ok(())
@@ -382,6 +394,12 @@ impl<'a> Run<'a> {
         let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }
+}
+
+/// The smoothed depth on the nodes of the mesh, right after a report.
+pub(super) fn mesh_depth(engine: &mut Engine<'_>, water: &ShallowWater) -> Result<Vec<f64>, RunError> {
+    let words = engine.words("depths")?;
+    Ok(words.iter().take(water.nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
 
 /// Name of the section of a checkpoint that holds the sums behind the configurational temperature.

@@ -25,15 +25,24 @@ use super::{Scene, builtin, overrides, semantics, shape, text};
 /// No such scene, a file that cannot be read, text that is not JSON, an override that does not fit, or
 /// [`SceneError::Invalid`] with all mistakes at once.
 pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    let (name, text) = read(source)?;
+    parse(&name, &text, overrides)
+}
+
+/// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
+///
+/// # Errors
+/// No such scene, a file that cannot be read or is not text.
+pub fn read(source: &str) -> Result<(String, String), SceneError> {
     let path = Path::new(source);
     // A directory of a scene's name is the likely place of its last run, not a scene.
     if path.exists() && !path.is_dir() {
         let bytes = std::fs::read(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
         let text = String::from_utf8(bytes).map_err(|error| not_text(source, &error))?;
-        return parse(source, &text, overrides);
+        return Ok((source.to_owned(), text));
     }
     match builtin().iter().find(|scene| scene.name == source) {
-        Some(scene) => parse(scene.name, scene.text, overrides),
+        Some(scene) => Ok((scene.name.to_owned(), scene.text.to_owned())),
         None => Err(unknown_builtin(source)),
     }
 }

@@ -20,7 +20,8 @@ mod warnings;
 
 pub use builtin::{Builtin, builtin};
 pub use error::{Problem, SceneError, Warning};
-pub use load::{load, parse, schema, unknown_builtin};
+pub use load::{load, parse, read, schema, unknown_builtin};
+pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
 pub use warnings::warnings;

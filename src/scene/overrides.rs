@@ -52,7 +52,7 @@ fn set(document: &mut Value, argument: &str) -> Result<(), String> {
 }
 
 /// JSON where it is JSON; a number as people write numbers (`.5`, `+2`); otherwise text.
-fn value(text: &str) -> Result<Value, String> {
+pub(crate) fn value(text: &str) -> Result<Value, String> {
     if let Ok(value) = serde_json::from_str(text) {
         return Ok(value);
     }

@@ -8,7 +8,7 @@ use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
-use mesoscope::reference::Reference;
+use mesoscope::reference::{Reference, ShallowWaterReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -61,6 +61,32 @@ pub fn water(changes: &[&str]) -> Scene {
     }
 }
 
+/// Water at rest on a mesh of 16² nodes with the parameters of Cotter and Reich, with other values merged in.
+pub fn still_water(changes: &[&str]) -> Scene {
+    let text = r#"{
+        "title": "test", "space": {"box": [6.283185307179586, 6.283185307179586]}, "time": {"step": 0.01, "steps": 1},
+        "temperature": 0, "output": {"energies": {"every": 1}},
+        "particles": [{"species": "water", "count": 1024, "placement": {"type": "lattice"},
+            "velocities": {"type": "rest"}}],
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6.283185307179586,
+            "rotation": 6.283185307179586, "smoothing": {"length": 1.5707963267948966}}]
+    }"#;
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", text, &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// The built-in shear flow, with other values merged in.
+pub fn shear_flow(changes: &[&str]) -> Scene {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::load("shallow-water", &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
 /// A scene's model and initial state.
 pub fn start(scene: &Scene) -> (Model, State) {
     let model = Model::new(scene);
@@ -79,6 +105,12 @@ pub fn engine(scene: &Scene, state: &State, options: Options) -> Engine<'static>
 /// A reference for a scene.
 pub fn reference(scene: &Scene, state: &State) -> Reference {
     Reference::new(Model::new(scene), state.clone())
+}
+
+/// A reference for a scene of shallow water.
+pub fn water_reference(scene: &Scene) -> ShallowWaterReference {
+    let (model, state) = start(scene);
+    ShallowWaterReference::new(model, state).expect("a scene of shallow water")
 }
 
 /// The largest difference of any momentum or position, in integer units.
@@ -121,6 +153,8 @@ pub trait Implementation {
     fn name(&self) -> &'static str;
     /// Advances by a number of steps.
     fn step(&mut self, steps: u64);
+    /// Advances by a number of steps, and says whether the run was stable.
+    fn attempt(&mut self, steps: u64) -> bool;
     /// Observables of the current step; on the device only of steps that `output.energies.every` divides.
     fn observe(&mut self) -> Observables;
     /// The particles at the current step with full-step momenta.
@@ -147,6 +181,10 @@ impl Implementation for Reference {
         self.run(steps).unwrap();
     }
 
+    fn attempt(&mut self, steps: u64) -> bool {
+        self.run(steps).is_ok()
+    }
+
     fn observe(&mut self) -> Observables {
         Reference::observe(self).unwrap()
     }
@@ -157,6 +195,32 @@ impl Implementation for Reference {
 
     fn state(&mut self) -> State {
         Reference::state(self).clone()
+    }
+}
+
+impl Implementation for ShallowWaterReference {
+    fn name(&self) -> &'static str {
+        "reference"
+    }
+
+    fn step(&mut self, steps: u64) {
+        self.run(steps).unwrap();
+    }
+
+    fn attempt(&mut self, steps: u64) -> bool {
+        self.run(steps).is_ok()
+    }
+
+    fn observe(&mut self) -> Observables {
+        ShallowWaterReference::observe(self).unwrap()
+    }
+
+    fn reported(&mut self) -> State {
+        self.reported_state().unwrap()
+    }
+
+    fn state(&mut self) -> State {
+        ShallowWaterReference::state(self).clone()
     }
 }
 
@@ -191,6 +255,10 @@ impl Implementation for Device {
 
     fn step(&mut self, steps: u64) {
         self.engine.advance(steps, BATCH).unwrap();
+    }
+
+    fn attempt(&mut self, steps: u64) -> bool {
+        self.engine.advance(steps, BATCH).is_ok() && self.engine.state().is_ok()
     }
 
     fn observe(&mut self) -> Observables {

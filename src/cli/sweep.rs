@@ -1,0 +1,146 @@
+//! `mesoscope sweep`: runs of one scene that differ in a few values.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::run::RunError;
+use mesoscope::sweep::{Look, Sweep, SweepError, SweepOutcome, SweepRun};
+
+use super::sweep_report::{self, Reporter};
+use super::{Failure, print, report};
+
+/// Run variants of a scene, and compare them in one table and one plot per quantity
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  mesoscope sweep dpd-fluid --vary interactions.0.friction=1,4.5,20
+  mesoscope sweep dpd-fluid --vary time.step=0.02,0.04 --vary integrator.type=splitting,groot-warren
+  mesoscope sweep dpd-fluid --vary 'space.box=[8,8,8],[10,10,10]' --steps 500 --plot pressure --out boxes
+  mesoscope sweep dpd-fluid --vary interactions.0.friction=1,4.5 --also interactions.0.friction=0,temperature=0
+  mesoscope sweep --resume dpd-fluid-sweep               finish a sweep that was interrupted
+  mesoscope sweep --resume dpd-fluid-sweep --relative    the same plots, every quantity over its first value
+
+Every variant has a directory of its own, `friction=4.5`, which `mesoscope resume` and `mesoscope plot` understand.
+A variant that becomes unstable does not stop the others; the exit code is then 4.")]
+pub struct Arguments {
+    /// A scene file, or the name of a built-in scene (see `mesoscope scenes`)
+    #[arg(required_unless_present = "resume")]
+    scene: Option<String>,
+
+    /// A key of the scene and the values to try. Repeated, every combination is run. A value is JSON, or else text;
+    /// the path is as in `--set`
+    #[arg(long, value_name = "PATH=VALUE,…", required_unless_present = "resume")]
+    vary: Vec<String>,
+
+    /// One more variant beside the combinations, with settings of its own; may be repeated
+    #[arg(long, value_name = "PATH=VALUE,…")]
+    also: Vec<String>,
+
+    /// Change one value in all variants, as for `mesoscope run`; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+
+    /// Number of steps; short for `--set time.steps=N`
+    #[arg(long, value_name = "N")]
+    steps: Option<u64>,
+
+    /// Directory for all variants [default: the scene's name and `-sweep`, in the working directory]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Finish the sweep in this directory: run the variants that are missing, draw the plots again
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "vary", "also", "set", "steps", "out", "force"])]
+    resume: Option<PathBuf>,
+
+    /// Plot every quantity divided by its own first value
+    #[arg(long)]
+    relative: bool,
+
+    /// Plot this column of the tables of energies; may be repeated [default: all that change]
+    #[arg(long, value_name = "QUANTITY")]
+    plot: Vec<String>,
+
+    /// Variants to run at once [default: 2 on a software adapter for fewer than 16,000 particles, where that is about
+    /// 1.2 times as fast; otherwise 1]. Results do not depend on it
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+
+    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
+    /// [default: the best one]
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+
+    /// Overwrite the results of an earlier sweep in the directory
+    #[arg(long)]
+    force: bool,
+
+    /// Report errors only
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the variants.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let look = Look { relative: arguments.relative, quantities: arguments.plot.clone() };
+    let (run, directory) = if let Some(directory) = &arguments.resume {
+        let look = (look != Look::default()).then_some(look);
+        (SweepRun::resume(directory, look)?, directory.clone())
+    } else {
+        // The scene is there, or the command line would have been refused.
+        let scene = arguments.scene.as_deref().unwrap_or_default();
+        let steps = arguments.steps.map(|steps| format!("time.steps={steps}"));
+        let set: Vec<String> = arguments.set.iter().cloned().chain(steps).collect();
+        let sweep = Sweep::load(scene, &set, &arguments.vary, &arguments.also)?;
+        let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-sweep", report::stem(scene)).into());
+        (SweepRun::start(sweep, &directory, look, arguments.force), directory)
+    };
+    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
+    let jobs = arguments.jobs.map(NonZeroUsize::get);
+    let outcome = if arguments.quiet {
+        run.execute(&choice, jobs, &mut |_| {})?
+    } else {
+        let mut reporter = Reporter::new(run.sweep().clone());
+        reporter.warn();
+        let executed = run.execute(&choice, jobs, &mut |event| reporter.tell(event));
+        reporter.clear();
+        let outcome = executed?;
+        print(&sweep_report::results(&outcome, &directory.display().to_string()))?;
+        outcome
+    };
+    failures(&outcome)
+}
+
+/// What failed, with the exit code of the worst.
+fn failures(outcome: &SweepOutcome) -> Result<(), Failure> {
+    if outcome.failures.is_empty() {
+        return Ok(());
+    }
+    let (failed, all) = (outcome.failures.len(), outcome.summary.variants.len());
+    let messages = outcome.failures.iter().map(|(variant, error)| {
+        let name = &outcome.summary.variants[*variant].name;
+        format!("\n`{name}`: {error}")
+    });
+    let text = format!("{failed} of {all} variants failed:{}", messages.collect::<String>());
+    // Instability says something about the scene; anything else, about the machine, and comes first.
+    let others = outcome.failures.iter().find(|(_, error)| !matches!(error, RunError::Unstable { .. }));
+    Err(others.map_or_else(|| Failure::unstable(&text), |(_, error)| Failure::of_run(error, &text)))
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Scene(error) => error.into(),
+            SweepError::Gpu(error) => error.into(),
+            SweepError::Run(error) => error.into(),
+            SweepError::Variants { .. } => Self::usage(format!(
+                "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
+            )),
+            SweepError::Arguments { .. } | SweepError::Quantity { .. } => Self::usage(error.to_string()),
+            SweepError::Output(mesoscope::output::OutputError::InTheWay { .. }) => Self::input_output(format!(
+                "{error}\nhint: `mesoscope sweep --resume DIR` finishes an interrupted sweep"
+            )),
+            _ => Self::input_output(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! One quantity of several runs in one chart.
+
+use super::chart::{Chart, Panel, Series, SeriesInk};
+
+/// One quantity of one run over time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Curve {
+    /// What tells the run from the others: `friction = 4.5`.
+    pub name: String,
+    /// Pairs of time and value; a value that is not finite is a gap.
+    pub points: Vec<[f64; 2]>,
+    /// What it is drawn with.
+    pub ink: SeriesInk,
+}
+
+/// More names than this would crowd out the curves.
+const MOST_NAMES: usize = 12;
+
+/// The curves of a quantity over each other, against time. Curves on a scale of colours are named at even distances
+/// where there are too many of them.
+#[must_use]
+pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, curves: Vec<Curve>) -> Chart {
+    let mut panel = Panel::new("Time (time units)", &quantity_label(quantity, relative));
+    let scaled = |curve: &Curve| matches!(curve.ink, SeriesInk::Scale { .. });
+    let on_scale = curves.iter().filter(|curve| scaled(curve)).count();
+    let mut place = 0;
+    for curve in curves {
+        let named = !scaled(&curve) || {
+            place += 1;
+            is_named(place - 1, on_scale)
+        };
+        let name = if named { curve.name.as_str() } else { "" };
+        panel.series.push(Series::line(name, curve.points).with_ink(curve.ink));
+    }
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
+}
+
+/// Whether one of `count` curves in order gets a name: every so many of them do, and the last.
+fn is_named(place: usize, count: usize) -> bool {
+    let every = count.saturating_sub(1).div_ceil(MOST_NAMES - 1).max(1);
+    let last = count.saturating_sub(1);
+    // One that would stand close to the last gives way to it.
+    place == last || place.is_multiple_of(every) && (every == 1 || last - place >= every.div_ceil(2))
+}
+
+/// The label of an axis for a column of the table of energies, with its unit.
+///
+/// ```
+/// use mesoscope::plot::quantity_label;
+/// assert_eq!(quantity_label("total_energy", false), "Total energy (energy units)");
+/// assert_eq!(quantity_label("total_energy", true), "Total energy relative to its first value");
+/// ```
+#[must_use]
+pub fn quantity_label(quantity: &str, relative: bool) -> String {
+    let spaced = quantity.replace("center", "centre").replace('_', " ");
+    let mut letters = spaced.chars();
+    let name: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
+    if relative {
+        return format!("{name} relative to its first value");
+    }
+    let unit = if quantity.contains("energy") || quantity.contains("temperature") {
+        "energy units"
+    } else if quantity.contains("velocity") {
+        "velocity units"
+    } else if quantity.contains("momentum") {
+        "momentum units"
+    } else {
+        "reduced units"
+    };
+    format!("{name} ({unit})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(name: &str, ink: SeriesInk) -> Curve {
+        Curve { name: name.to_owned(), points: vec![[0.0, 1.0]], ink }
+    }
+
+    #[test]
+    fn few_curves_are_all_named_and_many_at_even_distances() {
+        assert!((0..12).all(|place| is_named(place, 12)));
+        for count in [13, 16, 20, 30, 99, 1000] {
+            let named: Vec<usize> = (0..count).filter(|place| is_named(*place, count)).collect();
+            assert_eq!((named[0], named[named.len() - 1]), (0, count - 1));
+            assert!((7..=12).contains(&named.len()), "{named:?}");
+            let mut steps: Vec<usize> = named.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            let last = steps.pop().unwrap_or(0);
+            assert!(steps.iter().all(|step| *step == steps[0]), "{named:?}");
+            assert!(2 * last >= steps[0] && last < 2 * steps[0], "{named:?}");
+        }
+    }
+
+    #[test]
+    fn a_curve_to_compare_with_keeps_its_name() {
+        let scale = |number: usize| SeriesInk::Scale { place: number as f64 / 29.0, pattern: 0 };
+        let mut curves: Vec<Curve> = (0..30).map(|number| curve(&format!("{number}"), scale(number))).collect();
+        curves.push(curve("limit", SeriesInk::Ink { pattern: 1 }));
+        let chart = overlay_chart("t", "s", "total_energy", true, curves);
+        let panel = &chart.panels[0];
+        assert_eq!(panel.series.len(), 31);
+        assert_eq!(panel.series.iter().filter(|series| !series.name.is_empty()).count(), 11 + 1);
+        assert_eq!(panel.series[30].name, "limit");
+        assert_eq!(panel.x.label, "Time (time units)");
+    }
+
+    #[test]
+    fn every_quantity_has_a_unit() {
+        for (quantity, label) in [
+            ("configurational_temperature", "Configurational temperature (energy units)"),
+            ("pressure", "Pressure (reduced units)"),
+            ("momentum_x", "Momentum x (momentum units)"),
+            ("center_of_mass_velocity_y", "Centre of mass velocity y (velocity units)"),
+        ] {
+            assert_eq!(quantity_label(quantity, false), label);
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! The circulations of material loops over a run.
+
+use super::analyses::bytes;
+use crate::engine::Sample;
+use crate::measure::circulation::circulation;
+use crate::model::{Model, ShallowWater};
+use crate::output::Table;
+use crate::state::Units;
+use serde_json::{Map, Value, json};
+use std::ops::Range;
+
+/// Circulations of all closed loops, one row a sample.
+pub(super) struct Circulations {
+    units: Units,
+    rotation: f64,
+    time_step: f64,
+    /// Name and place among the tracers.
+    loops: Vec<(String, Range<usize>)>,
+    /// Time and circulations.
+    rows: Vec<Vec<f64>>,
+}
+
+impl Circulations {
+    pub(super) fn new(model: &Model, water: &ShallowWater) -> Self {
+        let first = water.carriers as usize;
+        let place = |range: Range<usize>| range.start - first..range.end - first;
+        Self {
+            units: model.units,
+            rotation: water.rotation,
+            time_step: model.time_step,
+            loops: water.closed_loops().map(|(name, range)| (name.to_owned(), place(range))).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.loops.is_empty()
+    }
+
+    /// Adds a sample of all tracers: position and velocity of each, two integers a word.
+    pub(super) fn add(&mut self, sample: &Sample) {
+        let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
+        let mut row = vec![sample.step as f64 * self.time_step];
+        for (_, range) in &self.loops {
+            let Some(words) = sample.sums.get(2 * range.start..2 * range.end) else { return };
+            let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+            for point in words.chunks_exact(2) {
+                let ([x, y], [u, v]) = (halves(&point[0]), halves(&point[1]));
+                positions.push([x, y, 0]);
+                velocities.push([u as i32, v as i32, 0]);
+            }
+            row.push(circulation(&self.units, &positions, &velocities, self.rotation));
+        }
+        self.rows.push(row);
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let names = std::iter::once("time").chain(self.loops.iter().map(|(name, _)| name.as_str()));
+        Table { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
+    }
+
+    /// First value and largest relative change of each loop.
+    pub(super) fn result(&self) -> Value {
+        let result = |(index, (name, _)): (usize, &(String, Range<usize>))| {
+            let values = || self.rows.iter().map(move |row| row[index + 1]);
+            let first = values().next().unwrap_or(f64::NAN);
+            let change = values().map(|value| (value / first - 1.0).abs()).fold(0.0, f64::max);
+            (name.clone(), json!({ "initial": first, "largest_relative_change": change }))
+        };
+        Value::Object(self.loops.iter().enumerate().map(result).collect::<Map<_, _>>())
+    }
+
+    pub(super) fn section(&self) -> Vec<u8> {
+        bytes(self.rows.iter().flatten().copied())
+    }
+
+    pub(super) fn restore(&mut self, numbers: &[f64]) {
+        self.rows = numbers.chunks_exact(1 + self.loops.len()).map(<[f64]>::to_vec).collect();
+    }
+}

@@ -1,0 +1,71 @@
+//! The directory of a sweep: made, cleared, opened again.
+
+use super::expansion::Sweep;
+use super::files;
+use super::summary::SweepSummary;
+use crate::output::{OutputError, RunDirectory};
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// Creates the directory of a sweep and makes sure that it can be written to. With `force`, the runs and files of an
+/// earlier sweep there, or of a single run, are removed; anything else is left alone.
+///
+/// # Errors
+/// [`OutputError::InTheWay`] when there are such files and `force` is not given; [`OutputError::Io`].
+pub(super) fn create(path: &Path, sweep: &Sweep, force: bool) -> Result<(), OutputError> {
+    let in_the_way = in_the_way(path, sweep)?;
+    if let (false, Some(first)) = (force, in_the_way.first()) {
+        return Err(OutputError::InTheWay { path: first.clone() });
+    }
+    let earlier = SweepSummary::load(path).map(|summary| summary.variants).unwrap_or_default();
+    RunDirectory::create(path, force)?;
+    let names = earlier.iter().map(|variant| &variant.name).chain(sweep.variants().iter().map(|variant| &variant.name));
+    for directory in names.filter(|name| is_plain(name)).map(|name| path.join(name)) {
+        if directory.is_dir() {
+            RunDirectory::create(&directory, true)?;
+            // What else is in there belongs to the user, and so does then the directory.
+            let _ = fs::remove_dir(&directory);
+        }
+    }
+    for file in in_the_way.iter().filter(|path| path.is_file()) {
+        fs::remove_file(file).map_err(OutputError::io("replace", file))?;
+    }
+    Ok(())
+}
+
+/// Files of an earlier sweep, and what has the name of a variant's directory; sorted.
+fn in_the_way(path: &Path, sweep: &Sweep) -> Result<Vec<PathBuf>, OutputError> {
+    let entries = match fs::read_dir(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(OutputError::io("list the directory", path))?,
+    };
+    let mut found = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(OutputError::io("list the directory", path))?;
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        if files::is_of_a_sweep(&name) || sweep.variants().iter().any(|variant| variant.name == name) {
+            found.push(entry.path());
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Whether a name leads into the directory of the sweep and nowhere else.
+fn is_plain(name: &str) -> bool {
+    let mut components = Path::new(name).components();
+    matches!((components.next(), components.next()), (Some(Component::Normal(_)), None))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_lead_elsewhere_are_left_alone() {
+        assert!(is_plain("friction=4.5"));
+        for name in ["", ".", "..", "a/b", "/tmp", "../friction=4.5"] {
+            assert!(!is_plain(name), "{name}");
+        }
+    }
+}

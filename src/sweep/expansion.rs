@@ -1,0 +1,287 @@
+//! From what is to be varied to checked variants.
+
+use super::error::{Mistake, SweepError};
+use super::naming;
+use super::variation::{Setting, Variation, settings};
+use crate::scene::{self, Scene, SceneError};
+use serde_json::Value;
+
+/// More variants than this are taken for a slip.
+const MOST_VARIANTS: usize = 4096;
+
+/// A scene, what is varied in it, and the variants that follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// File or built-in name of the scene.
+    pub(super) scene: String,
+    /// The scene as it was written.
+    pub(super) base: Value,
+    /// Overrides that apply to all variants.
+    pub(super) set: Vec<String>,
+    pub(super) vary: Vec<Variation>,
+    pub(super) also: Vec<Vec<Setting>>,
+    variants: Vec<Variant>,
+}
+
+/// One scene of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Variant {
+    /// Name of its directory: `friction=4.5`.
+    pub name: String,
+    /// What a legend calls it: `friction = 4.5`.
+    pub label: String,
+    /// What distinguishes it.
+    pub settings: Vec<Setting>,
+    /// The scene, with every default filled in.
+    pub scene: Scene,
+    /// Number of the value of each variation; empty for a variant that stands beside them.
+    pub(super) places: Vec<usize>,
+}
+
+impl Sweep {
+    /// Varies the scene in the file `source`, or the built-in scene of that name.
+    ///
+    /// Each of `vary` is a key with its values, `key=value,value,…` (see [`Variation::parse`]); there is a variant for
+    /// every combination, the last key varying fastest. Each of `also` is one more variant beside these, with settings
+    /// `key=value,key=value,…` of its own. The overrides `set` apply to all of them, first.
+    ///
+    /// # Errors
+    /// [`SweepError::Arguments`] or [`SweepError::Variants`] with all mistakes at once; [`SweepError::Scene`] when there is no
+    /// such scene.
+    ///
+    /// ```
+    /// use mesoscope::sweep::Sweep;
+    /// let vary = ["interactions.0.friction=1,4.5", "time.step=0.02,0.04"].map(str::to_owned);
+    /// let sweep = Sweep::load("dpd-fluid", &[], &vary, &[])?;
+    /// assert_eq!(sweep.variants()[1].name, "friction=1,step=0.04");
+    /// # Ok::<(), mesoscope::sweep::SweepError>(())
+    /// ```
+    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, SweepError> {
+        let (name, text) = scene::read(source).map_err(SweepError::Scene)?;
+        let mut mistakes = Vec::new();
+        let mut read = Vec::new();
+        for argument in vary {
+            match Variation::parse(argument) {
+                Ok(variation) => read.push(variation),
+                Err(message) => mistakes.push(format!("`--vary {argument}`: {message}")),
+            }
+        }
+        let mut beside = Vec::new();
+        for argument in also {
+            match settings(argument) {
+                Ok(settings) => beside.push(settings),
+                Err(message) => mistakes.push(format!("`--also {argument}`: {message}")),
+            }
+        }
+        for (index, variation) in read.iter().enumerate() {
+            let inside = |outer: &str, inner: &str| inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with('.'));
+            for earlier in &read[..index] {
+                let (one, other) = (earlier.key.as_str(), variation.key.as_str());
+                if one == other {
+                    mistakes.push(format!("`{one}` is varied twice; name all its values in one `--vary`"));
+                } else if inside(other, one) {
+                    mistakes.push(format!("`{other}` replaces `{one}`, which is varied before it: vary one of them"));
+                }
+            }
+        }
+        if vary.is_empty() {
+            mistakes.push("nothing is varied; accepted: `--vary key=value,value,…`".to_owned());
+        }
+        let count = read.iter().try_fold(1_usize, |count, variation| count.checked_mul(variation.values.len()));
+        if count.is_none_or(|count| count > MOST_VARIANTS) {
+            mistakes.push(format!("there are more than {MOST_VARIANTS} combinations of values to vary"));
+        }
+        if !mistakes.is_empty() {
+            return Err(SweepError::Arguments { mistakes });
+        }
+        let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
+            // The reader of scenes says what is wrong in better words.
+            return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene));
+        };
+        let variants = expand(&name, &text, set, &read, &beside)?;
+        Ok(Self { scene: name, base, set: set.to_vec(), vary: read, also: beside, variants })
+    }
+
+    /// The sweep of a summary.
+    pub(super) fn again(
+        scene: String,
+        base: Value,
+        set: Vec<String>,
+        vary: Vec<Variation>,
+        also: Vec<Vec<Setting>>,
+    ) -> Result<Self, SweepError> {
+        let variants = expand(&scene, &base.to_string(), &set, &vary, &also)?;
+        Ok(Self { scene, base, set, vary, also, variants })
+    }
+
+    /// The variants, in order.
+    #[must_use]
+    pub fn variants(&self) -> &[Variant] {
+        &self.variants
+    }
+
+    /// The keys that are varied and their values.
+    #[must_use]
+    pub fn variations(&self) -> &[Variation] {
+        &self.vary
+    }
+
+    /// All keys that distinguish variants, in order.
+    pub(super) fn keys(&self) -> Vec<&str> {
+        keys(&self.vary, &self.also)
+    }
+}
+
+fn unreadable() -> SweepError {
+    SweepError::Arguments { mistakes: vec!["the scene is not JSON".to_owned()] }
+}
+
+fn keys<'a>(vary: &'a [Variation], also: &'a [Vec<Setting>]) -> Vec<&'a str> {
+    let mut keys: Vec<&str> = Vec::new();
+    let varied = vary.iter().map(|variation| variation.key.as_str());
+    for key in varied.chain(also.iter().flatten().map(|setting| setting.key.as_str())) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys
+}
+
+/// Every combination of places, the last varying fastest.
+fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
+    counts.iter().fold(vec![Vec::new()], |combinations, count| {
+        let longer = |places: &Vec<usize>| {
+            let places = places.clone();
+            (0..*count).map(move |place| [places.as_slice(), &[place]].concat())
+        };
+        combinations.iter().flat_map(longer).collect()
+    })
+}
+
+fn expand(
+    name: &str,
+    text: &str,
+    set: &[String],
+    vary: &[Variation],
+    also: &[Vec<Setting>],
+) -> Result<Vec<Variant>, SweepError> {
+    let counts: Vec<usize> = vary.iter().map(|variation| variation.values.len()).collect();
+    let combined = combinations(&counts).into_iter().map(|places| {
+        let setting = |(variation, place): (&Variation, &usize)| Setting {
+            key: variation.key.clone(),
+            value: variation.values[*place].clone(),
+        };
+        (vary.iter().zip(&places).map(setting).collect::<Vec<_>>(), places)
+    });
+    let beside = also.iter().map(|settings| (settings.clone(), Vec::new()));
+    let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(beside).collect();
+    let keys = keys(vary, also);
+    let short_keys = naming::short_keys(&keys);
+    let short = |key: &str| {
+        keys.iter().position(|known| *known == key).map_or_else(|| key.to_owned(), |index| short_keys[index].clone())
+    };
+    let names = naming::distinct(all.iter().map(|(settings, _)| naming::directory(settings, short)).collect());
+    let mut variants = Vec::new();
+    let mut mistakes: Vec<Mistake> = Vec::new();
+    for ((settings, places), variant) in all.into_iter().zip(names) {
+        let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
+        match scene::parse(name, text, &overrides) {
+            Ok(scene) => {
+                let label = naming::label(&settings, short);
+                variants.push(Variant { name: variant, label, settings, scene, places });
+            }
+            Err(error @ SceneError::Read { .. }) => return Err(SweepError::Scene(error)),
+            Err(error) => {
+                let message = error.to_string();
+                match mistakes.iter_mut().find(|known| known.message == message) {
+                    Some(known) => known.variants.push(variant),
+                    None => mistakes.push(Mistake { variants: vec![variant], message }),
+                }
+            }
+        }
+    }
+    if mistakes.is_empty() { Ok(variants) } else { Err(SweepError::Variants { mistakes }) }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn sweep(vary: &[&str], also: &[&str]) -> Result<Sweep, SweepError> {
+        let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        Sweep::load("dpd-fluid", &owned(&["time.equilibration=0", "time.steps=100"]), &owned(vary), &owned(also))
+    }
+
+    fn names(sweep: &Sweep) -> Vec<&str> {
+        sweep.variants().iter().map(|variant| variant.name.as_str()).collect()
+    }
+
+    #[test]
+    fn several_keys_make_a_product() {
+        let found = sweep(&["interactions.0.friction=1,4.5", "time.step=.01,.02,.04"], &[]).unwrap();
+        assert_eq!(
+            names(&found),
+            [
+                "friction=1,step=0.01",
+                "friction=1,step=0.02",
+                "friction=1,step=0.04",
+                "friction=4.5,step=0.01",
+                "friction=4.5,step=0.02",
+                "friction=4.5,step=0.04"
+            ]
+        );
+        let last = &found.variants()[5];
+        assert_eq!((last.scene.time.step, last.scene.time.steps), (0.04, 100));
+        assert_eq!((last.label.as_str(), last.places.as_slice()), ("friction = 4.5, step = 0.04", &[1, 2][..]));
+    }
+
+    #[test]
+    fn a_variant_may_stand_beside_the_product() {
+        let found = sweep(&["interactions.0.friction=1,2"], &["integrator.type=cotter-reich,time.step=.01"]).unwrap();
+        assert_eq!(names(&found), ["friction=1", "friction=2", "type=cotter-reich,step=0.01"]);
+        assert_eq!(found.variants()[2].scene.time.step, 0.01);
+        assert_eq!(found.keys(), ["interactions.0.friction", "integrator.type", "time.step"]);
+    }
+
+    #[test]
+    fn a_sweep_is_the_same_when_it_is_read_again() {
+        let found = sweep(&["temperature=0.1,.30000000000000004", "space.box=[6,6,6],[7,7,7]"], &[]).unwrap();
+        let text = serde_json::to_string(&(&found.base, &found.vary, &found.also)).unwrap();
+        let (base, vary, also) = serde_json::from_str(&text).unwrap();
+        let again = Sweep::again(found.scene.clone(), base, found.set.clone(), vary, also).unwrap();
+        assert_eq!(again, found);
+    }
+
+    #[test]
+    fn all_mistakes_are_named_with_their_variants() {
+        let error = sweep(&["interactions.0.friction=-1,4.5,-2", "time.step=0,.04"], &[]).unwrap_err();
+        let SweepError::Variants { mistakes } = &error else { unreachable!("{error}") };
+        assert_eq!(mistakes.iter().map(|mistake| mistake.variants.len()).sum::<usize>(), 5);
+        let text = error.to_string();
+        for part in ["variant `friction=-1,step=0`: ", "`friction=4.5,step=0`", "found -2", "time.step: found 0"] {
+            assert!(text.contains(part), "`{part}` is not in: {text}");
+        }
+        // A mistake of all is said once.
+        let text = sweep(&["interactions.0.fricton=1,2"], &[]).unwrap_err().to_string();
+        assert_eq!(text.matches("did you mean `friction`").count(), 1, "{text}");
+        assert!(text.starts_with("variants `fricton=1`, `fricton=2`: "), "{text}");
+    }
+
+    #[test]
+    fn wrong_arguments_are_named_all_at_once() {
+        let text = sweep(&["time.step", "temperature=1,1"], &["seed"]).unwrap_err().to_string();
+        for part in ["`--vary time.step`", "`--vary temperature=1,1`", "twice", "`--also seed`"] {
+            assert!(text.contains(part), "`{part}` is not in: {text}");
+        }
+        assert!(sweep(&["seed=1,2", "seed=3,4"], &[]).unwrap_err().to_string().contains("varied twice"));
+        let text = sweep(&["time.step=1,2", r#"time={"step":1,"steps":1}"#], &[]).unwrap_err().to_string();
+        assert!(text.contains("`time` replaces `time.step`"), "{text}");
+        assert!(sweep(&[], &["seed=1"]).unwrap_err().to_string().contains("nothing is varied"));
+        let many: Vec<String> = (0..70).map(|number| number.to_string()).collect();
+        let many = [format!("seed={}", many.join(",")), format!("temperature={}", many.join(","))];
+        assert!(sweep(&[&many[0], &many[1]], &[]).unwrap_err().to_string().contains("more than 4096"));
+        assert!(matches!(Sweep::load("no-such", &[], &["seed=1".to_owned()], &[]), Err(SweepError::Scene(_))));
+    }
+}

@@ -1,0 +1,43 @@
+//! Sweeps: runs of one scene that differ in a few of its values.
+//!
+//! A [`Sweep`] is what the user asked for: a scene, and for some of its keys the values to try. It is expanded into
+//! variants, all of which are checked before anything runs. A [`SweepRun`] executes them, each into a directory of
+//! its own that is the directory of an ordinary run, and leaves a table (`sweep.csv`), a summary (`sweep.json`) and
+//! for every quantity of the tables of energies one plot of all variants (`sweep-total_energy.png`).
+//!
+//! A variant has the same bytes as the same scene run alone: variants under way at the same time share nothing but the
+//! adapter, each with a device of its own.
+//!
+//! ```no_run
+//! use mesoscope::gpu::AdapterChoice;
+//! use mesoscope::sweep::{Look, Sweep, SweepRun};
+//!
+//! let vary = ["interactions.0.friction=1,4.5,20".to_owned()];
+//! let sweep = Sweep::load("dpd-fluid", &[], &vary, &[])?;
+//! let outcome =
+//!     SweepRun::start(sweep, "frictions", Look::default(), false).execute(&AdapterChoice::Best, None, &mut |_| {})?;
+//! for variant in &outcome.summary.variants {
+//!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod concurrency;
+mod directory;
+mod error;
+mod expansion;
+pub mod files;
+mod naming;
+mod plots;
+mod run;
+mod summary;
+mod table;
+mod variation;
+
+pub use concurrency::default_jobs;
+pub use error::{Mistake, SweepError};
+pub use expansion::{Sweep, Variant};
+pub use plots::{Look, redraw};
+pub use run::{SweepEvent, SweepOutcome, SweepRun};
+pub use summary::{SweepSummary, VariantState, VariantSummary};
+pub use variation::{Setting, Variation};

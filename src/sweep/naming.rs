@@ -1,0 +1,147 @@
+//! Names of variants, for directories and for people.
+
+use super::Setting;
+use serde_json::Value;
+
+/// The variant that changes nothing.
+const UNCHANGED: &str = "unchanged";
+
+/// Longest name of a directory, in bytes; all common file systems take 255.
+const LONGEST: usize = 120;
+
+/// The shortest ends of paths that tell them apart: `friction` for `interactions.0.friction`. An end never begins with
+/// the index of a list.
+pub(super) fn short_keys(keys: &[&str]) -> Vec<String> {
+    let end = |key: &str, length: usize| -> String {
+        let parts: Vec<&str> = key.split('.').collect();
+        let mut first = parts.len().saturating_sub(length);
+        while first > 0 && parts[first].parse::<u64>().is_ok() {
+            first -= 1;
+        }
+        parts[first..].join(".")
+    };
+    let short = |key: &&str| {
+        let unlike = |length: &usize| keys.iter().all(|other| other == key || end(other, *length) != end(key, *length));
+        let length = (1..=key.split('.').count()).find(unlike);
+        length.map_or_else(|| (*key).to_owned(), |length| end(key, length))
+    };
+    keys.iter().map(short).collect()
+}
+
+/// What a legend says of a variant: `friction = 4.5, step = 0.02`.
+pub(super) fn label(settings: &[Setting], short: impl Fn(&str) -> String) -> String {
+    if settings.is_empty() {
+        return UNCHANGED.to_owned();
+    }
+    let parts: Vec<String> =
+        settings.iter().map(|setting| format!("{} = {}", short(&setting.key), readable(&setting.value))).collect();
+    parts.join(", ")
+}
+
+/// The name of the directory of a variant: `friction=4.5,step=0.02`.
+pub(super) fn directory(settings: &[Setting], short: impl Fn(&str) -> String) -> String {
+    if settings.is_empty() {
+        return UNCHANGED.to_owned();
+    }
+    let parts: Vec<String> = settings
+        .iter()
+        .map(|setting| format!("{}={}", portable(&short(&setting.key)), portable(&readable(&setting.value))))
+        .collect();
+    let mut name = parts.join(",");
+    // All of it is ASCII.
+    name.truncate(LONGEST);
+    name
+}
+
+/// The names, with a number added where one is taken already, whatever the case of its letters.
+pub(super) fn distinct(names: Vec<String>) -> Vec<String> {
+    let mut taken = std::collections::HashSet::new();
+    let mut number_of = |name: String| {
+        let mut found = name.clone();
+        let mut number = 2;
+        while !taken.insert(found.to_lowercase()) {
+            found = format!("{name}~{number}");
+            number += 1;
+        }
+        found
+    };
+    names.into_iter().map(&mut number_of).collect()
+}
+
+/// A value as people write it. An object that only says its type is called by it.
+pub(super) fn readable(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(list) => list.iter().map(readable).collect::<Vec<_>>().join(" × "),
+        Value::Object(object) => {
+            let part = |(key, value): (&String, &Value)| match (key.as_str(), value) {
+                ("type", Value::String(kind)) => kind.clone(),
+                _ => format!("{key} {}", readable(value)),
+            };
+            object.iter().map(part).collect::<Vec<_>>().join(" ")
+        }
+        other => other.to_string(),
+    }
+}
+
+/// A text with nothing but characters that every file system and shell takes as they are.
+fn portable(text: &str) -> String {
+    let text = text.replace(" × ", "x");
+    let mut name: String =
+        text.chars().map(|c| if c.is_ascii_alphanumeric() || "+-._".contains(c) { c } else { '-' }).collect();
+    if name.is_empty() {
+        name.push('-');
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn named(settings: &[(&str, Value)]) -> (String, String) {
+        let settings: Vec<Setting> =
+            settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
+        let keys: Vec<&str> = settings.iter().map(|setting| setting.key.as_str()).collect();
+        let short = short_keys(&keys);
+        let find = |key: &str| short[keys.iter().position(|known| *known == key).unwrap_or(0)].clone();
+        (directory(&settings, find), label(&settings, find))
+    }
+
+    fn pair(directory: &str, label: &str) -> (String, String) {
+        (directory.to_owned(), label.to_owned())
+    }
+
+    #[test]
+    fn names_read_like_the_settings() {
+        assert_eq!(named(&[("interactions.0.friction", json!(4.5))]), pair("friction=4.5", "friction = 4.5"));
+        assert_eq!(
+            named(&[("time.step", json!(0.02)), ("integrator.type", json!("splitting"))]),
+            pair("step=0.02,type=splitting", "step = 0.02, type = splitting")
+        );
+        assert_eq!(named(&[("space.box", json!([5, 5, 2.5]))]), pair("box=5x5x2.5", "box = 5 × 5 × 2.5"));
+        assert_eq!(named(&[("space.box.0", json!(7))]), pair("box.0=7", "box.0 = 7"));
+        assert_eq!(
+            named(&[("integrator", json!({"type": "groot-warren", "lambda": 0.65}))]),
+            pair("integrator=groot-warren-lambda-0.65", "integrator = groot-warren lambda 0.65")
+        );
+        assert_eq!(named(&[]), pair("unchanged", "unchanged"));
+        assert_eq!(named(&[("title", json!("../a b/ü"))]).0, "title=..-a-b--");
+        assert_eq!(named(&[("title", json!(""))]).0, "title=-");
+        assert_eq!(named(&[("title", json!("x".repeat(1000)))]).0.len(), LONGEST);
+    }
+
+    #[test]
+    fn keys_that_end_alike_say_more() {
+        let keys = ["particles.0.mass", "particles.1.mass", "time.step"];
+        assert_eq!(short_keys(&keys), ["particles.0.mass", "particles.1.mass", "step"]);
+        assert_eq!(short_keys(&["a.b.every", "c.every", "every"]), ["b.every", "c.every", "every"]);
+    }
+
+    #[test]
+    fn a_name_that_is_taken_gets_a_number() {
+        let names = ["a", "b", "A", "a"].map(str::to_owned).to_vec();
+        assert_eq!(distinct(names), ["a", "b", "A~2", "a~3"]);
+    }
+}

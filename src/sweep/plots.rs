@@ -1,0 +1,235 @@
+//! One plot of all variants for every quantity.
+
+use super::error::SweepError;
+use super::expansion::{Sweep, Variant};
+use super::files;
+use super::summary::{SweepSummary, VariantState};
+use crate::gpu::{AdapterChoice, Gpu, Requirements};
+use crate::model::Model;
+use crate::output::{RunDirectory, Table, files as run_files, read_table};
+use crate::plot::{Curve, Plotter, SeriesInk, overlay_chart};
+use crate::run;
+use crate::scene::{self, PlotStyle};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// What the plots of a sweep show.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Look {
+    /// Every quantity is divided by its own first value.
+    pub relative: bool,
+    /// The quantities to plot; none means all that change in any variant.
+    pub quantities: Vec<String>,
+}
+
+impl Look {
+    /// Looks for quantities that no variant measures.
+    ///
+    /// # Errors
+    /// [`SweepError::Quantity`] names the first.
+    pub(super) fn check(&self, sweep: &Sweep) -> Result<(), SweepError> {
+        let mut accepted: Vec<String> = Vec::new();
+        for variant in sweep.variants() {
+            for quantity in run::quantities(&Model::new(&variant.scene)) {
+                if accepted.iter().all(|known| known != quantity) {
+                    accepted.push(quantity.to_owned());
+                }
+            }
+        }
+        match self.quantities.iter().find(|wanted| !accepted.contains(wanted)) {
+            Some(wanted) => Err(SweepError::Quantity { wanted: wanted.clone(), accepted }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A scale of colours says more than colours apart from more than this many values on.
+const FEW: usize = 5;
+
+/// Draws the plots of a sweep again from the tables it left, with changes to the look given as overrides of the scene
+/// (`output.plot.width=800`). Returns the names of the files written.
+///
+/// # Errors
+/// [`SweepError`] when there is no sweep in the directory, an override does not fit, or a plot cannot be drawn.
+pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, SweepError> {
+    let summary = SweepSummary::load(directory)?;
+    let sweep = summary.sweep()?;
+    let mut style = style(&sweep);
+    if !overrides.is_empty() {
+        let overrides = [summary.set.as_slice(), &first_settings(&sweep), overrides].concat();
+        let scene = scene::parse(&summary.scene, &summary.base.to_string(), &overrides);
+        style = scene.map_err(SweepError::Scene)?.output.plot;
+    }
+    let gpu = Gpu::open(choice, Requirements::default())?;
+    draw(directory, &sweep, &summary, &style, &gpu)
+}
+
+fn first_settings(sweep: &Sweep) -> Vec<String> {
+    sweep
+        .variants()
+        .first()
+        .map(|variant| variant.settings.iter().map(super::Setting::argument).collect())
+        .unwrap_or_default()
+}
+
+/// The look of the plots: that of the first variant.
+pub(super) fn style(sweep: &Sweep) -> PlotStyle {
+    sweep.variants().first().map(|variant| variant.scene.output.plot.clone()).unwrap_or_default()
+}
+
+/// Draws the plots of all variants that are finished.
+pub(super) fn draw(
+    directory: &Path,
+    sweep: &Sweep,
+    summary: &SweepSummary,
+    style: &PlotStyle,
+    gpu: &Gpu,
+) -> Result<Vec<String>, SweepError> {
+    let mut finished: Vec<(&Variant, Table)> = Vec::new();
+    for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
+        if ended.state == VariantState::Finished {
+            let table = read_table(&directory.join(&variant.name).join(run_files::ENERGIES))?;
+            finished.push((variant, table));
+        }
+    }
+    let look = &summary.plots;
+    let mut quantities: Vec<&str> = Vec::new();
+    for column in finished.iter().flat_map(|(_, table)| &table.columns) {
+        let asked = look.quantities.is_empty() || look.quantities.contains(column);
+        if asked && !["step", "time"].contains(&column.as_str()) && !quantities.contains(&column.as_str()) {
+            quantities.push(column);
+        }
+    }
+    let inks = inks(sweep);
+    let place = RunDirectory::open(directory)?;
+    let plotter = Plotter::new(gpu.device(), gpu.queue());
+    let plotter = plotter.map_err(|source| run::RunError::Plot { name: files::plot("*"), source })?;
+    let mut written = Vec::new();
+    for quantity in quantities {
+        let mut curves: Vec<Curve> = Vec::new();
+        for (variant, table) in &finished {
+            let Some(points) = points(table, quantity, look.relative) else { continue };
+            let index = sweep.variants().iter().position(|known| known.name == variant.name).unwrap_or(0);
+            curves.push(Curve { name: variant.label.clone(), points, ink: inks[index] });
+        }
+        if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
+            continue;
+        }
+        let title = finished.first().map_or("", |(variant, _)| variant.scene.title.as_str());
+        let mut chart = overlay_chart(title, &subtitle(sweep, summary), quantity, look.relative, curves);
+        let hot = quantity.contains("temperature") && !look.relative;
+        if hot && chart.panels.iter_mut().any(run::show_settled) {
+            chart.subtitle.push_str("; the start is off the scale");
+        }
+        let name = files::plot(quantity);
+        run::save(&place, &name, plotter.draw_chart(&chart, style))?;
+        written.push(name);
+    }
+    Ok(written)
+}
+
+/// What is varied, and what is not in the picture.
+fn subtitle(sweep: &Sweep, summary: &SweepSummary) -> String {
+    let keys: Vec<&str> = sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
+    let mut text = format!("{} varied", keys.join(", "));
+    for (state, words) in [(VariantState::Failed, "failed"), (VariantState::Waiting, "not finished")] {
+        let names: Vec<&str> =
+            summary.variants.iter().filter(|variant| variant.state == state).map(|v| v.label.as_str()).collect();
+        match names.as_slice() {
+            [] => {}
+            [only] => text = format!("{text}; {words}: {only}"),
+            several => text = format!("{text}; {} variants {words}", several.len()),
+        }
+    }
+    text
+}
+
+/// Pairs of time and value, or value over its own first; none where a column is missing or the first value is zero.
+fn points(table: &Table, quantity: &str, relative: bool) -> Option<Vec<[f64; 2]>> {
+    let (times, values) = (table.column("time")?, table.column(quantity)?);
+    let first = if relative { values.iter().copied().find(|value| value.is_finite())? } else { 1.0 };
+    (first != 0.0).then(|| times.into_iter().zip(values).map(|(time, value)| [time, value / first]).collect())
+}
+
+/// Whether there is more to see than one horizontal line.
+fn changes(curves: &[Curve]) -> bool {
+    let mut values =
+        curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]).filter(|value| value.is_finite());
+    let first = values.next();
+    values.any(|value| Some(value) != first)
+}
+
+/// What each variant is drawn with: where one key has more than a few numbers as values, and no other has, colours on
+/// a scale in the order of these numbers, and dashes for the other keys; variants beside them in the ink of the axes.
+fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
+    let numeric = |place: usize| sweep.variations()[place].values.iter().all(Value::is_number);
+    let many: Vec<usize> =
+        (0..sweep.variations().len()).filter(|place| sweep.variations()[*place].values.len() > FEW).collect();
+    let scaled = match many.as_slice() {
+        [only] if numeric(*only) => *only,
+        _ => return vec![SeriesInk::Own; sweep.variants().len()],
+    };
+    let values: Vec<f64> = sweep.variations()[scaled].values.iter().filter_map(Value::as_f64).collect();
+    let last = (values.len() - 1) as f64;
+    let place_on_scale = |index: usize| values.iter().filter(|value| **value < values[index]).count() as f64 / last;
+    let mut beside = 0;
+    let ink = |variant: &Variant| {
+        let Some(index) = variant.places.get(scaled) else {
+            beside += 1;
+            return SeriesInk::Ink { pattern: beside };
+        };
+        // Dashes count through the combinations of the other keys.
+        let others = (0..variant.places.len()).filter(|place| *place != scaled);
+        let pattern =
+            others.fold(0, |pattern, place| pattern * sweep.variations()[place].values.len() + variant.places[place]);
+        SeriesInk::Scale { place: place_on_scale(*index), pattern }
+    };
+    sweep.variants().iter().map(ink).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn inks_of(vary: &[&str], also: &[&str]) -> Vec<SeriesInk> {
+        let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        inks(&Sweep::load("dpd-fluid", &[], &owned(vary), &owned(also)).unwrap())
+    }
+
+    #[test]
+    fn many_numbers_are_colours_on_a_scale_in_their_order() {
+        let found = inks_of(&["interactions.0.friction=9,1,3,2,5,7"], &["temperature=0"]);
+        let places: Vec<f64> = [5, 0, 2, 1, 3, 4].iter().map(|rank| f64::from(*rank) / 5.0).collect();
+        for (ink, place) in found.iter().zip(&places) {
+            assert_eq!(*ink, SeriesInk::Scale { place: *place, pattern: 0 });
+        }
+        assert_eq!(found[6], SeriesInk::Ink { pattern: 1 });
+    }
+
+    #[test]
+    fn few_values_and_words_have_colours_of_their_own() {
+        assert_eq!(inks_of(&["seed=1,2,3,4,5"], &["seed=6"]), [SeriesInk::Own; 6]);
+        assert_eq!(inks_of(&["title=a,b,c,d,e,f"], &[]), [SeriesInk::Own; 6]);
+    }
+
+    #[test]
+    fn a_second_key_is_told_by_dashes() {
+        let found = inks_of(&["seed=1,2", "temperature=1,2,3,4,5,6"], &[]);
+        assert_eq!(found[0], SeriesInk::Scale { place: 0.0, pattern: 0 });
+        assert_eq!(found[11], SeriesInk::Scale { place: 1.0, pattern: 1 });
+    }
+
+    #[test]
+    fn relative_values_begin_with_one() {
+        let table = Table {
+            columns: ["step", "time", "a", "b"].map(str::to_owned).to_vec(),
+            rows: vec![vec![0.0, 0.0, 4.0, 0.0], vec![1.0, 0.5, 6.0, 1.0]],
+        };
+        assert_eq!(points(&table, "a", true).unwrap(), [[0.0, 1.0], [0.5, 1.5]]);
+        assert_eq!(points(&table, "a", false).unwrap(), [[0.0, 4.0], [0.5, 6.0]]);
+        assert_eq!(points(&table, "b", true), None);
+        assert_eq!(points(&table, "c", false), None);
+    }
+}

@@ -1,0 +1,266 @@
+//! A sweep from its first variant to its last plot.
+
+use super::directory;
+use super::error::SweepError;
+use super::expansion::{Sweep, Variant};
+use super::plots::{self, Look};
+use super::summary::{SweepSummary, VariantSummary};
+use super::{default_jobs, files, table};
+use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
+use crate::model::Model;
+use crate::output::summary::AdapterSummary;
+use crate::output::{Summary, files as run_files};
+use crate::run::{self, Event, Outcome, Progress, RunError, Simulation};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+/// A sweep to be executed, from the beginning or from where it was interrupted.
+#[derive(Debug, Clone)]
+pub struct SweepRun {
+    sweep: Sweep,
+    summary: SweepSummary,
+    directory: PathBuf,
+    beginning: Beginning,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Beginning {
+    New { force: bool },
+    Interrupted,
+}
+
+/// What an observer of a sweep is told.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum SweepEvent<'a> {
+    /// The adapter is open and the directory is ready.
+    Started {
+        /// The adapter.
+        adapter: &'a AdapterDescription,
+        /// Variants that are not finished yet.
+        waiting: usize,
+        /// How many of them run at once.
+        jobs: usize,
+    },
+    /// A variant begins, at this step.
+    Begun {
+        /// Its number.
+        variant: usize,
+        /// The step it begins with.
+        first_step: u64,
+    },
+    /// A variant has come further.
+    Advanced {
+        /// Its number.
+        variant: usize,
+        /// How far.
+        progress: Progress,
+    },
+    /// A variant is finished or has failed.
+    Ended {
+        /// Its number.
+        variant: usize,
+        /// What came out.
+        summary: &'a VariantSummary,
+    },
+    /// All variants have ended; the plots follow.
+    Finishing,
+}
+
+/// What a sweep leaves.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct SweepOutcome {
+    /// What `sweep.json` says.
+    pub summary: SweepSummary,
+    /// Numbers of the variants that failed, and why.
+    pub failures: Vec<(usize, RunError)>,
+    /// Names of the files of the sweep that are in its directory, beside the directories of the variants.
+    pub files: Vec<String>,
+}
+
+/// What a worker reports.
+enum Message {
+    Begun(u64),
+    Advanced(Progress),
+    Ended(Box<Result<Outcome, RunError>>),
+}
+
+impl SweepRun {
+    /// All variants from their first step, in directories below `directory`, which is created. With `force` an earlier
+    /// sweep there is replaced.
+    #[must_use]
+    pub fn start(sweep: Sweep, directory: impl Into<PathBuf>, look: Look, force: bool) -> Self {
+        let summary = SweepSummary::new(&sweep, look);
+        Self { sweep, summary, directory: directory.into(), beginning: Beginning::New { force } }
+    }
+
+    /// What is missing of the sweep in a directory: variants under way go on from their last checkpoints, those that
+    /// failed are tried again. The plots are drawn again, with another look where one is given.
+    ///
+    /// # Errors
+    /// [`SweepError::NoSweep`], and what [`Sweep::load`] and the files of the sweep give rise to.
+    pub fn resume(directory: impl Into<PathBuf>, look: Option<Look>) -> Result<Self, SweepError> {
+        let directory = directory.into();
+        let mut summary = SweepSummary::load(&directory)?;
+        let sweep = summary.sweep()?;
+        let look = look.unwrap_or_else(|| summary.plots.clone());
+        summary = SweepSummary { adapter: summary.adapter.take(), ..SweepSummary::new(&sweep, look) };
+        for (variant, entry) in sweep.variants().iter().zip(&mut summary.variants) {
+            if let Some(run) = finished(&directory.join(&variant.name), variant.scene.time.steps) {
+                entry.finish(&run);
+            }
+        }
+        Ok(Self { sweep, summary, directory, beginning: Beginning::Interrupted })
+    }
+
+    /// The sweep.
+    #[must_use]
+    pub fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+
+    /// Numbers of the variants that are not finished.
+    #[must_use]
+    pub fn waiting(&self) -> Vec<usize> {
+        let variants = self.summary.variants.iter().enumerate();
+        variants.filter(|(_, entry)| entry.state != super::VariantState::Finished).map(|(number, _)| number).collect()
+    }
+
+    /// Runs the variants that are not finished, `jobs` at once or as many as [`default_jobs`] says, and writes table,
+    /// summary and plots. Table and summary are up to date after every variant. A variant that fails does not stop the
+    /// others.
+    ///
+    /// # Errors
+    /// [`SweepError`]: no usable adapter, a quantity to plot that nobody measures, files of the sweep itself that
+    /// cannot be written. Failures of variants are in the outcome.
+    pub fn execute(
+        mut self,
+        choice: &AdapterChoice,
+        jobs: Option<usize>,
+        observer: &mut dyn FnMut(SweepEvent<'_>),
+    ) -> Result<SweepOutcome, SweepError> {
+        self.summary.plots.check(&self.sweep)?;
+        let waiting = self.waiting();
+        // Before the directory: an adapter that is not there should not cost an earlier sweep its files.
+        let (gpu, particles) = self.open_adapter(choice, &waiting)?;
+        if let Beginning::New { force } = self.beginning {
+            directory::create(&self.directory, &self.sweep, force)?;
+        }
+        let adapter = gpu.description();
+        if !waiting.is_empty() {
+            self.summary.adapter = Some(AdapterSummary {
+                name: adapter.name.clone(),
+                driver: adapter.driver.clone(),
+                backend: adapter.backend.clone(),
+            });
+        }
+        save(&self.directory, &self.sweep, &self.summary)?;
+        let jobs =
+            jobs.unwrap_or_else(|| default_jobs(adapter, particles, waiting.len())).clamp(1, waiting.len().max(1));
+        observer(SweepEvent::Started { adapter, waiting: waiting.len(), jobs });
+        let failures = self.run_all(&waiting, jobs, choice, observer)?;
+        observer(SweepEvent::Finishing);
+        let style = plots::style(&self.sweep);
+        let drawn = plots::draw(&self.directory, &self.sweep, &self.summary, &style, &gpu)?;
+        let files = [files::TABLE, files::SUMMARY].into_iter().map(str::to_owned).chain(drawn).collect();
+        Ok(SweepOutcome { summary: self.summary, failures, files })
+    }
+
+    /// Opens an adapter with room for the largest of these variants, and says how many particles that has.
+    fn open_adapter(&self, choice: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, u64), SweepError> {
+        let scenes = waiting.iter().map(|number| &self.sweep.variants()[*number].scene);
+        let sizes = scenes.map(|scene| (Model::new(scene).particle_count(), scene));
+        match sizes.max_by_key(|(particles, _)| *particles) {
+            Some((particles, scene)) => Ok((run::adapter_for(scene, choice)?, particles)),
+            // Nothing to run: plots take little room.
+            None => Ok((Gpu::open(choice, crate::gpu::Requirements::default())?, 0)),
+        }
+    }
+
+    fn run_all(
+        &mut self,
+        waiting: &[usize],
+        jobs: usize,
+        choice: &AdapterChoice,
+        observer: &mut dyn FnMut(SweepEvent<'_>),
+    ) -> Result<Vec<(usize, RunError)>, SweepError> {
+        let Self { sweep, summary, directory, beginning } = self;
+        let (sweep, directory, resuming) = (&*sweep, directory.as_path(), *beginning == Beginning::Interrupted);
+        let next = AtomicUsize::new(0);
+        let (sender, receiver) = mpsc::channel();
+        let mut failures = Vec::new();
+        let mut trouble = Ok(());
+        thread::scope(|scope| {
+            for _ in 0..jobs {
+                let (sender, next) = (sender.clone(), &next);
+                scope.spawn(move || {
+                    while let Some(number) = waiting.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        let variant = &sweep.variants()[*number];
+                        let simulation = simulation(variant, &directory.join(&variant.name), resuming);
+                        work(*number, simulation, choice, &sender);
+                    }
+                });
+            }
+            drop(sender);
+            for (number, message) in receiver {
+                match message {
+                    Message::Begun(first_step) => observer(SweepEvent::Begun { variant: number, first_step }),
+                    Message::Advanced(progress) => observer(SweepEvent::Advanced { variant: number, progress }),
+                    Message::Ended(result) => {
+                        match *result {
+                            Ok(outcome) => summary.variants[number].finish(&outcome.summary),
+                            Err(error) => {
+                                summary.variants[number].fail(error.to_string());
+                                failures.push((number, error));
+                            }
+                        }
+                        if let Err(error) = save(directory, sweep, summary) {
+                            // Variants under way may end; no others begin.
+                            next.store(waiting.len(), Ordering::Relaxed);
+                            trouble = Err(error);
+                        }
+                        observer(SweepEvent::Ended { variant: number, summary: &summary.variants[number] });
+                    }
+                }
+            }
+        });
+        failures.sort_by_key(|(number, _)| *number);
+        trouble.map(|()| failures)
+    }
+}
+
+/// Writes table and summary.
+fn save(directory: &Path, sweep: &Sweep, summary: &SweepSummary) -> Result<(), SweepError> {
+    summary.save(directory)?;
+    Ok(table::write(directory, summary, &sweep.keys())?)
+}
+
+/// The run of a variant: from its checkpoint if a sweep is resumed and there is one, else from the beginning.
+fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Simulation {
+    let steps = variant.scene.time.steps;
+    match Simulation::resume(directory, Some(steps)) {
+        Ok(simulation) if resuming && simulation.first_step() <= steps => simulation,
+        // What is there without a checkpoint is the beginning of this very run.
+        _ => Simulation::start(variant.scene.clone(), directory, resuming),
+    }
+}
+
+fn work(number: usize, simulation: Simulation, choice: &AdapterChoice, sender: &mpsc::Sender<(usize, Message)>) {
+    // If nobody listens any more, there is nobody to tell.
+    let tell = |message: Message| drop(sender.send((number, message)));
+    tell(Message::Begun(simulation.first_step()));
+    let result = simulation.execute(choice, &mut |event| {
+        if let Event::Advanced(progress) = event {
+            tell(Message::Advanced(progress));
+        }
+    });
+    tell(Message::Ended(Box::new(result)));
+}
+
+/// The summary of a run that came to step `steps`, if it did.
+fn finished(directory: &Path, steps: u64) -> Option<Summary> {
+    Summary::load(&directory.join(run_files::SUMMARY)).ok().filter(|summary| summary.steps >= steps)
+}
