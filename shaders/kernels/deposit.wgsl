@@ -5,12 +5,16 @@
 
 // A number from 0 to 2²³ plus this is rounded to an integer, which is then in the last bits.
 const ROUNDING: f32 = 8388608.0;
+// The most that the integers of a cell hold, and what stands for more: less than nothing, which the nodes notice.
+const MOST: f32 = 2.1e9;
+const TOO_MUCH: i32 = -1073741824;
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (cell == 0u) { begin_unsorted_step(); }
     if (cell >= CELLS_X * CELLS_Y) { return; }
     var moments: array<IntegerPowers, WIDTH>;
     var total = 0.0;
@@ -31,7 +35,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     }
     let offset = i32(end - first_of(cell)) * bitcast<i32>(ROUNDING);
     for (var a = 0u; a < WIDTH; a++) { moments[a] -= offset; }
-    raise(select(0u, FAILURE_CROWDING, total > 2.1e9));
     var real: Square; // [power of y][power of x]
     for (var a = 0u; a < WIDTH; a++) { real[a] = Powers(moments[a]); }
     let weights = SPLINE * real * transpose(SPLINE);
@@ -43,5 +46,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             contributions[(k * WIDTH + l) * (CELLS_X * CELLS_Y) + cell] = shares[l];
         }
     }
-    contributions[(NODES_BEFORE * WIDTH + NODES_BEFORE) * (CELLS_X * CELLS_Y) + cell] += left;
+    let own = (NODES_BEFORE * WIDTH + NODES_BEFORE) * (CELLS_X * CELLS_Y) + cell;
+    contributions[own] = select(contributions[own] + left, TOO_MUCH, total > MOST);
 }
