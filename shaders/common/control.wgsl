@@ -33,7 +33,9 @@ fn raise(failure: u32) {
 }
 fn raise_at(failure: u32, place: u32) {
     for (var pending = failure; pending != 0u; pending = 0u) {
-        if (no_failure_before()) { atomicMin(&control.failure_place, place); }
+        // Where there is too much mass there is no depth to speak of.
+        let later = pending != FAILURE_CROWDING && (atomicLoad(&control.failures) & FAILURE_CROWDING) != 0u;
+        if (no_failure_before() && !later) { atomicMin(&control.failure_place, place); }
         raise(pending);
     }
 }

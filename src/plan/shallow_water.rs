@@ -89,20 +89,25 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
 }
 
 /// Units of the sums: small against the 24 bits of a single term, and large enough for 64 bits to hold all of them. The
-/// scales are a particle, or a node, at the speed of waves, and a bath variable at rest.
+/// scales are a particle at the speed of waves or of heat, a node with its energy at the speed of waves, and a bath variable
+/// at rest or driven by a change of the depth by a hundredth.
 fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let speed_squared = water.wave_speed * water.wave_speed;
     let mass = water.nodes() as f64 / water.carriers.max(1) as f64;
-    let bath = water.bath.as_ref().map_or(0.0, |bath| bath.deviation(model.temperature).powi(2) / speed_squared);
+    let fastest = water.wave_speed.max(2_f64.powi(28) * model.units.momentum);
+    let bath = water.bath.as_ref().map_or(0.0, |bath| {
+        let at_rest = bath.deviation(model.temperature).powi(2) / speed_squared;
+        at_rest.max((0.01 * bath.coupling).powi(2))
+    });
     Quanta {
-        energy: power_of_two(mass * speed_squared) * 2_f64.powi(-36),
+        energy: power_of_two(mass * fastest * fastest) * 2_f64.powi(-36),
         pair_energy: power_of_two(speed_squared) * 2_f64.powi(-36),
         velocity_squared: 0.0,
         force_squared: 0.0,
         curvature: 0.0,
         length_squared: 0.0,
-        bath_squared: power_of_two(bath.max(1e-6)) * 2_f64.powi(-32),
+        bath_squared: power_of_two(bath.max(1e-24)) * 2_f64.powi(-32),
     }
 }
 

@@ -27,9 +27,12 @@ pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
     check_mesh(water, path, problems);
     check_groups(scene, water, problems);
     check_output(scene, problems);
-    if lengths.len() == 2 {
+    let smoothing = &water.smoothing;
+    // Out of range it is a mistake already, and out of reach too.
+    if lengths.len() == 2 && smoothing.length >= 0.0 && (1..=2).contains(&smoothing.power) {
         check_iterations(water, path, [lengths[0], lengths[1]], problems);
         check_depth(water, path, [lengths[0], lengths[1]], problems);
+        check_balance(scene, water, [lengths[0], lengths[1]], problems);
     }
 }
 
@@ -117,12 +120,9 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
     if surface.is_flat() {
         return;
     }
-    let points = (0..TRIALS * TRIALS).map(|trial| {
-        let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
-        [fraction[0] * lengths[0], fraction[1] * lengths[1]]
-    });
-    let depths: Vec<(f64, [f64; 2])> =
-        points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point)).collect();
+    let depths: Vec<(f64, [f64; 2])> = trials(lengths)
+        .map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point))
+        .collect();
     let mean = depths.iter().map(|(depth, _)| depth).sum::<f64>() / depths.len() as f64;
     // Masses are integers with room for so much; NaN is no depth.
     let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
@@ -137,6 +137,29 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
     }
 }
 
+/// Flow in balance is slower than waves, and has to fit the integers, which hold twice their speed.
+fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+    let balanced = scene.particles.iter().position(|group| group.velocities == Velocities::Geostrophic);
+    let surface = Surface::new(&water.surface, lengths);
+    let Some(group) = balanced.filter(|_| water.rotation != 0.0 && !surface.is_flat()) else { return };
+    let slopes = trials(lengths).map(|point| surface.slope(point));
+    let steepest = slopes.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
+    let fastest = water.wave_speed / water.rotation.abs() * steepest;
+    if fastest > 2.0 {
+        let found = format!("found a balance with velocities of up to {fastest:.3} times the speed of waves");
+        let accepted = "at most 2 times: lower or wider features, or a faster rotation";
+        problems.push(Problem::new(format!("particles[{group}].velocities"), found, accepted));
+    }
+}
+
+/// Points all over the box.
+fn trials(lengths: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    (0..TRIALS * TRIALS).map(move |trial| {
+        let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
+        [fraction[0] * lengths[0], fraction[1] * lengths[1]]
+    })
+}
+
 /// Refuses what has no meaning without shallow water.
 pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
     let only = "a scene with a `shallow-water` interaction only";
@@ -145,9 +168,12 @@ pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
         problems.push(Problem::new("integrator.type", found, only));
     }
     for (index, group) in scene.particles.iter().enumerate() {
-        let found = [("tracer", group.tracer), ("velocities.type", group.velocities == Velocities::Geostrophic)];
-        for (key, _) in found.iter().filter(|(_, found)| *found) {
-            problems.push(Problem::new(format!("particles[{index}].{key}"), format!("found `{key}`"), only));
+        let found = [
+            ("tracer", "true", group.tracer),
+            ("velocities.type", "`geostrophic`", group.velocities == Velocities::Geostrophic),
+        ];
+        for (key, value, _) in found.iter().filter(|(_, _, found)| *found) {
+            problems.push(Problem::new(format!("particles[{index}].{key}"), format!("found {value}"), only));
         }
         if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
             let accepted = "a two-dimensional box for a circle";

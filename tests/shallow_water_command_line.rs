@@ -1,0 +1,451 @@
+//! Shallow water as its user meets it: files, bytes, messages and exit codes of the program.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use mesoscope::output::{Summary, checkpoint, files, read_table};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+fn mesoscope(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
+    command.args(arguments);
+    if let Ok(adapter) = std::env::var("MESOSCOPE_ADAPTER") {
+        command.args(["--adapter", &adapter]);
+    }
+    command.output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// The program succeeds; returns what it says on standard output.
+fn succeeds(arguments: &[&str]) -> String {
+    let output = mesoscope(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout).to_owned()
+}
+
+/// The program fails with a code and a message that has all these parts.
+fn fails(arguments: &[&str], code: i32, parts: &[&str]) -> String {
+    let output = mesoscope(arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+    assert!(message.contains("error: ") && !message.contains("panicked"), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is not in: {message}");
+    }
+    message.to_owned()
+}
+
+/// A directory with a scene of 1024 particles, two loops and small pictures.
+struct Place {
+    directory: TempDir,
+    scene: Value,
+}
+
+impl Place {
+    fn new() -> Self {
+        let scene = json!({
+            "title": "small sea",
+            "seed": 3,
+            "space": {"box": [6.283_185_307_179_586, 6.283_185_307_179_586]},
+            "time": {"step": 0.02, "steps": 40},
+            "temperature": 4e-4,
+            "particles": [
+                {"species": "water", "count": 1024, "placement": {"type": "lattice"}, "velocities": {"type": "geostrophic"}},
+                {"species": "dye", "count": 5, "tracer": true},
+                {"species": "inner", "count": 200, "tracer": true, "velocities": {"type": "geostrophic"},
+                 "placement": {"type": "circle", "center": [3, 3], "radius": 0.5}},
+                {"species": "outer", "count": 400, "tracer": true, "velocities": {"type": "geostrophic"},
+                 "placement": {"type": "circle", "center": [3, 3], "radius": 1}},
+            ],
+            "interactions": [{
+                "type": "shallow-water", "mesh": [16, 16],
+                "wave_speed": 6.283_185_307_179_586, "rotation": 6.283_185_307_179_586,
+                "smoothing": {"length": 0.8},
+                "surface": [{"type": "bump", "center": [3, 3], "radius": 1, "amplitude": 0.1}],
+                "bath": {"type": "memory", "epsilon": 1},
+            }],
+            "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}},
+        });
+        Self { directory: tempfile::tempdir().unwrap(), scene }
+    }
+
+    fn with(mut self, pointer: &str, value: Value) -> Self {
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        self.scene.pointer_mut(parent).unwrap()[key] = value;
+        self
+    }
+
+    fn without(mut self, pointer: &str) -> Self {
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        self.scene.pointer_mut(parent).unwrap().as_object_mut().unwrap().remove(key);
+        self
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    /// The path as an argument.
+    fn argument(&self, name: &str) -> String {
+        self.path(name).to_str().unwrap().to_owned()
+    }
+
+    fn scene(&self) -> String {
+        fs::write(self.path("scene.json"), self.scene.to_string()).unwrap();
+        self.argument("scene.json")
+    }
+
+    /// Runs the scene into a directory of this name.
+    fn run(&self, out: &str, further: &[&str]) -> String {
+        let (scene, out) = (self.scene(), self.argument(out));
+        succeeds(&[&["run", &scene, "--out", &out], further].concat())
+    }
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn listing(directory: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn picture(path: &Path) -> image::RgbaImage {
+    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8()
+}
+
+/// Whether a picture shows anything at all.
+fn colours(path: &Path) -> usize {
+    picture(path).pixels().collect::<HashSet<_>>().len()
+}
+
+/// Shape and values of an array of numpy's format 1.0 in 64-bit floats.
+fn array(path: &Path) -> (String, Vec<f64>) {
+    let bytes = bytes(path);
+    assert_eq!(bytes[..8], *b"\x93NUMPY\x01\x00", "{}", path.display());
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let header = text(&bytes[10..10 + length]).to_owned();
+    assert!(header.contains("'descr': '<f8'") && header.contains("'fortran_order': False"), "{header}");
+    let values = bytes[10 + length..].chunks_exact(8).map(|number| f64::from_le_bytes(number.try_into().unwrap()));
+    (header, values.collect())
+}
+
+#[test]
+fn a_run_leaves_everything_the_scene_asks_for() {
+    let place = Place::new().with(
+        "/output/fields",
+        json!({"every": 15, "quantities": ["depth", "potential-vorticity", "vorticity", "speed"]}),
+    );
+    let said = place.run("out", &[]);
+    let out = place.path("out");
+    assert!(said.starts_with("small sea: 1 629 particles in 2 dimensions, on "), "{said}");
+    let mut expected: Vec<String> =
+        ["checkpoint.bin", "circulation.csv", "circulation.png", "energies.csv", "energies.png", "run.json"]
+            .map(str::to_owned)
+            .to_vec();
+    for stem in ["depth", "potential_vorticity", "vorticity", "speed"] {
+        for extension in ["png", "npy"] {
+            expected.push(format!("{stem}.{extension}"));
+            // Steps 0, 15 and 30; the end has no number of its own.
+            expected.extend((1..=3).map(|number| format!("{stem}-00000{number}.{extension}")));
+        }
+    }
+    expected.sort();
+    assert_eq!(listing(&out), expected);
+    for name in expected.iter().filter(|name| !name.contains('-') && (name.contains(".png") || name.contains(".npy"))) {
+        assert!(said.contains(name.as_str()), "`{name}` is not in: {said}");
+    }
+    for name in expected.iter().filter(|name| name.ends_with(".png")) {
+        assert_eq!(picture(&out.join(name)).dimensions().1, 480, "{name}");
+        assert!(colours(&out.join(name)) > 20, "{name} is empty");
+    }
+
+    let (header, depth) = array(&out.join("depth.npy"));
+    assert!(header.contains("'shape': (16, 16)"), "{header}");
+    assert!((depth.iter().sum::<f64>() / 256.0 - 1.0).abs() < 1e-6, "the mean depth is 1");
+    let (_, first) = array(&out.join("depth-000001.npy"));
+    assert_ne!(first, depth);
+    // The hill of a tenth at (3, 3), near node (8, 8).
+    let highest = (0..256).max_by(|a, b| first[*a].total_cmp(&first[*b])).unwrap();
+    assert_eq!((highest / 16, highest % 16), (8, 8));
+    let (_, vorticity) = array(&out.join("potential_vorticity-000001.npy"));
+    // Far from the hill it is f₀ at a depth of nearly 1.
+    assert!((vorticity[0] / 6.28 - 1.0).abs() < 0.1, "{}", vorticity[0]);
+
+    let energies = read_table(&out.join(files::ENERGIES)).unwrap();
+    let columns = "step,time,kinetic_energy,potential_energy,total_energy,bath_energy,extended_energy,bath_square,temperature,\
+                   momentum_x,momentum_y,center_of_mass_velocity_x,center_of_mass_velocity_y";
+    assert_eq!(energies.columns.join(","), columns);
+    assert_eq!(energies.column("step").unwrap(), (0..=10).map(|row| f64::from(4 * row)).collect::<Vec<_>>());
+    for row in &energies.rows {
+        assert_eq!((row[4], row[6]), (row[2] + row[3], row[2] + row[3] + row[5]));
+    }
+    let circulation = read_table(&out.join(files::CIRCULATION)).unwrap();
+    assert_eq!(circulation.columns, ["time", "inner", "outer"]);
+    assert_eq!(circulation.rows.len(), 11);
+    // f₀ times the area, and the flow's share.
+    for (name, area) in [("inner", 0.785), ("outer", 3.14)] {
+        let values = circulation.column(name).unwrap();
+        assert!((values[0] / (6.283 * area) - 1.0).abs() < 0.2, "{name}: {}", values[0]);
+        assert!(values.iter().all(|value| (value / values[0] - 1.0).abs() < 1e-3), "{name}: {values:?}");
+    }
+    let summary = Summary::load(&out.join(files::SUMMARY)).unwrap();
+    assert_eq!((summary.steps, summary.particles), (40, 1629));
+    assert!(summary.results["circulation"]["outer"]["initial"].is_number(), "{:?}", summary.results);
+    assert!(summary.conserved_exactly.iter().any(|entry| entry.contains("mass on the mesh")));
+    assert!(summary.not_conserved.iter().any(|entry| entry.contains("bath on the mesh")));
+    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+}
+
+#[test]
+fn a_plain_scene_leaves_depth_and_potential_vorticity() {
+    let place = Place::new()
+        .with("/particles", json!([{"species": "water", "count": 512, "velocities": {"type": "rest"}}]))
+        .with("/temperature", json!(0))
+        .without("/interactions/0/bath");
+    let said = place.run("out", &[]);
+    let expected = [
+        "checkpoint.bin",
+        "depth.npy",
+        "depth.png",
+        "energies.csv",
+        "energies.png",
+        "potential_vorticity.npy",
+        "potential_vorticity.png",
+        "run.json",
+    ];
+    assert_eq!(listing(&place.path("out")), expected);
+    assert!(said.contains("energy") && !said.contains("snapshot"), "{said}");
+    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    assert!(
+        !energies.columns.iter().any(|name| name.contains("bath") || name.contains("extended")),
+        "{:?}",
+        energies.columns
+    );
+    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    assert!(summary.not_conserved[0].contains("only as well as the time step"), "{:?}", summary.not_conserved);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
+    for (integrator, bath) in [("gyro", json!({"type": "memory", "epsilon": 1})), ("rotate", json!({"type": "white"}))]
+    {
+        let place = Place::new()
+            .with("/integrator", json!({"type": integrator}))
+            .with("/interactions/0/bath", bath)
+            .with("/output/fields", json!({"every": 10}))
+            .with("/output/trajectory", json!({"every": 8}));
+        place.run("whole", &["--quiet"]);
+        place.run("again", &["--quiet", "--set", "output.checkpoint.every=7"]);
+        // Step 20 falls on a row and a picture, step 13 on nothing.
+        place.run("parts", &["--quiet", "--steps", "13"]);
+        succeeds(&["resume", &place.argument("parts"), "--steps", "20", "--quiet"]);
+        succeeds(&["resume", &place.argument("parts"), "--steps", "40", "--quiet"]);
+        let whole = listing(&place.path("whole"));
+        assert!(whole.contains(&"potential_vorticity-000005.npy".to_owned()), "{whole:?}");
+        for other in ["again", "parts"] {
+            assert_eq!(listing(&place.path(other)), whole);
+            for name in whole.iter().filter(|name| *name != files::SUMMARY) {
+                if other == "again" && name == files::CHECKPOINT {
+                    continue; // It holds the scene, which differs.
+                }
+                let [a, b] = ["whole", other].map(|run| bytes(&place.path(run).join(name)));
+                assert!(a == b, "{name} of {other} differs, {integrator}");
+            }
+        }
+        let [whole, parts] =
+            ["whole", "parts"].map(|run| Summary::load(&place.path(run).join(files::SUMMARY)).unwrap());
+        assert_eq!((whole.means, whole.results), (parts.means, parts.results));
+    }
+}
+
+#[test]
+fn plots_can_be_drawn_again() {
+    let place = Place::new().with("/output/fields", json!({"every": 0, "quantities": ["depth", "speed"]}));
+    place.run("out", &["--quiet"]);
+    let out = place.path("out");
+    let names = ["energies.png", "circulation.png", "depth.png", "speed.png", "depth.npy", "speed.npy"];
+    let before = names.map(|name| bytes(&out.join(name)));
+    for name in names {
+        fs::remove_file(out.join(name)).unwrap();
+    }
+    let said = succeeds(&["plot", &place.argument("out")]);
+    for (name, before) in names.into_iter().zip(&before) {
+        assert!(said.contains(name), "`{name}` is not in: {said}");
+        assert!(bytes(&out.join(name)) == *before, "{name} changed");
+    }
+    succeeds(&["plot", &place.argument("out"), "--set", "output.plot.height=600", "--set", "output.plot.theme=dark"]);
+    assert_eq!(picture(&out.join("depth.png")).dimensions().1, 600);
+    assert_eq!(picture(&out.join("circulation.png")).dimensions(), (640, 600));
+    assert_ne!(bytes(&out.join("speed.png")), before[3]);
+}
+
+#[test]
+fn nothing_is_overwritten_unless_asked() {
+    let place = Place::new().with("/output/fields", json!({"every": 20}));
+    place.run("out", &["--quiet"]);
+    let out = place.argument("out");
+    let before = bytes(&place.path("out").join("depth.npy"));
+    fails(&["run", &place.scene(), "--out", &out, "--set", "seed=5"], 5, &["checkpoint.bin", "--force", "--out"]);
+    assert_eq!(bytes(&place.path("out").join("depth.npy")), before);
+    fs::write(place.path("out").join("depth-notes.txt"), "mine").unwrap();
+    place.run("out", &["--quiet", "--force", "--set", "seed=5", "--set", "output.fields.every=0"]);
+    assert_ne!(bytes(&place.path("out").join("depth.npy")), before);
+    // What belonged to the earlier run is gone, and what belongs to the user is not.
+    let names = listing(&place.path("out"));
+    assert!(!names.iter().any(|name| name.contains("-0000")), "{names:?}");
+    assert!(names.contains(&"depth-notes.txt".to_owned()));
+}
+
+#[test]
+fn a_crowd_makes_the_run_go_on_with_more_memory() {
+    // Two thousand particles in one cell of 64, so little water each that it hardly moves.
+    let positions: Vec<[f64; 2]> =
+        (0..2000).map(|index| [3.2 + 1e-4 * f64::from(index % 50), 3.2 + 1e-3 * f64::from(index / 50)]).collect();
+    let place = Place::new()
+        .with("/particles", json!([{"species": "water", "placement": {"type": "listed", "positions": positions}, "velocities": {"type": "rest"}}]))
+        .with("/interactions/0/mesh", json!([8, 8]))
+        .with("/interactions/0/surface", json!([]))
+        .with("/time", json!({"step": 1e-5, "steps": 12}));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    for storage_is_of_bins in [true, false] {
+        let output = mesoscope(&["run", &scene, "--out", &out, "--force"]);
+        let said = text(&output.stderr);
+        assert!(output.status.success(), "{said}");
+        assert!(
+            said.contains("note: the particles crowd in one cell of the mesh; going on from step 0 with more memory"),
+            "{said}"
+        );
+        let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+        assert_eq!(energies.column("step").unwrap(), [0.0, 4.0, 8.0, 12.0]);
+        if storage_is_of_bins {
+            // A resumed run meets the same crowd.
+            succeeds(&["resume", &out, "--steps", "16"]);
+            let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+            assert_eq!(energies.rows.len(), 5);
+            succeeds(&["plot", &out]);
+        }
+    }
+}
+
+#[test]
+fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
+    let place = Place::new()
+        .with("/time", json!({"step": 2.3, "steps": 4000}))
+        .with("/output/checkpoint", json!({"every": 1000}))
+        .without("/interactions/0/bath");
+    let (scene, out) = (place.scene(), place.argument("out"));
+    let message = fails(
+        &["run", &scene, "--out", &out],
+        4,
+        &[
+            "became unstable at step ",
+            "; try a time step of 0.",
+            "checkpoint, of step 0",
+            "warning: time.step: the stiffest wave",
+        ],
+    );
+    assert_eq!(checkpoint::load(&place.path("out").join(files::CHECKPOINT)).unwrap().state.step, 0);
+    assert!(!place.path("out").join(files::SUMMARY).exists());
+    let suggested = message.split("try a time step of ").nth(1).unwrap().split(' ').next().unwrap();
+    let step = format!("time.step={suggested}");
+    let output = mesoscope(&["run", &scene, "--out", &out, "--force", "--set", &step, "--steps", "400"]);
+    assert!(output.status.success(), "{suggested}: {}", text(&output.stderr));
+    assert!(!text(&output.stderr).contains("warning"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_node_that_runs_dry_is_named() {
+    let place = Place::new()
+        .with("/particles", json!([{"species": "water", "count": 40}]))
+        .with("/temperature", json!(0))
+        .with("/interactions/0/smoothing", json!({"length": 0}))
+        .with("/interactions/0/spline_order", json!(1))
+        .without("/interactions/0/bath");
+    fails(
+        &["run", &place.scene(), "--out", &place.argument("out")],
+        4,
+        &["became unstable at step 0: no depth is left at mesh node (", "where x = ", "checkpoint, of step 0"],
+    );
+}
+
+#[test]
+fn wrong_scenes_run_nothing() {
+    let place = Place::new();
+    let (scene, out) = (place.scene(), place.argument("out"));
+    for (change, part) in [
+        ("interactions.0.mesh=[12,16]", "the solver `chebyshev`, which takes any mesh"),
+        ("interactions.0.smoothing.length=0", "interactions[0].bath"),
+        ("interactions.0.smoothing.length=-1", "interactions[0].smoothing.length: found -1"),
+        ("interactions.0.mesh=[2,16]", "the width of a spline of order 3"),
+        ("interactions.0.rotation=0", "geostrophic"),
+    ] {
+        fails(&["run", &scene, "--out", &out, "--set", change], 2, &["interactions[0]", part][1..].as_ref());
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn check_says_what_the_scene_requires() {
+    let said = succeeds(&["check", "shallow-water"]);
+    for part in [
+        "65 536 in 2 dimensions",
+        "gyro, time step 0.02",
+        "mesh",
+        "64 × 64 nodes, splines of order 3, 16.0 particles a node",
+        "smoothing",
+        "fft, five-point",
+        "stability",
+        "of the limit",
+        "deposit",
+        "smooth rows",
+        "kernels/push",
+        "NODES_BEFORE",
+        "node_masses",
+        "depth.png",
+        "potential_vorticity.npy",
+        "a row every",
+    ] {
+        if part == "NODES_BEFORE" {
+            continue;
+        }
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    assert!(!said.contains("\n  cells "), "{said}");
+    assert!(!said.contains("bath"), "a scene without a bath needs nothing of one: {said}");
+    let said = succeeds(&["check", "shallow-water-memory"]);
+    for part in ["memory, epsilon 1, cotter-reich", "mesh_bath", "BATH_NOISE", "node_bath"] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    let place = Place::new()
+        .with("/interactions/0/bath", json!({"type": "white"}))
+        .with("/interactions/0/mesh", json!([12, 10]))
+        .with("/interactions/0/smoothing/solver", json!({"type": "chebyshev"}))
+        .with("/output/fields", json!({"every": 5, "quantities": ["speed"]}));
+    let said = succeeds(&["check", &place.scene(), "--set", "time.step=0.4"]);
+    for part in [
+        "1 024 of water and 605 tracers, in 2 dimensions",
+        "12 × 10 nodes",
+        "chebyshev, tolerance 0.000001",
+        "iterations",
+        "white",
+        "push_tracers",
+        "circulation.csv",
+        "speed-….png",
+        "every 5 steps and at the end",
+        "warning: time.step: the stiffest wave on the mesh takes p = ",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    assert!(!place.path("scene").exists());
+}
