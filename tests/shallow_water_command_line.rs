@@ -148,7 +148,8 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     );
     let said = place.run("out", &[]);
     let out = place.path("out");
-    assert!(said.starts_with("small sea: 1 629 particles in 2 dimensions, on "), "{said}");
+    assert!(said.starts_with("small sea: 1,629 particles in 2 dimensions, on "), "{said}");
+    assert!(said.contains("circulation of `outer`  2") && said.contains("3 numbered pictures"), "{said}");
     let mut expected: Vec<String> =
         ["checkpoint.bin", "circulation.csv", "circulation.png", "energies.csv", "energies.png", "run.json"]
             .map(str::to_owned)
@@ -171,7 +172,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     }
 
     let (header, depth) = array(&out.join("depth.npy"));
-    assert!(header.contains("'shape': (16, 16)"), "{header}");
+    assert!(header.contains("'shape': (16, 16,)"), "{header}");
     assert!((depth.iter().sum::<f64>() / 256.0 - 1.0).abs() < 1e-6, "the mean depth is 1");
     let (_, first) = array(&out.join("depth-000001.npy"));
     assert_ne!(first, depth);
@@ -225,7 +226,7 @@ fn a_plain_scene_leaves_depth_and_potential_vorticity() {
         "run.json",
     ];
     assert_eq!(listing(&place.path("out")), expected);
-    assert!(said.contains("energy") && !said.contains("snapshot"), "{said}");
+    assert!(said.contains("total energy ") && !said.contains("temperature") && !said.contains("snapshot"), "{said}");
     let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
     assert!(
         !energies.columns.iter().any(|name| name.contains("bath") || name.contains("extended")),
@@ -390,7 +391,7 @@ fn wrong_scenes_run_nothing() {
         ("interactions.0.mesh=[2,16]", "the width of a spline of order 3"),
         ("interactions.0.rotation=0", "geostrophic"),
     ] {
-        fails(&["run", &scene, "--out", &out, "--set", change], 2, &["interactions[0]", part][1..].as_ref());
+        fails(&["run", &scene, "--out", &out, "--set", change], 2, &[part]);
     }
     assert!(!place.path("out").exists());
 }
@@ -399,7 +400,7 @@ fn wrong_scenes_run_nothing() {
 fn check_says_what_the_scene_requires() {
     let said = succeeds(&["check", "shallow-water"]);
     for part in [
-        "65 536 in 2 dimensions",
+        "65,536 in 2 dimensions",
         "gyro, time step 0.02",
         "mesh",
         "64 × 64 nodes, splines of order 3, 16.0 particles a node",
@@ -410,15 +411,11 @@ fn check_says_what_the_scene_requires() {
         "deposit",
         "smooth rows",
         "kernels/push",
-        "NODES_BEFORE",
         "node_masses",
         "depth.png",
         "potential_vorticity.npy",
         "a row every",
     ] {
-        if part == "NODES_BEFORE" {
-            continue;
-        }
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     assert!(!said.contains("\n  cells "), "{said}");
@@ -434,7 +431,7 @@ fn check_says_what_the_scene_requires() {
         .with("/output/fields", json!({"every": 5, "quantities": ["speed"]}));
     let said = succeeds(&["check", &place.scene(), "--set", "time.step=0.4"]);
     for part in [
-        "1 024 of water and 605 tracers, in 2 dimensions",
+        "1,024 of water and 605 tracers, in 2 dimensions",
         "12 × 10 nodes",
         "chebyshev, tolerance 0.000001",
         "iterations",
@@ -442,7 +439,7 @@ fn check_says_what_the_scene_requires() {
         "push_tracers",
         "circulation.csv",
         "speed-….png",
-        "every 5 steps and at the end",
+        "every 5 steps",
         "warning: time.step: the stiffest wave on the mesh takes p = ",
     ] {
         assert!(said.contains(part), "`{part}` is not in: {said}");

@@ -704,8 +704,8 @@ fn a_particle_heavier_than_fits_is_refused() {
 
 #[test]
 fn heavy_and_light_particles() {
-    // From a tenth to nearly four times the mean depth.
-    let surface = r#"interactions.0.surface=[{"type":"bump","center":[3,3],"radius":0.9,"amplitude":1.9},{"type":"bump","center":[3,3],"radius":4,"amplitude":-0.9}]"#;
+    // Up to nearly four times the mean depth.
+    let surface = r#"interactions.0.surface=[{"type":"bump","center":[3,3],"radius":0.9,"amplitude":1.2},{"type":"bump","center":[3,3],"radius":4,"amplitude":-0.9}]"#;
     for count in [16, 500, 4096] {
         let count = format!("particles.0.count={count}");
         let changes = [surface, &count, "interactions.0.smoothing.length=0.3", "interactions.0.mesh=[8,8]", EVERY_STEP];
@@ -715,7 +715,7 @@ fn heavy_and_light_particles() {
         let water = model.shallow_water.unwrap();
         assert_eq!(state.masses.iter().map(|mass| u64::from(*mass)).sum::<u64>(), water.total_mass());
         let [least, most] = [state.masses.iter().min(), state.masses.iter().max()].map(|mass| *mass.unwrap());
-        assert!(least > 0 && most > 3 * least && most < 1 << 23, "{least} {most}");
+        assert!(least > 0 && most > 2 * least && most < 1 << 23, "{least} {most}");
         agrees_from(&scene, &state, 3, 5000);
     }
 }

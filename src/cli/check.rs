@@ -3,9 +3,14 @@
 use std::fmt::Write as _;
 
 use mesoscope::gpu::{self, AdapterChoice, Gpu, GpuError, Requirements};
-use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Options, Plan};
-use mesoscope::scene::{self, Integrator, Scene};
+use mesoscope::model::{Model, ShallowWater};
+use mesoscope::output::files;
+use mesoscope::plan::smoothing::iterations;
+use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
+use mesoscope::scene::{
+    self, BathRate, BathScheme, FieldQuantity, Integrator, Interaction, LaplacianSymbol, MeshBath, Scene,
+    SmoothingSolver,
+};
 
 use super::table::{aligned, bytes, grouped};
 use super::{Failure, SceneArguments, print};
@@ -43,7 +48,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     let plan = planned(hardware);
-    let mut text = overview(&scene, &plan, &adapter);
+    let mut text = overview(&scene, &model, &plan, &adapter);
     let stages = [
         ("Once, before the first step", &plan.prepare),
         ("Every step: order the particles by cell", &plan.sort),
@@ -53,7 +58,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ("Every step with a measurement: go on", &plan.finish_report),
     ];
     let shared = Shared::of(&plan)?;
-    text.push_str("\nShared by all kernels that see particles\n");
+    if !shared.modules.is_empty() {
+        text.push_str("\nShared by all kernels that see particles\n");
+    }
     wrapped(&mut text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
     wrapped(&mut text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
     let mut described = Vec::new();
@@ -65,7 +72,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         section(&mut text, &heading, &plan, &sampler.kernels, &shared, &mut described)?;
     }
     buffers(&mut text, &plan);
-    text.push_str(&outputs(&scene));
+    text.push_str(&outputs(&scene, &model));
     for warning in &warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
@@ -77,7 +84,7 @@ fn interval(first: u64, every: u64) -> String {
     if first == 0 { every } else { format!("{every} from step {}", grouped(first)) }
 }
 
-fn overview(scene: &Scene, plan: &Plan, adapter: &str) -> String {
+fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::Splitting {} => "splitting".to_owned(),
@@ -87,25 +94,89 @@ fn overview(scene: &Scene, plan: &Plan, adapter: &str) -> String {
         Integrator::Rotate {} => "rotate".to_owned(),
     };
     let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
-    let rows = [
-        (
-            "particles",
-            format!("{} in {} dimensions, box {}", grouped(plan.particles), lengths.len(), lengths.join(" × ")),
-        ),
+    let particles = match &model.shallow_water {
+        Some(water) if water.carriers < plan.particles => {
+            let noun = if plan.particles - water.carriers == 1 { "tracer" } else { "tracers" };
+            format!("{} of water and {} {noun},", grouped(water.carriers), grouped(plan.particles - water.carriers))
+        }
+        _ => grouped(plan.particles),
+    };
+    let cells =
+        plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
+    let mut rows = vec![
+        ("particles", format!("{particles} in {} dimensions, box {}", lengths.len(), lengths.join(" × "))),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
-        (
-            "cells",
-            plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × "),
-        ),
+    ];
+    match (&model.shallow_water, scene.interactions.as_slice()) {
+        (Some(water), [Interaction::ShallowWater(asked)]) => {
+            rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
+        }
+        _ => rows.push(("cells", cells)),
+    }
+    rows.extend([
         ("adapter", adapter.to_owned()),
         ("memory", format!("{}, {per_particle:.1} bytes a particle", bytes(plan.bytes()))),
         (
             "arithmetic",
             format!("about {} operations a particle and step", grouped(plan.operations_per_particle as u64)),
         ),
-    ];
+    ]);
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     format!("{}\n{}", scene.title, aligned(&rows, "  "))
+}
+
+/// What a scene of shallow water does on its mesh.
+fn mesh(
+    scene: &Scene,
+    water: &ShallowWater,
+    bath: Option<&MeshBath>,
+    plan: &Plan,
+    nodes: &str,
+) -> Vec<(&'static str, String)> {
+    let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
+    let per_node = water.carriers as f64 / water.nodes() as f64;
+    let order = water.spline_order;
+    let smoothing = &water.smoothing;
+    let solver = match smoothing.solver {
+        SmoothingSolver::Fft { symbol: LaplacianSymbol::FivePoint } => "fft, five-point".to_owned(),
+        SmoothingSolver::Fft { symbol: LaplacianSymbol::Spectral } => "fft, spectral".to_owned(),
+        SmoothingSolver::Chebyshev { tolerance } => {
+            let count = iterations(water, lengths, tolerance);
+            format!("chebyshev, tolerance {tolerance}, {count} iterations")
+        }
+    };
+    let cells = [0, 1].map(|axis| smoothing.length * f64::from(water.mesh[axis]) / lengths[axis]);
+    let smoothing = if smoothing.length == 0.0 {
+        "none".to_owned()
+    } else {
+        let (length, power) = (smoothing.length, smoothing.power);
+        format!("{solver}, length {length:.4} ({:.2} × {:.2} cells), power {power}", cells[0], cells[1])
+    };
+    let storage = match plan.layout {
+        Layout::Water { bins: Some(bins), .. } => format!("a bin of {} particles for every cell", bins.capacity),
+        _ => "sorted by cell in every step".to_owned(),
+    };
+    let mut rows = vec![
+        ("mesh", format!("{nodes} nodes, splines of order {order}, {per_node:.1} particles a node")),
+        ("storage", storage),
+        ("smoothing", smoothing),
+    ];
+    match bath {
+        Some(MeshBath::White {}) => rows.push(("bath", "white".to_owned())),
+        Some(MeshBath::Memory { epsilon, scheme, rate }) => {
+            let scheme = match scheme {
+                BathScheme::CotterReich => "cotter-reich",
+                BathScheme::Symmetric => "symmetric",
+                BathScheme::Exponential => "exponential",
+            };
+            let rate = if *rate == BathRate::Printed { ", rate as printed" } else { "" };
+            rows.push(("bath", format!("memory, epsilon {epsilon}, {scheme}{rate}")));
+        }
+        None => {}
+    }
+    let share = water.stability(lengths, scene.time.step);
+    rows.push(("stability", format!("the stiffest wave takes p = {share:.3} of the limit, where p < 1 is stable")));
+    rows
 }
 
 fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
@@ -163,10 +234,17 @@ fn section(
         return Ok(());
     }
     let _ = writeln!(text, "\n{heading}");
-    for &index in kernels {
+    for (place, &index) in kernels.iter().enumerate() {
+        if kernels[..place].contains(&index) {
+            continue;
+        }
         let kernel = &plan.kernels[index];
         let noun = if kernel.workgroups == 1 { "workgroup" } else { "workgroups" };
-        let _ = writeln!(text, "  {}, {} {noun}", kernel.name, grouped(kernel.workgroups.into()));
+        let times = match kernels.iter().filter(|other| **other == index).count() {
+            1 => String::new(),
+            count => format!(", {count} times"),
+        };
+        let _ = writeln!(text, "  {}, {} {noun}{times}", kernel.name, grouped(kernel.workgroups.into()));
         if described.contains(&index) {
             continue;
         }
@@ -230,18 +308,35 @@ fn buffers(text: &mut String, plan: &Plan) {
     let _ = write!(text, "\nBuffers\n{}", aligned(&rows, "  "));
 }
 
-fn outputs(scene: &Scene) -> String {
+fn outputs(scene: &Scene, model: &Model) -> String {
     let output = &scene.output;
     let mut rows = vec![
-        ("energies.csv", format!("a row {}", interval(0, output.energies.every))),
-        ("checkpoint.bin", format!("{} and at the end", interval(0, output.checkpoint.every))),
+        (files::ENERGIES.to_owned(), format!("a row {}", interval(0, output.energies.every))),
+        (files::CHECKPOINT.to_owned(), format!("{} and at the end", interval(0, output.checkpoint.every))),
     ];
-    if output.snapshot.every > 0 {
-        rows.push(("snapshot-….png", interval(0, output.snapshot.every)));
+    if let Some(water) = &model.shallow_water {
+        if water.closed_loops().next().is_some() {
+            rows.push((files::CIRCULATION.to_owned(), format!("a row {}", interval(0, output.energies.every))));
+        }
+        let fields = output.fields.clone().unwrap_or_default();
+        for quantity in fields.quantities {
+            let stem = match quantity {
+                FieldQuantity::Depth => "depth",
+                FieldQuantity::PotentialVorticity => "potential_vorticity",
+                FieldQuantity::Vorticity => "vorticity",
+                FieldQuantity::Speed => "speed",
+            };
+            rows.push((format!("{stem}.png, {stem}.npy"), "at the end".to_owned()));
+            if fields.every > 0 {
+                rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));
+            }
+        }
+    } else if output.snapshot.every > 0 {
+        rows.push(("snapshot-….png".to_owned(), interval(0, output.snapshot.every)));
     }
     if let Some(trajectory) = &output.trajectory {
-        rows.push(("trajectory", format!("a frame {}", interval(0, trajectory.every))));
+        rows.push(("trajectory".to_owned(), format!("a frame {}", interval(0, trajectory.every))));
     }
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name.to_owned(), when]).collect();
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
     format!("\nFiles\n{}", aligned(&rows, "  "))
 }

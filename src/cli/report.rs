@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::model::Model;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Interaction, Scene};
+use serde_json::Value;
 
 use super::table::{aligned, grouped, prefixed};
 use super::{Failure, SceneArguments, print};
@@ -53,6 +54,8 @@ pub fn line(text: &str) {
 
 struct Reporter {
     scene: Scene,
+    /// Whether it is of shallow water.
+    water: bool,
     bar: Option<ProgressBar>,
     terminal: bool,
     /// Tenths of the run already told on lines of their own, and when the last was.
@@ -64,6 +67,7 @@ struct Reporter {
 impl Reporter {
     fn new(scene: Scene) -> Self {
         Self {
+            water: is_of_water(&scene),
             scene,
             bar: None,
             terminal: std::io::stderr().is_terminal(),
@@ -121,7 +125,7 @@ impl Reporter {
     fn advanced(&mut self, progress: &Progress) {
         if let Some(bar) = &self.bar {
             bar.set_position(progress.step);
-            bar.set_message(describe(progress));
+            bar.set_message(describe(progress, self.water));
             return;
         }
         let steps = (progress.last_step - self.first_step).max(1);
@@ -131,17 +135,21 @@ impl Reporter {
             self.told_at = Instant::now();
             let percent = 100 * progress.step / progress.last_step.max(1);
             let (step, last) = (grouped(progress.step), grouped(progress.last_step));
-            line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress)));
+            line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress, self.water)));
         }
     }
 }
 
-fn describe(progress: &Progress) -> String {
+fn is_of_water(scene: &Scene) -> bool {
+    scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)))
+}
+
+fn describe(progress: &Progress, water: bool) -> String {
     let mut parts = Vec::new();
     if progress.particle_steps_per_second > 0.0 {
         parts.push(format!("{} particle-steps/s", prefixed(progress.particle_steps_per_second)));
     }
-    if let Some(temperature) = progress.temperature {
+    if let Some(temperature) = progress.temperature.filter(|_| !water) {
         parts.push(format!("kT {temperature:.3}"));
     }
     if let Some(remaining) = progress.remaining {
@@ -162,11 +170,22 @@ pub fn duration(seconds: u64) -> String {
 fn results(outcome: &Outcome, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
-    for (column, label) in [
-        ("temperature", "temperature"),
-        ("configurational_temperature", "configurational temperature"),
-        ("pressure", "pressure"),
-    ] {
+    let water = is_of_water(&summary.scene);
+    // Water that flows has no temperature to speak of.
+    let columns = if water {
+        [
+            ("kinetic_energy", "kinetic energy"),
+            ("potential_energy", "potential energy"),
+            ("total_energy", "total energy"),
+        ]
+    } else {
+        [
+            ("temperature", "temperature"),
+            ("configurational_temperature", "configurational temperature"),
+            ("pressure", "pressure"),
+        ]
+    };
+    for (column, label) in columns {
         if let Some(value) = mean(&summary.means, column) {
             rows.push(vec![label.to_owned(), value]);
         }
@@ -188,6 +207,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         };
         rows.push(vec![label.to_owned(), value]);
     }
+    for (name, circulation) in summary.results.get("circulation").and_then(Value::as_object).into_iter().flatten() {
+        let Some(initial) = circulation["initial"].as_f64() else { continue };
+        let change = circulation["largest_relative_change"].as_f64();
+        let change = change.map_or_else(String::new, |change| format!(", changes by up to {change:.1e} of it"));
+        rows.push(vec![format!("circulation of `{name}`"), format!("{initial:.4}{change}")]);
+    }
     if summary.particle_steps_per_second > 0.0 {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
@@ -199,7 +224,8 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     };
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
-        files.push(format!("{} numbered snapshots", outcome.snapshots));
+        let noun = if water { "pictures and arrays of each field" } else { "snapshots" };
+        files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
     format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
 }

@@ -163,7 +163,8 @@ impl Builder<'_> {
         let rest = (turn - quarters * FRAC_PI_2).rem_euclid(TAU);
         let rest = if rest > 0.5 * TAU { rest - TAU } else { rest };
         constants.extend([
-            ("QUARTER_TURNS", quarters.rem_euclid(4.0)),
+            // Not a negative zero.
+            ("QUARTER_TURNS", quarters.rem_euclid(4.0) + 0.0),
             ("TURN_TANGENT", (0.5 * rest).tan()),
             ("TURN_SINE", rest.sin()),
         ]);
