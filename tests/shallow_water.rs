@@ -8,6 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use mesoscope::measure::circulation::circulation;
 use mesoscope::measure::{MeshFlow, Observables};
 use mesoscope::model::{BathStep, Model, ShallowWater};
+use mesoscope::plan::{Options, Storage};
 use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -16,6 +17,12 @@ use support::{Device, Implementation, Measured, order, shear_flow, start, still_
 /// Every implementation of a scene.
 fn implementations(scene: &Scene) -> Vec<Box<dyn Implementation>> {
     vec![Box::new(water_reference(scene)), Box::new(Device::new(scene))]
+}
+
+/// The same where particles move so far in a step that bins would overflow, which a run would notice and go back for.
+fn implementations_with_room(scene: &Scene) -> Vec<Box<dyn Implementation>> {
+    let options = Options { storage: Some(Storage::Sorted), ..Options::default() };
+    vec![Box::new(water_reference(scene)), Box::new(Device::with(scene, options))]
 }
 
 /// How close an implementation has to come to an exact number: the reference to rounding, others to single precision.
@@ -135,7 +142,7 @@ fn the_largest_stable_step_of_the_shear_flow() {
     for (step, stable) in [(0.125, true), (0.14, false)] {
         let scene = shear_flow(&[&time_step(step), "output.energies.every=100"]);
         let share = start(&scene).0.shallow_water.unwrap().stability([TAU, TAU], step);
-        for mut run in implementations(&scene) {
+        for mut run in implementations_with_room(&scene) {
             let initial = run.observe().total_energy();
             let energy = if run.attempt(100) { run.observe().total_energy() } else { f64::INFINITY };
             println!("{}: dt = {step}, p = {share:.3}: E/E0 = {:.4} after 100 steps", run.name(), energy / initial);
@@ -163,7 +170,7 @@ fn change_of_circulation(scene: &Scene, steps: u64) -> Vec<(String, f64)> {
         circulation(&model.units, &state.positions[first..], &state.momenta[first..], water.rotation)
     };
     let before = of(&state);
-    let runs = implementations(scene).into_iter();
+    let runs = implementations_with_room(scene).into_iter();
     runs.map(|mut run| {
         run.step(steps);
         let change = of(&run.reported()) / before - 1.0;
@@ -495,6 +502,7 @@ fn the_bath_alone_has_its_own_law() {
                 let squares: Vec<f64> = run.series(10, 1000).iter().map(ratio).collect();
                 Measured::of(&squares).assert(&format!("{}: {bath}, {generator}", run.name()), 1.0, 0.0, 0.007);
                 // What one step leaves of s, from the variables before and after it.
+                run.step(1);
                 let before = bath_variables(&run.state());
                 run.step(1);
                 let after = bath_variables(&run.state());
@@ -704,10 +712,10 @@ fn no_water_at_all() {
             let scene = still_water(&[integrator, bath, "particles=[]", "temperature=0.1"]);
             for mut run in implementations(&scene) {
                 run.step(5);
+                assert_eq!((run.state().step, run.state().len()), (5, 0));
                 let row = run.observe();
                 assert_eq!((row.kinetic_energy, row.potential_energy, row.mass, row.particles), (0.0, 0.0, 0.0, 0));
                 assert_eq!(row.bath_square > 0.0, bath == WHITE);
-                assert_eq!((run.state().step, run.state().len()), (5, 0));
             }
         }
     }
@@ -804,7 +812,7 @@ fn oblong_meshes_and_boxes_keep_energy() {
             "output.energies.every=10",
             &wave([0, 1], 0.2),
         ]);
-        for mut run in implementations(&scene) {
+        for mut run in implementations_with_room(&scene) {
             let moved = run.observe().potential_energy;
             let error = energy_error(run.as_mut(), 500, 10);
             println!("{}: {mesh:?}, order {spline}: {error:.2e} of {moved:.3}", run.name());
