@@ -14,7 +14,7 @@ pub(super) struct ShownField {
     pub(super) map: ColorMap,
     name: &'static str,
     label: &'static str,
-    /// Node (k, l) at k + l·n_x.
+    /// Node (k, l) at k + l·nₓ.
     values: Vec<f64>,
 }
 
