@@ -20,6 +20,8 @@ const TRACER_BYTES: u64 = 1 << 24;
 const WATER: u64 = 24;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
+/// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
+const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
 const LARGEST_BINDING: u64 = 1 << 27;
 
@@ -148,6 +150,7 @@ impl Builder<'_> {
             ("SAGITTA_X", sagitta * fraction(0)),
             ("SAGITTA_Y", sagitta * fraction(1)),
             ("VELOCITY_LIMIT", velocity_limit),
+            ("LEAST_DEPTH", -1.0 - DEPTH_ROUNDING * (1.0 + water.nodes() as f64 / carriers.max(1.0))),
             ("MEAN_MASS", water.mean_mass() as f64),
             ("KINETIC", 0.5 * water.mass_unit * units.momentum.powi(2) / quanta.energy),
             ("MOMENTUM", water.mass_unit * units.momentum * water.wave_speed / quanta.energy),
