@@ -17,19 +17,23 @@ const FAILURE_IMPULSE: u32 = 1u;   // the impulses on a particle left the range 
 const FAILURE_MOMENTUM: u32 = 2u;  // a momentum came near the end of its range
 const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutoff in one step
 const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies, or in a bin
-const FAILURE_CROWDING: u32 = 16u; // more mass in a cell of the mesh than its integers hold
+const FAILURE_CROWDING: u32 = 16u; // more mass around a mesh node than its integers hold
 const FAILURE_DEPTH: u32 = 32u;    // no depth left at a mesh node
 
+// What fails in later steps than the first failure is its consequence, and not to be told.
+fn no_failure_before() -> bool { return atomicLoad(&control.failure_elapsed) >= control.elapsed; }
 // A loop, not a branch: software adapters execute both sides of a branch, atomics included, but leave a loop.
 fn raise(failure: u32) {
     for (var pending = failure; pending != 0u; pending = 0u) {
-        atomicOr(&control.failures, pending);
-        atomicMin(&control.failure_elapsed, control.elapsed);
+        if (no_failure_before()) {
+            atomicOr(&control.failures, pending);
+            atomicMin(&control.failure_elapsed, control.elapsed);
+        }
     }
 }
 fn raise_at(failure: u32, place: u32) {
     for (var pending = failure; pending != 0u; pending = 0u) {
-        atomicMin(&control.failure_place, place);
+        if (no_failure_before()) { atomicMin(&control.failure_place, place); }
         raise(pending);
     }
 }

@@ -80,6 +80,9 @@ pub struct Engine<'a> {
     collected: Vec<Sample>,
 }
 
+/// Units of the largest velocity of shallow water, as the shader has it.
+const VELOCITY_LIMIT: f64 = 1_073_741_824.0;
+
 /// Batches that may wait on the device while the host goes on.
 const BATCHES_IN_FLIGHT: usize = 2;
 
@@ -397,8 +400,11 @@ impl<'a> Engine<'a> {
             return Err(EngineError::Crowded { step });
         }
         let quantity = match control.failures {
-            bits if bits & 16 != 0 => "more than 64 times the mean mass is in one cell of the mesh".to_owned(),
-            bits if bits & 32 != 0 => self.shallow_place(control.failure_place),
+            bits if bits & 16 != 0 => {
+                let place = self.node(control.failure_place);
+                format!("over a hundred times the mean mass, more than its integers hold, is around {place}")
+            }
+            bits if bits & 32 != 0 => format!("no depth is left at {}", self.node(control.failure_place)),
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => match self.plan.layout {
                 Layout::Particles { .. } => "a particle moves further than the cutoff in one step".to_owned(),
@@ -406,23 +412,22 @@ impl<'a> Engine<'a> {
             },
             _ => match self.plan.layout {
                 Layout::Particles { .. } => "a momentum is more than 64 times its natural scale".to_owned(),
-                Layout::Water { .. } => "a velocity is more than twice the speed of waves".to_owned(),
+                Layout::Water { .. } => {
+                    let most = VELOCITY_LIMIT * self.plan.units.momentum;
+                    format!("a velocity is above {most:.4}, more than twice the largest expected in this scene")
+                }
             },
         };
-        let suggested_step = crate::engine::error::round_down(0.25 * self.plan.time_step);
+        let suggested_step = crate::engine::error::round_down(self.plan.suggested_step);
         Err(EngineError::Unstable { step, quantity, suggested_step })
     }
 
-    /// Where the depth has gone, in words.
-    fn shallow_place(&self, node: u32) -> String {
+    /// A node of the mesh, in words.
+    fn node(&self, node: u32) -> String {
         let [columns, rows, _] = self.plan.cells;
         let (k, l) = (node % columns, node / columns);
         let place =
             |index: u32, axis: usize, count: u32| f64::from(index) * self.plan.units.lengths[axis] / f64::from(count);
-        format!(
-            "the depth at mesh node ({k}, {l}), x = {:.4}, y = {:.4}, is not positive",
-            place(k, 0, columns),
-            place(l, 1, rows)
-        )
+        format!("mesh node ({k}, {l}), where x = {:.4} and y = {:.4}", place(k, 0, columns), place(l, 1, rows))
     }
 }

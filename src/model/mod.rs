@@ -6,7 +6,7 @@ mod shallow_water;
 
 pub use bath::BathStep;
 pub use dpd::PairForce;
-pub(crate) use shallow_water::LARGEST_DEPTH;
+pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
 use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};

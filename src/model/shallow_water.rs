@@ -49,9 +49,11 @@ pub struct Tracers {
 const MASS_RANGE: f64 = 2_147_483_648.0;
 const CROWDING: f64 = 128.0;
 /// Units of the heaviest particle: single precision has to round them to integers.
-const LARGEST_MASS: f64 = 8_388_607.0;
+pub(crate) const LARGEST_MASS: f64 = 8_388_607.0;
 /// The largest depth at the start, in units of the mean.
 pub(crate) const LARGEST_DEPTH: f64 = 4.0;
+/// The part of the limit of stability that a step may take: runs are clean up to here.
+pub(crate) const CLEAN_SHARE: f64 = 0.7;
 
 impl ShallowWater {
     pub(super) fn new(interaction: &ShallowWaterInteraction, scene: &Scene) -> Self {
@@ -144,6 +146,21 @@ impl ShallowWater {
         }
         0.25 * (time_step * self.wave_speed).powi(2) * largest
     }
+
+    /// A time step that takes no more than a clean share of the limit of stability, from one that takes more.
+    #[must_use]
+    pub fn advisable_step(&self, lengths: [f64; 2], time_step: f64) -> f64 {
+        let ratio = CLEAN_SHARE / self.stability(lengths, time_step);
+        // Without memory or with little, the coupling of the bath itself depends on the step: p is between dt and dt².
+        time_step * if self.bath.is_some() { ratio } else { ratio.sqrt() }
+    }
+}
+
+/// Iterations of Chebyshev's polynomial for 1 - Λ²∇², with Λ²/Δx² of each axis given, that leave of no mode more than
+/// `tolerance`; at least 1, and without bound as the lengths grow.
+pub(crate) fn chebyshev_iterations(stiffness: [f64; 2], tolerance: f64) -> f64 {
+    let radius = (2.0 * (stiffness[0] + stiffness[1])).max(f64::MIN_POSITIVE);
+    ((1.0 / tolerance).acosh() / (1.0 / radius + 1.0).acosh()).ceil().max(1.0)
 }
 
 /// Fourier symbols of ∫ψψ and of ∫ψ'ψ' of B-splines on a unit mesh, at an angle a node.

@@ -1,5 +1,6 @@
 //! How the integer state lies in the buffers of a plan.
 
+use crate::model::LARGEST_MASS;
 use crate::state::State;
 
 /// How the integer state lies in buffers.
@@ -152,6 +153,12 @@ impl Layout {
                 }
                 if bath_nodes > 0 && state.step > 0 && state.node_masses.len() != bath_nodes {
                     return Err("the mesh of the step before is".into());
+                }
+                if let Some(id) = state.masses.iter().position(|mass| f64::from(*mass) > LARGEST_MASS) {
+                    let mass = state.masses[id];
+                    return Err(Misfit::Missing(format!(
+                        "the mass of particle {id} is {mass} units, more than the {LARGEST_MASS} that one particle may have"
+                    )));
                 }
                 let particle = |id: &usize| {
                     let ([x, y, _], [u, v, _]) = (state.positions[*id], state.momenta[*id]);

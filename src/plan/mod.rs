@@ -181,6 +181,8 @@ pub struct Plan {
     pub seed_key: [u32; 2],
     /// Time step.
     pub time_step: f64,
+    /// A time step worth trying where this one turns out to be unstable.
+    pub suggested_step: f64,
     /// All kernels.
     pub kernels: Vec<Kernel>,
     /// Constants by name, for all kernels that declare them.

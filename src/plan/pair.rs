@@ -46,6 +46,7 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
         quanta: quanta(model),
         seed_key: noise::seed_key(model.seed, noise::stream::PAIR),
         time_step: model.time_step,
+        suggested_step: 0.25 * model.time_step,
         kernels: Vec::new(),
         constants: Vec::new(),
         buffers: Vec::new(),

@@ -73,6 +73,9 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
         quanta: quanta(model, water),
         seed_key: noise::seed_key(model.seed, noise::stream::MESH),
         time_step: model.time_step,
+        suggested_step: water
+            .advisable_step([model.units.lengths[0], model.units.lengths[1]], model.time_step)
+            .min(0.25 * model.time_step),
         kernels: Vec::new(),
         constants: Vec::new(),
         buffers: Vec::new(),
@@ -255,9 +258,9 @@ impl Builder<'_> {
                 ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
             }
         };
-        let modules = [self.stored(), &[collect, "common/deposit", moments, "kernels/deposit"]].concat();
+        let modules = [self.stored(), begin, &[collect, "common/deposit", moments, "kernels/deposit"]].concat();
         let deposit = self.kernel("deposit", &modules, cell_groups);
-        let gather = self.kernel("gather_nodes", &[begin, &["kernels/gather_nodes"]].concat(), cell_groups);
+        let gather = self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups);
         self.plan.before_report.extend([deposit, gather]);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
         let smoothing = smoothing(self.water, lengths, self.options);

@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::{Buffer, Contents, Kernel, Options};
-use crate::model::ShallowWater;
+use crate::model::{ShallowWater, chebyshev_iterations};
 use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
@@ -281,7 +281,7 @@ impl Polynomial {
         let [x, y] = stiffness(water, lengths);
         let radius = (2.0 * (x + y)).max(f64::MIN_POSITIVE);
         let centre = 1.0 + radius;
-        let iterations = ((1.0 / tolerance).acosh() / (centre / radius).acosh()).ceil().max(1.0) as usize;
+        let iterations = chebyshev_iterations([x, y], tolerance) as usize;
         Self { centre, radius, weights: weights(centre, radius, iterations) }
     }
 

@@ -1,9 +1,14 @@
 //! What a scene of shallow water has to fulfil beyond its shape, and what only such a scene may have.
 
+use std::collections::HashMap;
+
 use super::error::Problem;
 use super::surface::Surface;
 use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities};
-use crate::model::LARGEST_DEPTH;
+use crate::model::{LARGEST_DEPTH, chebyshev_iterations};
+
+/// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
+const MOST_ITERATIONS: f64 = 10_000.0;
 
 /// Points on each axis at which the depth at the start is tried.
 const TRIALS: u32 = 128;
@@ -23,6 +28,7 @@ pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
     check_groups(scene, water, problems);
     check_output(scene, problems);
     if lengths.len() == 2 {
+        check_iterations(water, path, [lengths[0], lengths[1]], problems);
         check_depth(water, path, [lengths[0], lengths[1]], problems);
     }
 }
@@ -49,7 +55,22 @@ fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Pr
     }
 }
 
+fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+    let SmoothingSolver::Chebyshev { tolerance } = water.smoothing.solver else { return };
+    let cells = |axis: usize| water.smoothing.length * f64::from(water.mesh[axis]) / lengths[axis];
+    let iterations = chebyshev_iterations([0, 1].map(|axis| cells(axis).powi(2)), tolerance);
+    if iterations > MOST_ITERATIONS {
+        let found =
+            format!("found {}, which takes `chebyshev` {iterations:.3e} iterations a step", water.smoothing.length);
+        let accepted = format!(
+            "a length and a tolerance that take at most {MOST_ITERATIONS}, or the solver `fft`, which takes any length"
+        );
+        problems.push(Problem::new(format!("{path}.smoothing.length"), found, accepted));
+    }
+}
+
 fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Vec<Problem>) {
+    let mut loops: HashMap<&str, usize> = HashMap::new();
     let first_tracer = scene.particles.iter().position(|group| group.tracer);
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
@@ -60,6 +81,15 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut V
         if let Some(first) = first_tracer.filter(|first| *first < index && !group.tracer) {
             let found = format!("found water after the tracers of particles[{first}]");
             problems.push(Problem::new(&path, found, "tracers after all other groups"));
+        }
+        let closed = group.tracer && matches!(group.placement, Placement::Circle { .. });
+        if let (true, Some(earlier)) = (closed, loops.insert(&group.species, index)) {
+            let found = format!("found \"{}\", the name of the loop of particles[{earlier}]", group.species);
+            problems.push(Problem::new(
+                format!("{path}.species"),
+                found,
+                "a name of its own for every loop of tracers",
+            ));
         }
         if group.velocities == Velocities::Geostrophic && water.rotation == 0.0 {
             let accepted = "a rotation other than 0 for `geostrophic`, which is a balance with it; or `rest`";
@@ -91,14 +121,17 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
         let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
         [fraction[0] * lengths[0], fraction[1] * lengths[1]]
     });
-    let mut depths =
-        points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point));
-    // Masses are integers with room for so much.
-    let misfit = depths.find(|(depth, _)| *depth <= 0.0 || *depth > LARGEST_DEPTH);
-    if let Some((depth, [x, y])) = misfit {
-        let found = format!("found features that make a depth of {depth:.4} at ({x:.3}, {y:.3})");
+    let depths: Vec<(f64, [f64; 2])> =
+        points.map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point)).collect();
+    let mean = depths.iter().map(|(depth, _)| depth).sum::<f64>() / depths.len() as f64;
+    // Masses are integers with room for so much; NaN is no depth.
+    let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
+    if let Some((depth, [x, y])) = depths.iter().find(|(depth, _)| !fits(*depth)) {
+        let found =
+            format!("found features that make a depth of {depth:.4} at ({x:.3}, {y:.3}), and {mean:.4} on average");
         let accepted = format!(
-            "a depth above 0 and up to {LARGEST_DEPTH} everywhere: lower or wider features, or a shorter `smoothing.length`"
+            "a depth above 0 and up to {LARGEST_DEPTH} times the mean everywhere: lower or wider features, or a shorter \
+             `smoothing.length`"
         );
         problems.push(Problem::new(format!("{path}.surface"), found, accepted));
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::error::Warning;
 use super::{Interaction, Scene, Velocities};
-use crate::model::{Model, PairForce, ShallowWater, Species};
+use crate::model::{CLEAN_SHARE, Model, PairForce, ShallowWater, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
 const FRICTION_LIMIT: f64 = 0.25;
@@ -109,22 +109,19 @@ fn warn_of_stiffness(scene: &Scene, species: &[Species], force: &PairForce, warn
     }
 }
 
-/// The part of the limit of stability that a step of shallow water may take: runs are clean up to here.
-const WAVE_LIMIT: f64 = 0.7;
-
 fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let share = water.stability([scene.space.lengths[0], scene.space.lengths[1]], step);
-    if share > WAVE_LIMIT {
-        // Without memory or with little, the coupling of the bath itself depends on the step: p is between dt and dt².
-        let advisable = step * if water.bath.is_some() { WAVE_LIMIT / share } else { (WAVE_LIMIT / share).sqrt() };
+    let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
+    let share = water.stability(lengths, step);
+    if share > CLEAN_SHARE {
+        let advisable = water.advisable_step(lengths, step);
         let verdict = if share >= 1.0 { "the run will become unstable" } else { "the limit is near" };
         warn(
             warnings,
             "time.step",
             format!(
                 "the stiffest wave on the mesh takes p = {share:.3} of the limit of stability, where p < 1 is stable and \
-                 up to {WAVE_LIMIT} is clean: {verdict}; a step of {advisable:.2e} is advisable"
+                 up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable"
             ),
         );
     }
