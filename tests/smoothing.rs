@@ -55,7 +55,7 @@ fn smooth(mesh: [u32; 2]) -> Vec<u32> {
     let depth = |index: usize| {
         let x = TAU * f64::from(index as u32 % mesh[0]) / width;
         let y = TAU * f64::from(index as u32 / mesh[0]) / height;
-        1.0 + 0.1 * (2.0 * (y + 0.1 * (3.0 * x).sin() - 0.1 * (2.0 * x).sin()).sin()).tanh()
+        1.0 + 0.1 * (2.0 * (0.3 + y + 0.1 * (3.0 * x).sin() - 0.1 * (2.0 * x).sin()).sin()).tanh()
     };
     (0..nodes(mesh)).map(|index| (depth(index) * 2_f64.powi(24)) as u32).collect()
 }
@@ -261,10 +261,13 @@ fn rounding(mesh: [u32; 2]) -> f64 {
     2_f64.powi(-24) * (2.0 * (nodes(mesh) as f64).log2()).sqrt()
 }
 
-fn check(water: &ShallowWater, tolerance: f64) {
+/// The error is a part of the result, or of what was smoothed.
+fn check(water: &ShallowWater, of_result: f64, of_given: f64) {
     for (name, masses) in [("random", random(water.mesh, 1)), ("smooth", smooth(water.mesh))] {
-        let expected = direct(&deviations(&masses), water.mesh, |wave| exact(water, wave));
+        let given = deviations(&masses);
+        let expected = direct(&given, water.mesh, |wave| exact(water, wave));
         let error = relative(&solve(water, &masses), &expected);
+        let tolerance = of_result + of_given * (dot(&given, &given) / dot(&expected, &expected)).sqrt();
         let what = format!("{name} {:?} {:?}", water.mesh, water.smoothing);
         println!("{what}: {error:.2e}");
         assert!(error <= tolerance, "{what}: {error:e}, allowed {tolerance:e}");
@@ -286,7 +289,7 @@ fn fourier_solves_are_those_of_double_precision() {
     for mesh in meshes {
         for power in [1, 2] {
             for solver in [FIVE_POINT, SPECTRAL] {
-                check(&water(mesh, 4.0, power, solver), rounding(mesh));
+                check(&water(mesh, 4.0, power, solver), rounding(mesh), 0.0);
             }
         }
     }
@@ -296,14 +299,14 @@ fn fourier_solves_are_those_of_double_precision() {
 #[test]
 fn fourier_solves_of_large_meshes_are_those_of_double_precision() {
     for mesh in [[1024, 1024], [512, 4096], [2048, 512]] {
-        check(&water(mesh, 4.0, 1, FIVE_POINT), rounding(mesh));
+        check(&water(mesh, 4.0, 1, FIVE_POINT), rounding(mesh), 0.0);
     }
 }
 
 #[test]
 #[ignore = "takes a minute and 2 GB of memory"]
 fn the_largest_mesh_is_solved() {
-    check(&water([4096, 4096], 4.0, 1, FIVE_POINT), rounding([4096, 4096]));
+    check(&water([4096, 4096], 4.0, 1, FIVE_POINT), rounding([4096, 4096]), 0.0);
 }
 
 #[test]
@@ -316,14 +319,15 @@ fn no_bit_depends_on_the_size_of_a_workgroup() {
     }
 }
 
-/// Errors of the polynomial are those it is allowed, of two applications twice that; rounding is small against them.
+/// Errors of the polynomial are those it is allowed, of two applications twice that. A residual that is rounded to 24 bits
+/// of what is smoothed leaves its error in the mean, where 1 - Λ²∇² does not shrink it.
 #[test]
 fn iterations_solve_within_their_tolerance() {
     for mesh in [[4, 4], [5, 7], [48, 60], [64, 64], [100, 100], [2, 3]] {
         for power in [1, 2] {
             for tolerance in [1e-1, 1e-3, 1e-6] {
                 let water = water(mesh, 3.0, power, SmoothingSolver::Chebyshev { tolerance });
-                check(&water, f64::from(power) * tolerance + 5e-7);
+                check(&water, f64::from(power) * tolerance, 3e-7);
             }
         }
     }
@@ -401,39 +405,5 @@ fn the_mean_is_unchanged() {
         let (before, after) = (deviations(&masses), solve(&water, &masses));
         let difference = (before.iter().sum::<f64>() - after.iter().sum::<f64>()).abs() / nodes(mesh) as f64;
         assert!(difference <= 1e-8, "{mesh:?}: {difference:e}");
-    }
-}
-
-#[test]
-#[ignore = "timing"]
-fn scratch_timing() {
-    for (mesh, solver) in
-        [([64, 64], FIVE_POINT), ([256, 256], FIVE_POINT), ([1024, 1024], FIVE_POINT), ([64, 64], CHEBYSHEV)]
-    {
-        let begun = std::time::Instant::now();
-        let device = Device::new(&water(mesh, 4.0, 1, solver.clone()), Options::default());
-        device.smooth(&random(mesh, 1));
-        let made = begun.elapsed();
-        let times = (2_000_000 / nodes(mesh) as u32).clamp(4, 200) / if solver == CHEBYSHEV { 10 } else { 1 };
-        let mut best = f64::INFINITY;
-        for _ in 0..12 {
-            let begun = std::time::Instant::now();
-            device.dispatch(times);
-            gpu().device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
-            best = best.min(begun.elapsed().as_secs_f64() / f64::from(times));
-        }
-        let mut each = Vec::new();
-        for stage in 0..device.stages.len() {
-            let alone = Device { order: vec![stage], buffers: device.buffers.clone(), stages: device.stages.clone() };
-            let mut least = f64::INFINITY;
-            for _ in 0..8 {
-                let begun = std::time::Instant::now();
-                alone.dispatch(times);
-                gpu().device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
-                least = least.min(begun.elapsed().as_secs_f64() / f64::from(times));
-            }
-            each.push(format!("{:.1}", 1e6 * least));
-        }
-        println!("{mesh:?} {solver:?}: made {made:.2?}, solve {:.3} ms; passes in us: {}", 1e3 * best, each.join(" "));
     }
 }

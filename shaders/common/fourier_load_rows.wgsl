@@ -1,6 +1,4 @@
 // First pass along columns: separates the transforms of two rows that went through as one, both twice as large.
-override ROW_LENGTH: u32;
-
 fn load_pair(site: Site, leg: u32) -> vec4<f32> {
     let row = source(site, leg) * ROW_LENGTH;
     let a = waves[row + site.line];

@@ -1,7 +1,5 @@
 // Last pass along columns, back: two rows, half a mesh apart, go on as one of complex numbers. Columns beyond the middle
 // are the conjugates of those before it.
-override ROW_LENGTH: u32;
-
 fn store_pair(site: Site, leg: u32, pair: vec4<f32>) {
     let row = target_of(site, leg) * ROW_LENGTH;
     waves_next[row + site.line] = vec2<f32>(pair.x + pair.w, pair.y - pair.z);

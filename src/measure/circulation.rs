@@ -5,9 +5,9 @@ use crate::state::Units;
 /// The absolute circulation ∮ V·dX + f₀ A around a closed loop of points in order, with A the area that it goes round
 /// counterclockwise.
 ///
-/// With dV/dt = f₀ (V_y, -V_x) - ∇Φ every loop that moves with the flow keeps it (Kelvin's theorem): by Stokes' theorem
+/// With `dV/dt = f₀ (V_y, -V_x) - ∇Φ` every loop that moves with the flow keeps it (Kelvin's theorem): by Stokes' theorem
 /// it is the integral of ζ + f₀ over the loop's inside. The loop is a polygon along which the velocity is linear,
-/// ∮ V·dX = Σ ½(V_{j+1} + V_j)·(X_{j+1} - X_j), so that the error falls with the square of the distance of its points.
+/// `∮ V·dX = Σ ½(V_{j+1} + V_j)·(X_{j+1} - X_j)`, so that the error falls with the square of the distance of its points.
 /// Neighbours are joined the shortest way; a loop that goes round the box has no inside, and the answer is NaN.
 ///
 /// `velocities` are in units of [`Units::momentum`], full-step ones, as a report gives them. Both lists are as long.
