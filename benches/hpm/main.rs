@@ -8,7 +8,7 @@
 //! names.
 //!
 //! The loop is compiled for the processors that cargo builds for; `RUSTFLAGS='-C target-cpu=native'` before the command
-//! lets it use all of this one. The kernels of mesoscope are compiled by the driver and do not change.
+//! lets it use all of this one. Its transforms are those of rustfft without vector instructions. The kernels of mesoscope are compiled by the driver and do not change.
 
 mod alternatives;
 mod bandwidth;
@@ -252,10 +252,18 @@ fn by_stage(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Failur
             println!("| {name} | {:.0} | {nanoseconds:.2} | {:.1} % |", 1e6 * seconds, 100.0 * seconds / sum);
         };
         for (part, name) in PARTS.into_iter().enumerate() {
-            let own = || stages.iter().zip(&parts).filter(|(_, own)| **own == part).map(|(stage, _)| stage);
-            row(&format!("**{name}**"), own().map(|stage| stage.seconds).sum());
-            for stage in own() {
-                row(&format!("· {}", stage.name), stage.seconds);
+            // Passes of one name together.
+            let mut kernels: Vec<(&str, f64, usize)> = Vec::new();
+            for (stage, _) in stages.iter().zip(&parts).filter(|(_, own)| **own == part) {
+                match kernels.iter_mut().find(|kernel| kernel.0 == stage.name) {
+                    Some((_, seconds, passes)) => (*seconds, *passes) = (*seconds + stage.seconds, *passes + 1),
+                    None => kernels.push((stage.name, stage.seconds, 1)),
+                }
+            }
+            row(&format!("**{name}**"), kernels.iter().map(|kernel| kernel.1).sum());
+            for (name, seconds, passes) in kernels {
+                let passes = if passes > 1 { format!(", {passes} passes") } else { String::new() };
+                row(&format!("· {name}{passes}"), seconds);
             }
         }
         row("sum", sum);
