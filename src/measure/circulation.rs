@@ -47,6 +47,18 @@ pub fn circulation(units: &Units, positions: &[[u32; 3]], velocities: &[[i32; 3]
     if place == [0, 0] { sum + 0.5 * rotation * twice_area } else { f64::NAN }
 }
 
+/// The largest distance between neighbours on a closed loop of points. A loop is a curve to the flow as long as this is
+/// below the spacing of the mesh.
+#[must_use]
+pub fn largest_gap(units: &Units, positions: &[[u32; 3]]) -> f64 {
+    let next = positions.iter().cycle().skip(1);
+    let gap = |(point, next): (&[u32; 3], &[u32; 3])| {
+        let [x, y, _] = units.displacement(*next, *point);
+        x.hypot(y)
+    };
+    positions.iter().zip(next).map(gap).fold(0.0, f64::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

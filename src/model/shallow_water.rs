@@ -109,6 +109,12 @@ impl ShallowWater {
         Surface::new(&self.surface, lengths)
     }
 
+    /// The smaller distance between neighbouring nodes in a box with these edges.
+    #[must_use]
+    pub fn spacing(&self, lengths: [f64; 3]) -> f64 {
+        (lengths[0] / f64::from(self.mesh[0])).min(lengths[1] / f64::from(self.mesh[1]))
+    }
+
     /// Integer mass of all particles: 1 for every node.
     #[must_use]
     pub fn total_mass(&self) -> u64 {
