@@ -407,37 +407,3 @@ fn the_mean_is_unchanged() {
         assert!(difference <= 1e-8, "{mesh:?}: {difference:e}");
     }
 }
-
-#[test]
-#[ignore = "timing"]
-fn scratch_timing() {
-    for (mesh, solver) in
-        [([64, 64], FIVE_POINT), ([256, 256], FIVE_POINT), ([1024, 1024], FIVE_POINT), ([64, 64], CHEBYSHEV)]
-    {
-        let begun = std::time::Instant::now();
-        let device = Device::new(&water(mesh, 4.0, 1, solver.clone()), Options::default());
-        device.smooth(&random(mesh, 1));
-        let made = begun.elapsed();
-        let times = (2_000_000 / nodes(mesh) as u32).clamp(4, 200) / if solver == CHEBYSHEV { 10 } else { 1 };
-        let mut best = f64::INFINITY;
-        for _ in 0..12 {
-            let begun = std::time::Instant::now();
-            device.dispatch(times);
-            gpu().device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
-            best = best.min(begun.elapsed().as_secs_f64() / f64::from(times));
-        }
-        let mut each = Vec::new();
-        for stage in 0..device.stages.len() {
-            let alone = Device { order: vec![stage], buffers: device.buffers.clone(), stages: device.stages.clone() };
-            let mut least = f64::INFINITY;
-            for _ in 0..8 {
-                let begun = std::time::Instant::now();
-                alone.dispatch(times);
-                gpu().device().poll(wgpu::PollType::wait_indefinitely()).unwrap();
-                least = least.min(begun.elapsed().as_secs_f64() / f64::from(times));
-            }
-            each.push(format!("{:.1}", 1e6 * least));
-        }
-        println!("{mesh:?} {solver:?}: made {made:.2?}, solve {:.3} ms; passes in us: {}", 1e3 * best, each.join(" "));
-    }
-}

@@ -7,8 +7,12 @@
 
 mod fluid;
 mod lammps;
+#[path = "../common/machine.rs"]
 mod machine;
+#[path = "../common/statistics.rs"]
 mod statistics;
+#[path = "../common/timed.rs"]
+mod timed;
 
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -67,7 +71,7 @@ fn main() -> Result<(), Failure> {
     };
     println!("## The DPD fluid: cost of a particle-step\n");
     let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
-    println!("{}", machine::describe(gpu.description(), &words));
+    println!("{}", machine::describe(gpu.description(), &format!("LAMMPS: {words}")));
     others("before");
     let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
     let price = beside_lammps(&gpu, &fluids, peer.is_ok(), &settings)?;

@@ -3,13 +3,14 @@
 @group(0) @binding(5) var<storage, read_write> arrived: array<u32>;
 
 fn collect(cell: u32) {
-    let first = cell * CAPACITY;
     let low = stayed[cell];
     // More than fit were refused as they arrived.
     let high = min(arrived[cell], CAPACITY - low);
-    // Where the two overlap, some are in their place already.
+    let bottom = cell * CAPACITY + low;
+    let top = (cell + 1u) * CAPACITY - 1u;
+    // Where the two stretches overlap, some are in their place already.
     let moves = min(high, CAPACITY - high - low);
-    for (var k = 0u; k < moves; k++) { bins[first + low + k] = bins[first + CAPACITY - 1u - k]; }
+    for (var k = 0u; k < moves; k++) { bins[bottom + k] = bins[top - k]; }
     residents[cell] = low + high;
     stayed[cell] = low + high;
     arrived[cell] = 0u;

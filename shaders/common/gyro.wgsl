@@ -12,7 +12,7 @@ fn opened(particle: Water, kick: vec2<i32>) -> Water {
     next.velocity += kick;
     let v = vec2<f32>(next.velocity);
     let path = vec2<f32>(CHORD_X, CHORD_Y) * v + vec2<f32>(SAGITTA_X, -SAGITTA_Y) * v.yx;
-    check_motion(next.velocity, path);
+    check_motion(next.velocity);
     next.position += bitcast<vec2<u32>>(vec2<i32>(round(path)));
     next.velocity = turned(next.velocity);
     return next;

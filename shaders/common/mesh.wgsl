@@ -5,11 +5,16 @@ override CELLS_Y: u32;
 // The cell along an axis and the place in it, from 0 to 1, of a fraction of the box: an exact product of 32 by 12 bits.
 struct Place { cell: u32, offset: f32 }
 fn place_along(fraction: u32, count: u32) -> Place {
+    if (CELL_SHIFT == 0u && (count & (count - 1u)) == 0u) {
+        // Shifts do for a power of two, which is known when the pipeline is made.
+        let bits = firstTrailingBit(count);
+        return Place(fraction >> (32u - bits), f32(i32((fraction << bits) >> 1u)) * 4.656613e-10); // 2^-31
+    }
     let low = (fraction & 0xffffu) * count;
     var high = (fraction >> 16u) * count + (low >> 16u) + CELL_SHIFT;
     if (CELL_SHIFT > 0u && high >= count << 16u) { high -= count << 16u; }
     let rest = ((high & 0xffffu) << 16u) | (low & 0xffffu);
-    return Place(high >> 16u, f32(rest) * 2.3283064e-10); // 2^-32
+    return Place(high >> 16u, f32(i32(rest >> 1u)) * 4.656613e-10); // 2^-31: a conversion that processors have
 }
 fn cell_of(position: vec2<u32>) -> u32 {
     return place_along(position.y, CELLS_Y).cell * CELLS_X + place_along(position.x, CELLS_X).cell;

@@ -6,17 +6,19 @@ var<private> kept: u32;
 fn begin_moving(cell: u32) { kept = cell * CAPACITY; }
 fn store_moved(cell: u32, index: u32, particle: Water) {
     let destination = cell_of(particle.position);
+    var place = kept;
     if (destination == cell) {
-        bins[kept] = particle;
         kept += 1u;
     } else {
-        let place = atomicAdd(&arrived[destination], 1u);
+        let arrival = atomicAdd(&arrived[destination], 1u);
         // Not among those that the other cell has yet to move.
-        if (residents[destination] + place < CAPACITY) {
-            bins[(destination + 1u) * CAPACITY - 1u - place] = particle;
+        if (residents[destination] + arrival < CAPACITY) {
+            place = (destination + 1u) * CAPACITY - 1u - arrival;
         } else {
-            raise(FAILURE_FRAMES);
+            failures_of_motion |= FAILURE_FRAMES;
         }
     }
+    // One place in the program that stores: software adapters pay for every one.
+    bins[place] = particle;
 }
 fn end_moving(cell: u32) { stayed[cell] = kept - cell * CAPACITY; }

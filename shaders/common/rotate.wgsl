@@ -9,7 +9,7 @@ fn opened(particle: Water, kick: vec2<i32>) -> Water {
     var next = particle;
     next.velocity = turned(next.velocity) + kick;
     let path = vec2<f32>(CHORD_X, CHORD_Y) * vec2<f32>(next.velocity);
-    check_motion(next.velocity, path);
+    check_motion(next.velocity);
     next.position += bitcast<vec2<u32>>(vec2<i32>(round(path)));
     return next;
 }

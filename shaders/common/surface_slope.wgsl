@@ -3,14 +3,7 @@ override KICK_X: f32; // velocity units per slope in cells
 override KICK_Y: f32;
 
 // The coefficients of xᵃ yᵇ in a cell.
-fn surface_in_cell(column: u32, row: u32) -> Square {
-    var nodes: Square; // [along x][along y]
-    for (var l = 0u; l < WIDTH; l++) {
-        let base = node_along(row, l, CELLS_Y) * CELLS_X;
-        for (var k = 0u; k < WIDTH; k++) { nodes[k][l] = surface_at(base + node_along(column, k, CELLS_X)); }
-    }
-    return transpose(SPLINE) * nodes * SPLINE;
-}
+fn surface_in_cell(column: u32, row: u32) -> Square { return transpose(SPLINE) * nodes_of(column, row) * SPLINE; }
 fn half_kick(polynomial: Square, x: f32, y: f32) -> vec2<i32> {
     return vec2<i32>(round(vec2<f32>(KICK_X, KICK_Y) * gradient(polynomial, x, y)));
 }

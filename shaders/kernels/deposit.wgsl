@@ -3,8 +3,6 @@
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
 
-// A number from 0 to 2²³ plus this is rounded to an integer, which is then in the last bits.
-const ROUNDING: f32 = 8388608.0;
 // The most that the integers of a cell hold, and what stands for more: less than nothing, which the nodes notice.
 const MOST: f32 = 2.1e9;
 const TOO_MUCH: i32 = -1073741824;
@@ -16,36 +14,19 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (cell == 0u) { begin_unsorted_step(); }
     if (cell >= CELLS_X * CELLS_Y) { return; }
-    var moments: array<IntegerPowers, WIDTH>;
-    var total = 0.0;
     collect(cell);
+    var moments: Moments;
+    var total = 0.0;
+    let first = first_of(cell);
     let end = end_of(cell);
-    for (var index = first_of(cell); index < end; index++) {
+    for (var index = first; index < end; index++) {
         let particle = stored(index);
-        let position = particle.position;
-        let mass = particle.mass;
-        let x = place_along(position.x, CELLS_X).offset;
-        var terms = f32(mass) * powers(place_along(position.y, CELLS_Y).offset);
-        total += terms.x;
-        moments[0] += bitcast<IntegerPowers>(terms + ROUNDING);
-        for (var a = 1u; a < WIDTH; a++) {
-            terms *= x;
-            moments[a] += bitcast<IntegerPowers>(terms + ROUNDING);
-        }
+        total += f32(particle.mass);
+        add_particle(&moments, particle);
     }
-    let offset = i32(end - first_of(cell)) * bitcast<i32>(ROUNDING);
-    for (var a = 0u; a < WIDTH; a++) { moments[a] -= offset; }
-    var real: Square; // [power of y][power of x]
-    for (var a = 0u; a < WIDTH; a++) { real[a] = Powers(moments[a]); }
-    let weights = SPLINE * real * transpose(SPLINE);
-    var left = moments[0].x;
-    for (var k = 0u; k < WIDTH; k++) {
-        let shares = IntegerPowers(round(weights[k]));
-        for (var l = 0u; l < WIDTH; l++) {
-            left -= shares[l];
-            contributions[(k * WIDTH + l) * (CELLS_X * CELLS_Y) + cell] = shares[l];
-        }
+    moments = without_rounding(moments, i32(end - first));
+    hand_out(cell, node_weights(moments), moments[0].x);
+    if (total > MOST) {
+        contributions[(NODES_BEFORE * WIDTH + NODES_BEFORE) * (CELLS_X * CELLS_Y) + cell] = TOO_MUCH;
     }
-    let own = (NODES_BEFORE * WIDTH + NODES_BEFORE) * (CELLS_X * CELLS_Y) + cell;
-    contributions[own] = select(contributions[own] + left, TOO_MUCH, total > MOST);
 }

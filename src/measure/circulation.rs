@@ -5,9 +5,9 @@ use crate::state::Units;
 /// The absolute circulation ∮ V·dX + f₀ A around a closed loop of points in order, with A the area that it goes round
 /// counterclockwise.
 ///
-/// With dV/dt = f₀ (V_y, -V_x) - ∇Φ every loop that moves with the flow keeps it (Kelvin's theorem): by Stokes' theorem
+/// With `dV/dt = f₀ (V_y, -V_x) - ∇Φ` every loop that moves with the flow keeps it (Kelvin's theorem): by Stokes' theorem
 /// it is the integral of ζ + f₀ over the loop's inside. The loop is a polygon along which the velocity is linear,
-/// ∮ V·dX = Σ ½(V_{j+1} + V_j)·(X_{j+1} - X_j), so that the error falls with the square of the distance of its points.
+/// `∮ V·dX = Σ ½(V_{j+1} + V_j)·(X_{j+1} - X_j)`, so that the error falls with the square of the distance of its points.
 /// Neighbours are joined the shortest way; a loop that goes round the box has no inside, and the answer is NaN.
 ///
 /// `velocities` are in units of [`Units::momentum`], full-step ones, as a report gives them. Both lists are as long.
@@ -45,6 +45,18 @@ pub fn circulation(units: &Units, positions: &[[u32; 3]], velocities: &[[i32; 3]
         twice_area += from[0] * side[1] - from[1] * side[0];
     }
     if place == [0, 0] { sum + 0.5 * rotation * twice_area } else { f64::NAN }
+}
+
+/// The largest distance between neighbours on a closed loop of points. A loop is a curve to the flow as long as this is
+/// below the spacing of the mesh.
+#[must_use]
+pub fn largest_gap(units: &Units, positions: &[[u32; 3]]) -> f64 {
+    let next = positions.iter().cycle().skip(1);
+    let gap = |(point, next): (&[u32; 3], &[u32; 3])| {
+        let [x, y, _] = units.displacement(*next, *point);
+        x.hypot(y)
+    };
+    positions.iter().zip(next).map(gap).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

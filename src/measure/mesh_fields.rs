@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_shear_and_a_swirl_have_their_vorticity() {
-        let (model, mut state) = start([24, 40], 60 * 100);
+        let (model, mut state) = start([24, 40], 48 * 80);
         let water = model.shallow_water.clone().unwrap();
         // u = sin(y'), v = 2 cos(x'), and tracers that would spoil it.
         let carriers = water.carriers as usize;

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Particles that carry water, the mesh on which their depth is formed, and the bath on its nodes.
 ///
 /// Lengths are those of the scene, but for depth, which is mass a node, and masses, whose sum is the number of nodes,
-/// so that the mean depth is 1. The node (k, l) is at (k Δx, l Δy) and has the index k + l n_x.
+/// so that the mean depth is 1. The node (k, l) is at (k Δx, l Δy) and has the index k + l·nₓ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShallowWater {
     /// Mesh nodes on each axis.
@@ -18,7 +18,7 @@ pub struct ShallowWater {
     pub spline_order: u32,
     /// Speed c₀ of gravity waves.
     pub wave_speed: f64,
-    /// Coriolis parameter f₀ of dV/dt = f₀ (V_y, -V_x).
+    /// Coriolis parameter f₀ of du/dt = f₀v, dv/dt = -f₀u.
     pub rotation: f64,
     /// Smoothing of the depth.
     pub smoothing: Smoothing,
@@ -107,6 +107,12 @@ impl ShallowWater {
     #[must_use]
     pub fn surface(&self, lengths: [f64; 2]) -> Surface<'_> {
         Surface::new(&self.surface, lengths)
+    }
+
+    /// The smaller distance between neighbouring nodes in a box with these edges.
+    #[must_use]
+    pub fn spacing(&self, lengths: [f64; 3]) -> f64 {
+        (lengths[0] / f64::from(self.mesh[0])).min(lengths[1] / f64::from(self.mesh[1]))
     }
 
     /// Integer mass of all particles: 1 for every node.

@@ -20,6 +20,8 @@ const TRACER_BYTES: u64 = 1 << 24;
 const WATER: u64 = 24;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
+/// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
+const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
 const LARGEST_BINDING: u64 = 1 << 27;
 
@@ -136,6 +138,9 @@ impl Builder<'_> {
         } else {
             (angle.sin() / water.rotation, (1.0 - angle.cos()) / water.rotation)
         };
+        // Velocities have one bit to spare for a kick; no step may go half round the box.
+        let way = (chord.abs() + sagitta.abs()) * fraction(0).max(fraction(1));
+        let velocity_limit = (2_f64.powi(31) / way).min(2_f64.powi(30)).floor();
         let quanta = self.plan.quanta;
         let squared = water.wave_speed.powi(2);
         let carriers = water.carriers as f64;
@@ -152,6 +157,8 @@ impl Builder<'_> {
             ("CHORD_Y", chord * fraction(1)),
             ("SAGITTA_X", sagitta * fraction(0)),
             ("SAGITTA_Y", sagitta * fraction(1)),
+            ("VELOCITY_LIMIT", velocity_limit),
+            ("LEAST_DEPTH", -1.0 - DEPTH_ROUNDING * (1.0 + water.nodes() as f64 / carriers.max(1.0))),
             ("MEAN_MASS", water.mean_mass() as f64),
             ("KINETIC", 0.5 * water.mass_unit * units.momentum.powi(2) / quanta.energy),
             ("MOMENTUM", water.mass_unit * units.momentum * water.wave_speed / quanta.energy),
@@ -246,13 +253,18 @@ impl Builder<'_> {
     /// From particles to the surface that drives them.
     fn depth(&mut self) {
         let cell_groups = self.water.nodes().div_ceil(self.options.workgroup());
+        let moments = match self.water.spline_order {
+            1 => "common/moments1",
+            2 => "common/moments2",
+            _ => "common/moments3",
+        };
         let (collect, begin) = match self.storage {
             Storage::Sorted => ("common/collect_sorted", &["common/begun_by_sort"][..]),
             Storage::Bins => {
                 ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
             }
         };
-        let modules = [self.stored(), begin, &[collect, "kernels/deposit"]].concat();
+        let modules = [self.stored(), begin, &[collect, "common/deposit", moments, "kernels/deposit"]].concat();
         let deposit = self.kernel("deposit", &modules, cell_groups);
         let gather = self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups);
         self.plan.before_report.extend([deposit, gather]);
@@ -290,6 +302,11 @@ impl Builder<'_> {
     fn moving(&self) -> Vec<&'static str> {
         vec![
             if self.water.bath.is_some() { "common/surface_bath" } else { "common/surface_plain" },
+            match self.water.spline_order {
+                1 => "common/nodes1",
+                2 => "common/nodes2",
+                _ => "common/nodes3",
+            },
             "common/surface_slope",
             "common/motion_limits",
             if self.gyrates() { "common/gyro" } else { "common/rotate" },

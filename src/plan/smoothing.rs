@@ -265,7 +265,7 @@ fn radices(length: u32) -> Vec<u32> {
 
 /// Chebyshev's polynomial for 1 - Λ²∇² with the five-point Laplacian.
 ///
-/// From x = 0, n iterations leave of every mode the part T_n(μ)/T_n(μ₀), with μ in [-1, 1] across the spectrum and
+/// From x = 0, n iterations leave of every mode the part `T_n(μ)/T_n(μ₀)`, with μ in [-1, 1] across the spectrum and
 /// μ₀ > 1 where the operator would vanish. That is less than one, so the polynomial is positive for any n.
 struct Polynomial {
     /// Middle of the spectrum.

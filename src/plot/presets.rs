@@ -85,20 +85,17 @@ pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option
         }
     }
     chart.panels.push(energies);
-    match temperature {
-        Some(set) => {
-            let points = table.points("temperature", 1.0).unwrap_or_default();
-            let panel = Panel::new("Time (time units)", "Temperature (energy units)");
-            let panel = panel.with(Series::line("kinetic", points));
-            chart.panels.push(panel.with_reference(&format!("set, kT = {}", short_number(set)), set));
-        }
-        None => {
-            let points = table.points("total_energy", 1.0).unwrap_or_default();
-            let first = points.first().map_or(f64::NAN, |point| point[1]);
-            let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
-            let panel = Panel::new("Time (time units)", "Relative change of the energy");
-            chart.panels.push(panel.with(Series::line("energy", change)).with_reference("none", 0.0));
-        }
+    if let Some(set) = temperature {
+        let points = table.points("temperature", 1.0).unwrap_or_default();
+        let panel = Panel::new("Time (time units)", "Temperature (energy units)");
+        let panel = panel.with(Series::line("kinetic", points));
+        chart.panels.push(panel.with_reference(&format!("set, kT = {}", short_number(set)), set));
+    } else {
+        let points = table.points("total_energy", 1.0).unwrap_or_default();
+        let first = points.first().map_or(f64::NAN, |point| point[1]);
+        let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
+        let panel = Panel::new("Time (time units)", "Relative change of the energy");
+        chart.panels.push(panel.with(Series::line("energy", change)).with_reference("none", 0.0));
     }
     chart
 }

@@ -2,18 +2,20 @@
 
 use super::analyses::bytes;
 use crate::engine::Sample;
-use crate::measure::circulation::circulation;
+use crate::measure::circulation::{circulation, largest_gap};
 use crate::model::{Model, ShallowWater};
 use crate::output::Table;
 use crate::state::Units;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
-/// Circulations of all closed loops, one row a sample.
+/// Circulations of all closed loops, one row a sample; not a number once a loop is no curve any more.
 pub(super) struct Circulations {
     units: Units,
     rotation: f64,
     time_step: f64,
+    /// Neighbours on a loop that are further apart than this have lost each other.
+    spacing: f64,
     /// Name and place among the tracers.
     loops: Vec<(String, Range<usize>)>,
     /// Time and circulations.
@@ -28,6 +30,7 @@ impl Circulations {
             units: model.units,
             rotation: water.rotation,
             time_step: model.time_step,
+            spacing: water.spacing(model.units.lengths),
             loops: water.closed_loops().map(|(name, range)| (name.to_owned(), place(range))).collect(),
             rows: Vec::new(),
         }
@@ -49,7 +52,12 @@ impl Circulations {
                 positions.push([x, y, 0]);
                 velocities.push([u as i32, v as i32, 0]);
             }
-            row.push(circulation(&self.units, &positions, &velocities, self.rotation));
+            let resolved = largest_gap(&self.units, &positions) < self.spacing;
+            row.push(if resolved {
+                circulation(&self.units, &positions, &velocities, self.rotation)
+            } else {
+                f64::NAN
+            });
         }
         self.rows.push(row);
     }
@@ -59,13 +67,17 @@ impl Circulations {
         Table { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
     }
 
-    /// First value and largest relative change of each loop.
+    /// First value of each loop, the time up to which its points are closer together than nodes, and the largest
+    /// relative change until then.
     pub(super) fn result(&self) -> Value {
         let result = |(index, (name, _)): (usize, &(String, Range<usize>))| {
             let values = || self.rows.iter().map(move |row| row[index + 1]);
             let first = values().next().unwrap_or(f64::NAN);
-            let change = values().map(|value| (value / first - 1.0).abs()).fold(0.0, f64::max);
-            (name.clone(), json!({ "initial": first, "largest_relative_change": change }))
+            let resolved = || values().zip(&self.rows).take_while(|(value, _)| value.is_finite());
+            let change = resolved().map(|(value, _)| (value / first - 1.0).abs()).fold(0.0, f64::max);
+            let until = resolved().last().map(|(_, row)| row[0]);
+            let result = json!({ "initial": first, "resolved_until": until, "largest_relative_change": change });
+            (name.clone(), result)
         };
         Value::Object(self.loops.iter().enumerate().map(result).collect::<Map<_, _>>())
     }

@@ -1,5 +1,6 @@
 //! What the fields of shallow water are called and how they are shown.
 
+use crate::measure::circulation::largest_gap;
 use crate::measure::{Field, MeshFlow};
 use crate::model::{Model, ShallowWater};
 use crate::plot::ColorMap;
@@ -14,7 +15,7 @@ pub(super) struct ShownField {
     pub(super) map: ColorMap,
     name: &'static str,
     label: &'static str,
-    /// Node (k, l) at k + l·n_x.
+    /// Node (k, l) at k + l·nₓ.
     values: Vec<f64>,
 }
 
@@ -58,10 +59,12 @@ impl ShownField {
     }
 }
 
-/// The points of every closed loop of tracers.
+/// The points of every closed loop of tracers that is still a curve.
 pub(super) fn closed_loops(state: &State, model: &Model, water: &ShallowWater) -> Vec<Vec<[f64; 2]>> {
+    let spacing = water.spacing(model.units.lengths);
     let loops = water.closed_loops();
     loops
+        .filter(|(_, range)| largest_gap(&model.units, &state.positions[range.clone()]) < spacing)
         .map(|(_, range)| {
             state.positions[range]
                 .iter()

@@ -27,6 +27,6 @@ pub fn builtin() -> &'static [Builtin] {
         "shallow-water",
         "shallow-water-memory",
         "shallow-water-equilibrium",
-        "vortex-merger"
+        "jet-instability"
     ]
 }

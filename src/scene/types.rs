@@ -286,7 +286,7 @@ pub struct ShallowWaterInteraction {
     /// Speed c₀ of gravity waves.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wave_speed: f64,
-    /// Coriolis parameter f₀, of dV/dt = f₀ (V_y, -V_x): positive in the northern hemisphere. The equations as Cotter and
+    /// Coriolis parameter f₀, of du/dt = f₀v, dv/dt = -f₀u: positive in the northern hemisphere. The equations as Cotter and
     /// Reich print them turn the other way, which is a negative value here. Zero leaves the rotation out.
     #[serde(default)]
     pub rotation: f64,

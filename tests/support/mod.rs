@@ -228,20 +228,30 @@ impl Implementation for ShallowWaterReference {
 pub struct Device {
     engine: Engine<'static>,
     model: Model,
+    /// The last row that was sampled.
+    last: Option<Observables>,
 }
 
 impl Device {
     /// The first steps of a scene on the device.
     pub fn new(scene: &Scene) -> Self {
+        Self::with(scene, Options::default())
+    }
+
+    /// The same with options.
+    pub fn with(scene: &Scene, options: Options) -> Self {
         let (model, state) = start(scene);
-        Self { engine: engine(scene, &state, Options::default()), model }
+        Self { engine: engine(scene, &state, options), model, last: None }
     }
 
     fn samples(&mut self) -> Vec<Observables> {
         let samples = self.engine.finish().expect("samples");
         let plan = self.engine.plan();
         let energies = samples.iter().filter(|sample| sample.sampler == 0);
-        energies.map(|sample| mesoscope::measure::observables_of(sample, plan, &self.model)).collect()
+        let rows: Vec<Observables> =
+            energies.map(|sample| mesoscope::measure::observables_of(sample, plan, &self.model)).collect();
+        self.last = rows.last().copied().or(self.last);
+        rows
     }
 }
 
@@ -263,7 +273,8 @@ impl Implementation for Device {
 
     fn observe(&mut self) -> Observables {
         let step = self.engine.step();
-        *self.samples().last().filter(|sample| sample.step == step).expect("a step that is sampled")
+        self.samples();
+        self.last.filter(|row| row.step == step).expect("a step that is sampled")
     }
 
     fn reported(&mut self) -> State {

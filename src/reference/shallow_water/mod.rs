@@ -42,6 +42,8 @@ use crate::state::State;
 use depth::{Smoothing, spread};
 use motion::{Motion, half_kick};
 
+/// What rounding may take from a depth of nothing.
+const ROUNDING: f64 = 1e-9;
 /// The largest velocity in units.
 const MOST_VELOCITY: i64 = 1 << 30;
 /// Half the box: a drift as long as this could be in either direction.
@@ -277,11 +279,12 @@ impl ShallowWaterReference {
         self.smoothing.apply(&deviation)
     }
 
+    /// A negative depth makes waves grow without limit.
     fn check_depth(&self, deviation: &[f64]) -> Result<(), Unstable> {
         if self.water.carriers == 0 {
             return Ok(());
         }
-        match deviation.iter().position(|deviation| deviation.partial_cmp(&-1.0) != Some(std::cmp::Ordering::Greater)) {
+        match deviation.iter().position(|deviation| deviation.is_nan() || *deviation < -1.0 - ROUNDING) {
             Some(node) => {
                 let columns = self.water.mesh[0];
                 let node = [node as u32 % columns, node as u32 / columns];

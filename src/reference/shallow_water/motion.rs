@@ -1,6 +1,6 @@
 //! Kicks, rotations and drifts of single particles, in integer units.
 //!
-//! The rotation is dV/dt = f₀ (V_y, -V_x), to the right of the motion where f₀ is positive.
+//! The rotation is `dV/dt = f₀ (V_y, -V_x)`, to the right of the motion where f₀ is positive.
 
 use super::depth::mesh_splines;
 use crate::model::{Model, ShallowWater};

@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use mesoscope::gpu::AdapterDescription;
 
-/// A list of what a reader needs to judge the numbers.
+/// A list of what a reader needs to judge the numbers, with a line about what is measured beside.
 pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let mut lines = vec![
@@ -15,7 +15,7 @@ pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
     ];
     let version = env!("CARGO_PKG_VERSION");
     lines.push(format!("- mesoscope {version}, wgpu {}, {}", locked("wgpu"), compiler()));
-    lines.push(format!("- LAMMPS: {peer}"));
+    lines.push(format!("- {peer}"));
     lines.join("\n")
 }
 
@@ -25,7 +25,7 @@ pub fn others() -> Option<String> {
     std::thread::sleep(Duration::from_secs(1));
     let after = processor_time()?;
     let share = 100.0 * (1.0 - (after.0 - before.0) / (after.1 - before.1));
-    let warning = if share > 5.0 { ": **busy, do not trust the numbers** (LAMMPS suffers most)" } else { "" };
+    let warning = if share > 5.0 { ": **busy, do not trust the numbers**" } else { "" };
     Some(format!("{share:.0} % of the processor{warning}"))
 }
 

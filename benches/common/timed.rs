@@ -1,0 +1,57 @@
+//! Timed runs of an engine.
+
+use std::time::Instant;
+
+use mesoscope::engine::Engine;
+
+use crate::Failure;
+
+/// Time a submission should take, and the most steps in it: what `mesoscope run` settles on.
+const BATCH_SECONDS: f64 = 0.15;
+const LARGEST_BATCH: u64 = 512;
+
+/// An engine that is warm, and how fast it is.
+pub struct Run<'a> {
+    pub engine: Engine<'a>,
+    particles: usize,
+    step_seconds: f64,
+    batch: u64,
+}
+
+impl<'a> Run<'a> {
+    /// Takes the first steps of an engine with so many particles.
+    pub fn new(engine: Engine<'a>, particles: usize) -> Result<Self, Failure> {
+        let mut run = Self { engine, particles, step_seconds: 0.0, batch: 1 };
+        // The first steps of a pipeline are slow, and step 0 takes a sample.
+        run.seconds(2, 2)?;
+        let mut steps = 2;
+        loop {
+            run.step_seconds = run.seconds(steps, steps)? / steps as f64;
+            if run.step_seconds * steps as f64 > 0.05 {
+                break;
+            }
+            steps *= 4;
+        }
+        run.batch = ((BATCH_SECONDS / run.step_seconds) as u64).clamp(1, LARGEST_BATCH);
+        Ok(run)
+    }
+
+    /// Seconds that a number of steps take, from the first submission until the device is done.
+    fn seconds(&mut self, steps: u64, batch: u64) -> Result<f64, Failure> {
+        let begun = Instant::now();
+        self.engine.advance(steps, batch)?;
+        self.engine.finish()?;
+        Ok(begun.elapsed().as_secs_f64())
+    }
+
+    /// Particle-steps a second over about that many seconds.
+    pub fn rate(&mut self, seconds: f64) -> Result<f64, Failure> {
+        self.rate_batched(seconds, self.batch)
+    }
+
+    /// The same with a given number of steps a submission.
+    pub fn rate_batched(&mut self, seconds: f64, batch: u64) -> Result<f64, Failure> {
+        let steps = ((seconds / self.step_seconds) as u64).max(4);
+        Ok((steps * self.particles as u64) as f64 / self.seconds(steps, batch)?)
+    }
+}

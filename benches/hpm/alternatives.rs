@@ -1,0 +1,101 @@
+//! The same flow computed otherwise: storage, splines, solvers, and particles that crowd.
+
+use mesoscope::gpu::Gpu;
+use mesoscope::plan::{Options, Storage};
+
+use crate::flow::{Flow, Start};
+use crate::statistics::{grouped, ratios, spread};
+use crate::timed::Run;
+use crate::{Failure, Settings};
+
+struct Alternative {
+    name: &'static str,
+    changes: &'static [&'static str],
+    storage: Option<Storage>,
+    start: Start,
+}
+
+const fn scene(name: &'static str, changes: &'static [&'static str]) -> Alternative {
+    Alternative { name, changes, storage: None, start: Start::Even }
+}
+
+const fn stored(name: &'static str, storage: Option<Storage>, start: Start) -> Alternative {
+    Alternative { name, changes: &[], storage, start }
+}
+
+const ALTERNATIVES: [Alternative; 12] = [
+    stored("storage: sorted", Some(Storage::Sorted), Start::Even),
+    stored("storage: bins", Some(Storage::Bins), Start::Even),
+    scene("splines of order 1", &["interactions[0].spline_order=1"]),
+    scene("splines of order 2", &["interactions[0].spline_order=2"]),
+    scene("spectral symbol", &[r#"interactions[0].smoothing.solver={"type":"fft","symbol":"spectral"}"#]),
+    scene("`chebyshev` to 1e-1", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-1}"#]),
+    scene("`chebyshev` to 1e-2", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-2}"#]),
+    scene("`chebyshev` to 1e-3", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#]),
+    scene("`chebyshev` to 1e-6", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-6}"#]),
+    scene("no smoothing", &["interactions[0].smoothing.length=0"]),
+    stored("half of all particles in 1/16 of the cells, sorted", Some(Storage::Sorted), Start::Clustered),
+    stored("half of all particles in 1/16 of the cells, bins", Some(Storage::Bins), Start::Clustered),
+];
+
+impl Alternative {
+    fn options(&self) -> Options {
+        Options { storage: self.storage, ..Options::default() }
+    }
+}
+
+/// Bytes of the largest buffer in any alternative for a size.
+pub fn largest_buffer(size: crate::flow::Size) -> Result<u64, Failure> {
+    let mut largest = 0;
+    for alternative in &ALTERNATIVES {
+        largest = largest.max(crate::flow::plan_of(size, alternative.changes, alternative.options())?.largest_buffer());
+    }
+    Ok(largest)
+}
+
+pub fn compare(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Failure> {
+    println!(
+        "\n### Alternatives\n\nMedian (least–most) of rounds in which the default and the alternative take turns; default: \
+         splines of order 3, `fft` with the five-point symbol, particles on a lattice."
+    );
+    for flow in flows {
+        println!("\nMesh {}², {} particles.\n", flow.size.mesh, grouped(flow.size.particles));
+        println!("| alternative | ms a step | × default |");
+        println!("|:--|--:|--:|");
+        let mut default = flow.run(gpu, &[], Options::default(), Start::Even)?;
+        let mut all = Vec::new();
+        let mut rows = Vec::new();
+        for alternative in &ALTERNATIVES {
+            let (row, mut times) = match turns(gpu, flow, alternative, &mut default, settings) {
+                Ok([own, reference]) => {
+                    (format!("{} | {}", spread(&own, 2), spread(&ratios(&own, &reference), 2)), reference)
+                }
+                Err(reason) => (format!("{reason} | –"), Vec::new()),
+            };
+            rows.push(format!("| {} | {row} |", alternative.name));
+            all.append(&mut times);
+        }
+        println!("| default | {} | 1 |", spread(&all, 2));
+        for row in rows {
+            println!("{row}");
+        }
+    }
+    Ok(())
+}
+
+/// Milliseconds a step of the alternative and of the default, round by round.
+fn turns(
+    gpu: &Gpu,
+    flow: &Flow,
+    alternative: &Alternative,
+    default: &mut Run,
+    settings: &Settings,
+) -> Result<[Vec<f64>; 2], Failure> {
+    let mut run = flow.run(gpu, alternative.changes, alternative.options(), alternative.start)?;
+    let mut times = [Vec::new(), Vec::new()];
+    for _ in 0..settings.rounds.min(5) {
+        times[0].push(flow.milliseconds(run.rate(0.5 * settings.seconds)?));
+        times[1].push(flow.milliseconds(default.rate(0.5 * settings.seconds)?));
+    }
+    Ok(times)
+}

@@ -1,0 +1,29 @@
+// Moments of a cell for splines of order 1, written out: loops that are kept as loops cost far more than they do.
+alias Moments = array<IntegerPowers, WIDTH>;
+
+fn add_moments(moments: ptr<function, Moments>, x: f32, first: Powers) {
+    var terms = first;
+    (*moments)[0] += bitcast<IntegerPowers>(terms + ROUNDING);
+    terms *= x;
+    (*moments)[1] += bitcast<IntegerPowers>(terms + ROUNDING);
+}
+fn without_rounding(moments: Moments, count: i32) -> Moments {
+    let offset = count * bitcast<i32>(ROUNDING);
+    return Moments(moments[0] - offset, moments[1] - offset);
+}
+// The masses of the nodes, [along x][along y].
+fn node_weights(moments: Moments) -> Square {
+    return SPLINE * Square(Powers(moments[0]), Powers(moments[1])) * transpose(SPLINE);
+}
+// Hands out the rounded masses, and what is left of the total to one node.
+fn hand_out(cell: u32, weights: Square, total: i32) {
+    let count = CELLS_X * CELLS_Y;
+    let share0 = IntegerPowers(round(weights[0]));
+    let share1 = IntegerPowers(round(weights[1]));
+    let given = share0 + share1;
+    let left = total - (given.x + given.y);
+    contributions[0u * count + cell] = share0.x + left;
+    contributions[1u * count + cell] = share0.y;
+    contributions[2u * count + cell] = share1.x;
+    contributions[3u * count + cell] = share1.y;
+}
