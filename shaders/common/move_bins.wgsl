@@ -1,19 +1,18 @@
-// Particles that have moved stay in their bin, at the bottom, or go to the top of another.
-@group(0) @binding(3) var<storage, read_write> stayed: array<u32>;
-@group(0) @binding(5) var<storage, read_write> arrived: array<atomic<u32>>;
+// Particles that have moved stay in their bin, or go to another.
 var<private> kept: u32;
 
-fn begin_moving(cell: u32) { kept = cell * CAPACITY; }
-fn store_moved(cell: u32, index: u32, particle: Water) {
+fn begin_moving(cell: u32) { kept = 0u; }
+fn store_moved(cell: u32, bin: Bin, index: u32, particle: Water) {
     let destination = cell_of(particle.position);
-    var place = kept;
+    let turn = 1u - bin.turn;
+    var place = bin.begin + kept;
     if (destination == cell) {
         kept += 1u;
+        failures_of_motion |= select(0u, FAILURE_FRAMES, kept > CAPACITY);
     } else {
-        let arrival = atomicAdd(&arrived[destination], 1u);
-        // Not among those that the other cell has yet to move.
-        if (residents[destination] + arrival < CAPACITY) {
-            place = (destination + 1u) * CAPACITY - 1u - arrival;
+        let arrival = atomicAdd(&arrived[turn * CELLS_X * CELLS_Y + destination], 1u);
+        if (arrival < ARRIVALS) {
+            place = destination * (CAPACITY + 2u * ARRIVALS) + CAPACITY + turn * ARRIVALS + arrival;
         } else {
             failures_of_motion |= FAILURE_FRAMES;
         }
@@ -21,4 +20,7 @@ fn store_moved(cell: u32, index: u32, particle: Water) {
     // One place in the program that stores: software adapters pay for every one.
     bins[place] = particle;
 }
-fn end_moving(cell: u32) { stayed[cell] = kept - cell * CAPACITY; }
+fn end_moving(cell: u32, bin: Bin) {
+    stayed[cell] = kept | ((1u - bin.turn) << 31u);
+    atomicStore(&arrived[bin.turn * CELLS_X * CELLS_Y + cell], 0u);
+}

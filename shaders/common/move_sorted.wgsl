@@ -4,8 +4,8 @@
 @group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 fn begin_moving(cell: u32) {}
-fn store_moved(cell: u32, index: u32, particle: Water) {
+fn store_moved(cell: u32, bin: Bin, index: u32, particle: Water) {
     particles[index] = particle;
     ranks[index] = atomicAdd(&counts[cell_of(particle.position)], 1u);
 }
-fn end_moving(cell: u32) {}
+fn end_moving(cell: u32, bin: Bin) {}

@@ -1,9 +1,23 @@
-// Every cell has a bin: its particles at the bottom, those that arrive in a step from the top. What stays in its cell
-// stays in its bin, so that no sort is needed; only a crowd in one cell does not fit.
-override CAPACITY: u32;
+// Every cell has a bin: a stretch for the particles that stay, and two for those that arrive, one of the step before and
+// one of this step, in turn. What stays in its cell stays in its bin, so that no sort is needed; only a crowd in one cell
+// does not fit.
+override CAPACITY: u32; // of those that stay
+override ARRIVALS: u32; // of each stretch of those that arrive
 @group(0) @binding(2) var<storage, read_write> bins: array<Water>;
-@group(0) @binding(6) var<storage, read_write> residents: array<u32>; // particles of each cell when the step began
+@group(0) @binding(3) var<storage, read_write> stayed: array<u32>;          // and, in the highest bit, whose turn it is
+@group(0) @binding(5) var<storage, read_write> arrived: array<atomic<u32>>; // in the first stretch, then in the second
 
-fn first_of(cell: u32) -> u32 { return cell * CAPACITY; }
-fn end_of(cell: u32) -> u32 { return cell * CAPACITY + residents[cell]; }
+struct Bin { begin: u32, stayed: u32, count: u32, turn: u32 }
+fn opened_bin(cell: u32) -> Bin {
+    let word = stayed[cell];
+    let turn = word >> 31u;
+    let low = word & 0x7fffffffu;
+    // More than fit were refused as they arrived.
+    let high = min(atomicLoad(&arrived[turn * CELLS_X * CELLS_Y + cell]), ARRIVALS);
+    return Bin(cell * (CAPACITY + 2u * ARRIVALS), low, low + high, turn);
+}
+// Where the particles are.
+fn place_in(bin: Bin, k: u32) -> u32 {
+    return bin.begin + k + select(CAPACITY + bin.turn * ARRIVALS - bin.stayed, 0u, k < bin.stayed);
+}
 fn stored(index: u32) -> Water { return bins[index]; }

@@ -17,14 +17,13 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     collect(cell);
     var moments: Moments;
     var total = 0.0;
-    let first = first_of(cell);
-    let end = end_of(cell);
-    for (var index = first; index < end; index++) {
-        let particle = stored(index);
+    let bin = opened_bin(cell);
+    for (var k = 0u; k < bin.count; k++) {
+        let particle = stored(place_in(bin, k));
         total += f32(particle.mass);
         add_particle(&moments, particle);
     }
-    moments = without_rounding(moments, i32(end - first));
+    moments = without_rounding(moments, i32(bin.count));
     hand_out(cell, node_weights(moments), moments[0].x);
     if (total > MOST) {
         contributions[(NODES_BEFORE * WIDTH + NODES_BEFORE) * (CELLS_X * CELLS_Y) + cell] = TOO_MUCH;

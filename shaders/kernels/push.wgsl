@@ -11,16 +11,17 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > LEAST_DEPTH), cell);
     let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
     let closes = CLOSES == 1u && control.closing == 1;
-    let end = end_of(cell);
+    let bin = opened_bin(cell);
     begin_moving(cell);
-    for (var index = first_of(cell); index < end; index++) {
+    for (var k = 0u; k < bin.count; k++) {
+        let index = place_in(bin, k);
         var particle = stored(index);
         let x = place_along(particle.position.x, CELLS_X).offset;
         let y = place_along(particle.position.y, CELLS_Y).offset;
         let kick = half_kick(polynomial, x, y);
         if (closes) { particle.velocity = closed(particle.velocity, kick); }
-        store_moved(cell, index, opened(particle, kick));
+        store_moved(cell, bin, index, opened(particle, kick));
     }
-    end_moving(cell);
+    end_moving(cell, bin);
     raise(failures_of_motion);
 }

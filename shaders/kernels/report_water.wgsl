@@ -19,8 +19,9 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var bath = Sum64(0u);
     if (cell < CELLS_X * CELLS_Y) {
         let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
-        let end = end_of(cell);
-        for (var index = first_of(cell); index < end; index++) {
+        let bin = opened_bin(cell);
+        for (var k = 0u; k < bin.count; k++) {
+            let index = place_in(bin, k);
             var particle = stored(index);
             if (control.closing == 1) {
                 let x = place_along(particle.position.x, CELLS_X).offset;

@@ -32,8 +32,10 @@ pub enum Layout {
 pub struct Bins {
     /// Cells on each axis.
     pub cells: [u32; 2],
-    /// Particles that a bin holds.
+    /// Particles that stay in a cell, for which its bin has places.
     pub capacity: usize,
+    /// Particles that arrive in a step, for which it has places twice.
+    pub arrivals: usize,
     /// Whether cells are centred on nodes, rather than between them.
     pub centred: bool,
 }
@@ -54,7 +56,7 @@ impl Bins {
 
     /// Puts particles into their bins: the bins, how many are in each, and none on their way.
     fn pack(&self, particles: &[[u32; WATER]]) -> Result<Vec<Vec<u32>>, Misfit> {
-        let mut bins = vec![0; WATER * self.capacity * self.count()];
+        let mut bins = vec![0; WATER * self.places() * self.count()];
         let mut stayed = vec![0; self.count()];
         for particle in particles {
             let cell = self.cell([particle[0], particle[1], 0]);
@@ -62,22 +64,28 @@ impl Bins {
             if place == self.capacity {
                 return Err(Misfit::Crowded);
             }
-            let first = WATER * (cell * self.capacity + place);
+            let first = WATER * (cell * self.places() + place);
             bins[first..first + WATER].copy_from_slice(particle);
             stayed[cell] += 1;
         }
-        Ok(vec![bins, stayed, vec![0; self.count()]])
+        Ok(vec![bins, stayed, vec![0; 2 * self.count()]])
     }
 
-    /// The particles in bins, at their bottoms and their tops.
+    fn places(&self) -> usize {
+        self.capacity + 2 * self.arrivals
+    }
+
+    /// The particles in bins, those that have stayed and those that have arrived.
     fn particles<'a>(&self, bins: &'a [u32], stayed: &[u32], arrived: &[u32]) -> Vec<&'a [u32]> {
         let mut particles = Vec::new();
-        let all = bins.chunks_exact(WATER * self.capacity).zip(stayed.iter().zip(arrived));
-        for (bin, (stayed, arrived)) in all.take(self.count()) {
+        for (cell, bin) in bins.chunks_exact(WATER * self.places()).enumerate().take(self.count()) {
             let bin: Vec<&[u32]> = bin.chunks_exact(WATER).collect();
-            let [stayed, arrived] = [stayed, arrived].map(|count| (*count as usize).min(self.capacity));
-            particles.extend(&bin[..stayed]);
-            particles.extend(&bin[self.capacity - arrived..]);
+            let low = stayed.get(cell).map_or(0, |word| (word & 0x7fff_ffff) as usize);
+            particles.extend(bin.iter().take(low.min(self.capacity)));
+            for turn in 0..2 {
+                let high = arrived.get(turn * self.count() + cell).map_or(0, |count| *count as usize);
+                particles.extend(bin.iter().skip(self.capacity + turn * self.arrivals).take(high.min(self.arrivals)));
+            }
         }
         particles
     }

@@ -37,18 +37,23 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options
     builder.plan
 }
 
-/// Places of a bin: for particles spread at random, more than enough for 10¹⁰ of them, and as many again as arrive in a
-/// step.
+/// Places of a bin, for particles that stay: for particles spread at random, more than enough for 10¹⁰ of them.
 fn bin_capacity(water: &ShallowWater) -> u64 {
     let mean = water.carriers as f64 / water.nodes() as f64;
     (mean + 6.0 * mean.sqrt()).ceil() as u64 + 8
 }
 
+/// Places of a bin for particles that arrive in a step: a quarter of all do where the step is a quarter of a cell.
+fn bin_arrivals(water: &ShallowWater) -> u64 {
+    let mean = water.carriers as f64 / water.nodes() as f64;
+    (0.5 * mean + 2.0 * mean.sqrt()).ceil() as u64 + 8
+}
+
 /// Bins where they cost not much more memory than sorting and stay within what every adapter can bind.
 fn best_storage(water: &ShallowWater) -> Storage {
-    let bins = WATER * bin_capacity(water) * water.nodes();
+    let bins = WATER * (bin_capacity(water) + 2 * bin_arrivals(water)) * water.nodes();
     let sorted = (2 * WATER + 4) * water.carriers;
-    if bins <= 2 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
+    if bins <= 3 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
 }
 
 fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
@@ -66,6 +71,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
                 Storage::Bins => Some(Bins {
                     cells: water.mesh,
                     capacity: bin_capacity(water) as usize,
+                    arrivals: bin_arrivals(water) as usize,
                     centred: water.spline_order == 2,
                 }),
             },
@@ -409,12 +415,11 @@ impl Builder<'_> {
                 self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
-                let capacity = bin_capacity(self.water);
-                self.plan.constants.push(("CAPACITY", capacity as f64));
-                self.buffer("bins", "particles of each cell", WATER * capacity * nodes);
-                self.buffer("residents", "particles of each cell at the beginning of the step", 4 * nodes);
+                let (capacity, arrivals) = (bin_capacity(self.water), bin_arrivals(self.water));
+                self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
+                self.buffer("bins", "particles of each cell", WATER * (capacity + 2 * arrivals) * nodes);
                 self.buffer("stayed", "particles that stay in each cell", 4 * nodes);
-                self.buffer("arrived", "particles that arrive in each cell", 4 * nodes);
+                self.buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
             }
         }
         self.buffer("contributions", "what each cell adds to the nodes around it", 4 * width * width * nodes);
