@@ -149,7 +149,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     let said = place.run("out", &[]);
     let out = place.path("out");
     assert!(said.starts_with("small sea: 1,629 particles in 2 dimensions, on "), "{said}");
-    assert!(said.contains("circulation of `outer`  2") && said.contains("3 numbered pictures"), "{said}");
+    assert!(said.contains("circulation of `outer`  17.") && said.contains("3 numbered pictures"), "{said}");
     let mut expected: Vec<String> =
         ["checkpoint.bin", "circulation.csv", "circulation.png", "energies.csv", "energies.png", "run.json"]
             .map(str::to_owned)
@@ -366,17 +366,26 @@ fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
 }
 
 #[test]
-fn a_node_that_runs_dry_is_named() {
+fn a_negative_depth_is_named() {
     let place = Place::new()
-        .with("/particles", json!([{"species": "water", "count": 40}]))
+        .with(
+            "/particles",
+            json!([{"species": "water", "placement": {"type": "listed", "positions": [[3.1415926535, 3.1415926535]]}}]),
+        )
         .with("/temperature", json!(0))
-        .with("/interactions/0/smoothing", json!({"length": 0}))
+        .with("/interactions/0/surface", json!([]))
+        .with("/interactions/0/smoothing", json!({"length": 0.2, "solver": {"type": "fft", "symbol": "spectral"}}))
         .with("/interactions/0/spline_order", json!(1))
         .without("/interactions/0/bath");
     fails(
         &["run", &place.scene(), "--out", &place.argument("out")],
         4,
-        &["became unstable at step 0: no depth is left at mesh node (", "where x = ", "checkpoint, of step 0"],
+        &[
+            "became unstable at step 0: the depth at mesh node (",
+            "where x = ",
+            ", is negative; try",
+            "checkpoint, of step 0",
+        ],
     );
 }
 

@@ -3,6 +3,7 @@ override VELOCITY_LIMIT: i32; // beyond which a velocity, or the way of a step, 
 var<private> failures_of_motion: u32;
 
 fn check_motion(velocity: vec2<i32>) {
-    let speed = max(abs(velocity.x), abs(velocity.y));
-    failures_of_motion |= select(0u, FAILURE_MOMENTUM, speed > VELOCITY_LIMIT);
+    // Unsigned, for the least integer is its own absolute value.
+    let speed = vec2<u32>(abs(velocity));
+    failures_of_motion |= select(0u, FAILURE_MOMENTUM, max(speed.x, speed.y) > u32(VELOCITY_LIMIT));
 }

@@ -80,8 +80,8 @@ pub struct Engine<'a> {
     collected: Vec<Sample>,
 }
 
-/// Units of the largest velocity of shallow water, as the shader has it.
-const VELOCITY_LIMIT: f64 = 1_073_741_824.0;
+/// Units of the largest velocity of shallow water, with one bit to spare.
+const VELOCITY_RANGE: f64 = 1_073_741_824.0;
 
 /// Batches that may wait on the device while the host goes on.
 const BATCHES_IN_FLIGHT: usize = 2;
@@ -404,7 +404,7 @@ impl<'a> Engine<'a> {
                 let place = self.node(control.failure_place);
                 format!("over a hundred times the mean mass, more than its integers hold, is around {place}")
             }
-            bits if bits & 32 != 0 => format!("no depth is left at {}", self.node(control.failure_place)),
+            bits if bits & 32 != 0 => format!("the depth at {}, is negative", self.node(control.failure_place)),
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => match self.plan.layout {
                 Layout::Particles { .. } => "a particle moves further than the cutoff in one step".to_owned(),
@@ -413,8 +413,14 @@ impl<'a> Engine<'a> {
             _ => match self.plan.layout {
                 Layout::Particles { .. } => "a momentum is more than 64 times its natural scale".to_owned(),
                 Layout::Water { .. } => {
-                    let most = VELOCITY_LIMIT * self.plan.units.momentum;
-                    format!("a velocity is above {most:.4}, more than twice the largest expected in this scene")
+                    let limit = self.plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
+                    let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
+                    let reason = if limit < VELOCITY_RANGE {
+                        "which goes half round the box in one step"
+                    } else {
+                        "more than twice the largest expected in this scene"
+                    };
+                    format!("a velocity is above {:.4}, {reason}", limit * self.plan.units.momentum)
                 }
             },
         };
