@@ -267,7 +267,7 @@ fn any_angle_of_rotation_in_a_step() {
 #[test]
 fn turning_loses_no_speed() {
     // The lattice of integers is turned by shears: whatever the angle, energies wander by rounding alone.
-    for rotation in [0.3, 6.283_185_307_179_586, 50.0, 1e4] {
+    for rotation in [0.3, 6.3, 50.0, 1e4] {
         let scene = water(&[
             "interactions.0.wave_speed=1e-3",
             "interactions.0.surface=[]",
@@ -696,7 +696,7 @@ fn a_particle_heavier_than_fits_is_refused() {
     state.masses[7] = 8_388_608;
     match device.upload(&state) {
         Err(EngineError::State { reason }) => {
-            assert!(reason.contains("the mass of particle 7 is 8388608 units"), "{reason}")
+            assert!(reason.contains("the mass of particle 7 is 8388608 units"), "{reason}");
         }
         other => panic!("{other:?}"),
     }
