@@ -15,7 +15,10 @@ use crate::plot::{
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
-use image::{ExtendedColorType, ImageEncoder, RgbaImage, codecs::png::PngEncoder};
+use image::{
+    ExtendedColorType, ImageEncoder, RgbaImage,
+    codecs::png::{CompressionType, FilterType, PngEncoder},
+};
 use std::io;
 
 /// Draws the pictures of a run again from the files it left, with changes to the look given as overrides of the scene
@@ -225,7 +228,7 @@ impl<'a> Pictures<'a> {
 pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
     let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
     directory.write(name, |writer| {
-        PngEncoder::new(writer)
+        PngEncoder::new_with_quality(writer, CompressionType::Default, FilterType::Adaptive)
             .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
             .map_err(io::Error::other)
     })?;
