@@ -107,7 +107,7 @@ fn energy_of_the_shear_flow(integrator: &str, rows: &[(f64, f64, f64)]) {
         let every = if step < 0.03 { 5 } else { 1 };
         let sampled = format!("output.energies.every={every}");
         let scene = shear_flow(&[integrator, &time_step(step), &sampled]);
-        for mut run in implementations(&scene) {
+        for mut run in implementations_with_room(&scene) {
             let error = energy_error(run.as_mut(), (time / step).round() as u64, every);
             println!("{}: dt = {step}, T = {time}: max|ΔE/E0| = {error:.3e}, known {known:.1e}", run.name());
             assert!((error / known - 1.0).abs() < 0.2, "{}: dt = {step}: {error}, not {known}", run.name());
@@ -817,7 +817,7 @@ fn oblong_meshes_and_boxes_keep_energy() {
             let error = energy_error(run.as_mut(), 500, 10);
             println!("{}: {mesh:?}, order {spline}: {error:.2e} of {moved:.3}", run.name());
             // The kinks of linear splines cost an order.
-            let allowed = if spline == 1 { 5e-3 } else { 2e-4 };
+            let allowed = if spline == 1 { 5e-3 } else { 3e-4 };
             assert!(error < allowed, "{}: {mesh:?}: {error}", run.name());
         }
     }
@@ -841,12 +841,16 @@ fn what_the_state_cannot_hold_is_refused() {
     state.momenta[1] = [0, (1 << 30) + 1, 0];
     let mut fast = ShallowWaterReference::new(model, state).unwrap();
     assert!(matches!(fast.step(), Err(Unstable::Momentum { step: 0, particle: 1 })));
-    // Without smoothing a node without particles is dry.
-    let dry = r#"particles=[{"species":"water","placement":{"type":"listed","positions":[[1.0,2.0]]},"velocities":{"type":"rest"}}]"#;
-    let mut dry = water_reference(&still_water(&[dry, "interactions.0.smoothing.length=0"]));
-    assert_eq!(dry.step(), Err(Unstable::Depth { step: 0, node: [0, 0] }));
-    assert!(dry.observe().is_err() && dry.reported_state().is_err());
+    // Without smoothing a node without particles is dry, and may be. Waves cut off at the mesh leave a negative depth.
+    let lone = r#"particles=[{"species":"water","placement":{"type":"listed","positions":[[1.0,2.0]]},"velocities":{"type":"rest"}}]"#;
+    let mut dry = water_reference(&still_water(&[lone, "interactions.0.smoothing.length=0"]));
     assert_eq!(dry.depth().iter().filter(|depth| **depth > 0.0).count(), 16);
+    assert!(dry.step().is_ok());
+    let spectral = r#"interactions.0.smoothing={"length":0.2,"solver":{"type":"fft","symbol":"spectral"}}"#;
+    let mut negative = water_reference(&still_water(&[lone, spectral]));
+    assert!(negative.depth().iter().any(|depth| *depth < 0.0));
+    assert!(matches!(negative.step(), Err(Unstable::Depth { step: 0, .. })));
+    assert!(negative.observe().is_err() && negative.reported_state().is_err());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::HashSet;
+use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -53,7 +54,7 @@ impl Place {
         let scene = json!({
             "title": "small sea",
             "seed": 3,
-            "space": {"box": [6.283_185_307_179_586, 6.283_185_307_179_586]},
+            "space": {"box": [TAU, TAU]},
             "time": {"step": 0.02, "steps": 40},
             "temperature": 4e-4,
             "particles": [
@@ -66,7 +67,7 @@ impl Place {
             ],
             "interactions": [{
                 "type": "shallow-water", "mesh": [16, 16],
-                "wave_speed": 6.283_185_307_179_586, "rotation": 6.283_185_307_179_586,
+                "wave_speed": TAU, "rotation": TAU,
                 "smoothing": {"length": 0.8},
                 "surface": [{"type": "bump", "center": [3, 3], "radius": 1, "amplitude": 0.1}],
                 "bath": {"type": "memory", "epsilon": 1},
@@ -166,7 +167,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in expected.iter().filter(|name| !name.contains('-') && (name.contains(".png") || name.contains(".npy"))) {
         assert!(said.contains(name.as_str()), "`{name}` is not in: {said}");
     }
-    for name in expected.iter().filter(|name| name.ends_with(".png")) {
+    for name in expected.iter().filter(|name| Path::new(name).extension().is_some_and(|extension| extension == "png")) {
         assert_eq!(picture(&out.join(name)).dimensions().1, 480, "{name}");
         assert!(colours(&out.join(name)) > 20, "{name} is empty");
     }
@@ -181,7 +182,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     assert_eq!((highest / 16, highest % 16), (8, 8));
     let (_, vorticity) = array(&out.join("potential_vorticity-000001.npy"));
     // Far from the hill it is f₀ at a depth of nearly 1.
-    assert!((vorticity[0] / 6.28 - 1.0).abs() < 0.1, "{}", vorticity[0]);
+    assert!((vorticity[0] / TAU - 1.0).abs() < 0.1, "{}", vorticity[0]);
 
     let energies = read_table(&out.join(files::ENERGIES)).unwrap();
     let columns = "step,time,kinetic_energy,potential_energy,total_energy,bath_energy,extended_energy,bath_square,temperature,\
@@ -195,9 +196,9 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     assert_eq!(circulation.columns, ["time", "inner", "outer"]);
     assert_eq!(circulation.rows.len(), 11);
     // f₀ times the area, and the flow's share.
-    for (name, area) in [("inner", 0.785), ("outer", 3.14)] {
+    for (name, area) in [("inner", 0.25 * PI), ("outer", PI)] {
         let values = circulation.column(name).unwrap();
-        assert!((values[0] / (6.283 * area) - 1.0).abs() < 0.2, "{name}: {}", values[0]);
+        assert!((values[0] / (TAU * area) - 1.0).abs() < 0.2, "{name}: {}", values[0]);
         assert!(values.iter().all(|value| (value / values[0] - 1.0).abs() < 1e-3), "{name}: {values:?}");
     }
     let summary = Summary::load(&out.join(files::SUMMARY)).unwrap();
@@ -368,10 +369,7 @@ fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
 #[test]
 fn a_negative_depth_is_named() {
     let place = Place::new()
-        .with(
-            "/particles",
-            json!([{"species": "water", "placement": {"type": "listed", "positions": [[3.1415926535, 3.1415926535]]}}]),
-        )
+        .with("/particles", json!([{"species": "water", "placement": {"type": "listed", "positions": [[PI, PI]]}}]))
         .with("/temperature", json!(0))
         .with("/interactions/0/surface", json!([]))
         .with("/interactions/0/smoothing", json!({"length": 0.2, "solver": {"type": "fft", "symbol": "spectral"}}))

@@ -27,7 +27,7 @@ const LARGEST_BINDING: u64 = 1 << 27;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options: Options) -> Plan {
-    let storage = options.storage.unwrap_or_else(|| best_storage(water));
+    let storage = options.storage.unwrap_or_else(|| best_storage(model, water));
     let mut builder = Builder { model, water, options, storage, plan: empty_plan(model, water, storage) };
     builder.constants();
     builder.ordering();
@@ -37,21 +37,23 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options
     builder.plan
 }
 
-/// Places of a bin, for particles that stay: for particles spread at random, more than enough for 10¹⁰ of them.
+/// Places of a bin, for particles that stay: for particles spread at random, more than enough for 10⁸ of them.
 fn bin_capacity(water: &ShallowWater) -> u64 {
     let mean = water.carriers as f64 / water.nodes() as f64;
-    (mean + 6.0 * mean.sqrt()).ceil() as u64 + 8
+    (mean + 5.0 * mean.sqrt()).ceil() as u64 + 8
 }
 
-/// Places of a bin for particles that arrive in a step: a quarter of all do where the step is a quarter of a cell.
-fn bin_arrivals(water: &ShallowWater) -> u64 {
+/// Places of a bin for particles that arrive in a step: at a speed of a third of that of waves, and more since they come
+/// in ranks.
+fn bin_arrivals(model: &Model, water: &ShallowWater) -> u64 {
     let mean = water.carriers as f64 / water.nodes() as f64;
-    (0.5 * mean + 2.0 * mean.sqrt()).ceil() as u64 + 8
+    let crossing = 0.3 * water.wave_speed * model.time_step / water.spacing(model.units.lengths);
+    (crossing.min(1.0) * mean + 2.0 * mean.sqrt()).ceil() as u64 + 6
 }
 
 /// Bins where they cost not much more memory than sorting and stay within what every adapter can bind.
-fn best_storage(water: &ShallowWater) -> Storage {
-    let bins = WATER * (bin_capacity(water) + 2 * bin_arrivals(water)) * water.nodes();
+fn best_storage(model: &Model, water: &ShallowWater) -> Storage {
+    let bins = WATER * (bin_capacity(water) + 2 * bin_arrivals(model, water)) * water.nodes();
     let sorted = (2 * WATER + 4) * water.carriers;
     if bins <= 3 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
 }
@@ -71,7 +73,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
                 Storage::Bins => Some(Bins {
                     cells: water.mesh,
                     capacity: bin_capacity(water) as usize,
-                    arrivals: bin_arrivals(water) as usize,
+                    arrivals: bin_arrivals(model, water) as usize,
                     centred: water.spline_order == 2,
                 }),
             },
@@ -415,7 +417,7 @@ impl Builder<'_> {
                 self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
-                let (capacity, arrivals) = (bin_capacity(self.water), bin_arrivals(self.water));
+                let (capacity, arrivals) = (bin_capacity(self.water), bin_arrivals(self.model, self.water));
                 self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
                 self.buffer("bins", "particles of each cell", WATER * (capacity + 2 * arrivals) * nodes);
                 self.buffer("stayed", "particles that stay in each cell", 4 * nodes);

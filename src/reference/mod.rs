@@ -47,7 +47,7 @@ pub enum Unstable {
         /// The particle's id.
         particle: usize,
     },
-    /// A smoothed depth of shallow water that is not positive.
+    /// A smoothed depth of shallow water that is negative.
     #[error("step {step}: there is no depth left at mesh node ({}, {})", node[0], node[1])]
     Depth {
         /// The step.
