@@ -37,25 +37,29 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, options
     builder.plan
 }
 
-/// Places of a bin, for particles that stay: for particles spread at random, more than enough for 10⁸ of them.
-fn bin_capacity(water: &ShallowWater) -> u64 {
+/// Places of a bin, for particles that stay and for those that arrive in a step: more than enough for particles spread at
+/// random at a speed of a third of that of waves, and twice as many spare places as that where they can be bound.
+fn bin_places(model: &Model, water: &ShallowWater) -> (u64, u64) {
     let mean = water.carriers as f64 / water.nodes() as f64;
-    (mean + 5.0 * mean.sqrt()).ceil() as u64 + 8
+    let crossing = (0.3 * water.wave_speed * model.time_step / water.spacing(model.units.lengths)).min(1.0);
+    let places = |deviations: f64| {
+        let capacity = mean + (4.0 + 0.5 * deviations) * mean.sqrt() + 8.0;
+        let arrivals = crossing * mean + deviations * mean.sqrt() + 5.0;
+        (capacity.ceil() as u64, arrivals.ceil() as u64)
+    };
+    let roomy = places(4.0);
+    if bin_bytes(water, roomy) <= LARGEST_BINDING { roomy } else { places(2.0) }
 }
 
-/// Places of a bin for particles that arrive in a step: at a speed of a third of that of waves, and more since they come
-/// in ranks.
-fn bin_arrivals(model: &Model, water: &ShallowWater) -> u64 {
-    let mean = water.carriers as f64 / water.nodes() as f64;
-    let crossing = 0.3 * water.wave_speed * model.time_step / water.spacing(model.units.lengths);
-    (crossing.min(1.0) * mean + 2.0 * mean.sqrt()).ceil() as u64 + 6
+fn bin_bytes(water: &ShallowWater, (capacity, arrivals): (u64, u64)) -> u64 {
+    WATER * (capacity + 2 * arrivals) * water.nodes()
 }
 
 /// Bins where they cost not much more memory than sorting and stay within what every adapter can bind.
 fn best_storage(model: &Model, water: &ShallowWater) -> Storage {
-    let bins = WATER * (bin_capacity(water) + 2 * bin_arrivals(model, water)) * water.nodes();
+    let bins = bin_bytes(water, bin_places(model, water));
     let sorted = (2 * WATER + 4) * water.carriers;
-    if bins <= 3 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
+    if bins <= 4 * sorted && bins <= LARGEST_BINDING { Storage::Bins } else { Storage::Sorted }
 }
 
 fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
@@ -70,12 +74,15 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
             bath_nodes,
             bins: match storage {
                 Storage::Sorted => None,
-                Storage::Bins => Some(Bins {
-                    cells: water.mesh,
-                    capacity: bin_capacity(water) as usize,
-                    arrivals: bin_arrivals(model, water) as usize,
-                    centred: water.spline_order == 2,
-                }),
+                Storage::Bins => {
+                    let (capacity, arrivals) = bin_places(model, water);
+                    Some(Bins {
+                        cells: water.mesh,
+                        capacity: capacity as usize,
+                        arrivals: arrivals as usize,
+                        centred: water.spline_order == 2,
+                    })
+                }
             },
         },
         quanta: quanta(model, water),
@@ -417,9 +424,9 @@ impl Builder<'_> {
                 self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
-                let (capacity, arrivals) = (bin_capacity(self.water), bin_arrivals(self.model, self.water));
+                let (capacity, arrivals) = bin_places(self.model, self.water);
                 self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
-                self.buffer("bins", "particles of each cell", WATER * (capacity + 2 * arrivals) * nodes);
+                self.buffer("bins", "particles of each cell", bin_bytes(self.water, (capacity, arrivals)));
                 self.buffer("stayed", "particles that stay in each cell", 4 * nodes);
                 self.buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
             }
