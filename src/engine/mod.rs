@@ -406,10 +406,7 @@ impl<'a> Engine<'a> {
             }
             bits if bits & 32 != 0 => format!("the depth at {}, is negative", self.node(control.failure_place)),
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
-            bits if bits & 4 != 0 => match self.plan.layout {
-                Layout::Particles { .. } => "a particle moves further than the cutoff in one step".to_owned(),
-                Layout::Water { .. } => "a particle moves further than half the box in one step".to_owned(),
-            },
+            bits if bits & 4 != 0 => "a particle moves further than the cutoff in one step".to_owned(),
             _ => match self.plan.layout {
                 Layout::Particles { .. } => "a momentum is more than 64 times its natural scale".to_owned(),
                 Layout::Water { .. } => {

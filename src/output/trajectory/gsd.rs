@@ -102,7 +102,7 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
-    let masses = (0..state.len()).map(|particle| description.species_of(state, particle).mass as f32);
+    let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
     file.write_scalars("particles/mass", masses)
 }
 
@@ -293,7 +293,7 @@ mod tests {
     #[test]
     fn positions_stay_below_the_upper_face() {
         let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
-        let description = Description { units, time_step: 0.1, species: Vec::new() };
+        let description = Description { units, time_step: 0.1, species: Vec::new(), mass_unit: None };
         assert_eq!(centred(&description, [1 << 31; 3]), [0.0; 3]);
         for fraction in [0, 1, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
             for (value, length) in centred(&description, [fraction; 3]).into_iter().zip(units.lengths) {

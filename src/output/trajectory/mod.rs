@@ -28,17 +28,32 @@ struct Description {
     units: Units,
     time_step: f64,
     species: Vec<Species>,
+    /// Value of one unit of integer mass, where every particle has a mass of its own.
+    mass_unit: Option<f64>,
 }
 
 impl Description {
     fn new(model: &Model) -> Self {
-        Self { units: model.units, time_step: model.time_step, species: model.species.clone() }
+        Self {
+            units: model.units,
+            time_step: model.time_step,
+            species: model.species.clone(),
+            mass_unit: model.shallow_water.as_ref().map(|water| water.mass_unit),
+        }
     }
 
     fn species_of(&self, state: &State, particle: usize) -> &Species {
         &self.species[state.species[particle] as usize]
     }
 
+    fn mass(&self, state: &State, particle: usize) -> f64 {
+        match (self.mass_unit, state.masses.get(particle)) {
+            (Some(unit), Some(mass)) => f64::from(*mass) * unit,
+            _ => self.species_of(state, particle).mass,
+        }
+    }
+
+    /// In shallow water momenta are per unit of mass, and the mass of the species is 1.
     fn velocity(&self, state: &State, particle: usize) -> [f64; 3] {
         let mass = self.species_of(state, particle).mass;
         self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
@@ -107,5 +122,24 @@ impl TrajectoryWriter {
             Format::Gsd(file) => file.flush(),
             Format::ExtendedXyz(file) => file.flush(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::scene::{self, placement::initial_state};
+
+    #[test]
+    fn particles_of_water_have_masses_of_their_own_and_tracers_none() {
+        let scene = scene::load("jet-instability", &[]).unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        let description = Description::new(&model);
+        let masses: Vec<f64> = (0..state.len()).map(|particle| description.mass(&state, particle)).collect();
+        let nodes = 128.0 * 128.0;
+        assert!((masses.iter().sum::<f64>() - nodes).abs() < 1e-9);
+        assert!(masses[..262_144].iter().all(|mass| *mass > 0.0) && masses[262_144..].iter().all(|mass| *mass == 0.0));
     }
 }
