@@ -76,12 +76,11 @@ impl Model {
         let mut species: Vec<Species> = Vec::new();
         for group in &scene.particles {
             let count = group.resolved_count(scene.space.volume());
-            match species.iter_mut().find(|known| known.name == group.species) {
-                Some(known) => known.count += count,
-                None => {
-                    let name = group.species.clone();
-                    species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
-                }
+            if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
+                known.count += count;
+            } else {
+                let name = group.species.clone();
+                species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
             }
         }
         let (mut pair_force, mut shallow_water) = (None, None);
