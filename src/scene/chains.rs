@@ -142,9 +142,10 @@ fn outline(chain: &Chain, lattice: bool, model: &Model) -> Option<Vec<[f64; 3]>>
         let mut corners: Vec<[f64; 3]> = (0..beads).map(corner).collect();
         if lattice {
             // The lattice gives the lower corner of a cell.
-            corners
-                .iter_mut()
-                .for_each(|corner| [corner[0], corner[1]] = [corner[0] + 2.0 * radius, corner[1] + radius]);
+            for corner in &mut corners {
+                corner[0] += 2.0 * radius;
+                corner[1] += radius;
+            }
         }
         return Some(corners);
     }

@@ -5,6 +5,7 @@
 
 mod builtin;
 mod chains;
+mod couplings;
 mod error;
 mod load;
 mod nearest;
@@ -14,6 +15,7 @@ pub mod placement;
 mod semantics;
 mod shallow_water;
 mod shape;
+mod stability;
 pub mod surface;
 mod text;
 mod types;

@@ -70,7 +70,7 @@ fn draw_bond_baths(state: &mut State, model: &Model) {
         let kind = &bonds.kinds[bond.kind as usize];
         // What has no memory keeps none, though others do.
         let Some(bath) = kind.bath.filter(BathStep::remembers) else { return 0 };
-        let words = noise::words(model.generator, key, [index as u32, 0]);
+        let words = noise::words(model.generator, key, [index as u32, 1]);
         ((bath.deviation(kind.temperature) * noise::gaussian(words)) as f32).to_bits()
     });
     state.bond_baths = all.collect();
