@@ -6,7 +6,7 @@ override BATH_IMPULSE: f32; // impulse of half a step per bath
 fn prepare_bonds() { prepare_bond_noise(); }
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 {
     let before = bond_baths[bond];
-    let after = before - kind.loss * before + kind.response * change_of_length(kind, me, other)
+    let after = before - kind.loss * before + kind.response * change_of_length(me, other)
         + kind.noise * bond_noise(bond);
     // At step 0 a bath that remembers is that of the beginning.
     let bath = select(after, before, kind.remembers && control.closing == 0);

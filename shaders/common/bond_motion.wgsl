@@ -1,10 +1,10 @@
 // The change of a bond's length over the last drift. The last positions follow from the last drifts, which are recomputed
 // to the bit.
-fn drift_of_end(particle: Particle, drift: f32) -> Steps {
-    return Steps(round(Vector(steps_of(particle.momentum)) * (drift / unit_lengths())));
+fn last_drift(particle: Particle) -> Steps {
+    return Steps(round(Vector(steps_of(particle.momentum)) * (drift_of_end(particle) / unit_lengths())));
 }
-fn change_of_length(kind: BondKind, me: Particle, other: Particle) -> f32 {
-    let drifted = drift_of_end(me, kind.drifts.x) - drift_of_end(other, kind.drifts.y);
+fn change_of_length(me: Particle, other: Particle) -> f32 {
+    let drifted = last_drift(me) - last_drift(other);
     let now = signed(fraction_of(me.position) - fraction_of(other.position));
     let after = Vector(now) * unit_lengths();
     let before = Vector(now - drifted) * unit_lengths();

@@ -5,6 +5,8 @@ override BONDS: u32;
 
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
 
+struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
+
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
@@ -16,19 +18,18 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 
 fn visit(bond: u32) {
     prepare_bonds();
-    let ends = bonds[FIRST_BOND + bond];
-    let kind = bond_kind(ends.z);
-    let slot = slots[ends.x];
-    let other_slot = slots[ends.y];
-    let me = particles[slot];
-    let other = particles[other_slot];
-    let contact = contact_of(separation(me.position, other.position));
+    let word = bonds[FIRST_BOND + bond];
+    let kind = bond_kind(word.z);
+    let slot = slots[word.x];
+    let other_slot = slots[word.y];
+    let ends = Ends(slot, other_slot, particles[slot], particles[other_slot]);
+    let contact = contact_of(separation(ends.me.position, ends.other.position));
     let stretch = stretch_of(kind, contact.distance);
-    let magnitude = stretch.force + bond_bath(bond, kind, me, other);
+    let magnitude = stretch.force + bond_bath(bond, kind, ends.me, ends.other);
     let impulse = Steps(round(magnitude * contact.direction));
     add_kick(slot, impulse);
     add_kick(other_slot, -impulse);
-    note_bond(slot, other_slot, stretch, magnitude, contact);
+    note_bond(ends, stretch, magnitude, contact);
     raise_at(select(FAILURE_BOND, 0u, stretch.possible), bond);
     raise(select(FAILURE_IMPULSE, 0u, abs(magnitude) < IMPULSE_LIMIT));
 }
