@@ -101,6 +101,11 @@ impl Model {
         }
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
+        if let Some(force) = &mut pair_force {
+            // Of two images of a neighbour a list must see only one.
+            let shortest = scene.space.lengths.iter().copied().fold(f64::INFINITY, f64::min);
+            force.skin = force.skin.min(0.5 * shortest - force.cutoff).max(0.0);
+        }
         let momentum = match &shallow_water {
             Some(water) => velocity_unit(scene, water),
             None => momentum_unit(scene, &species, pair_force.as_ref()),
