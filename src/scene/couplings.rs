@@ -223,13 +223,13 @@ fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: 
             let accepted = "a `bath.coupling` λ in place of the friction where the bath never forgets";
             problems.push(Problem::new(place, found, accepted));
         } else if !fits(rate * friction) {
-            let found = format!("{found}, a coupling λ = αγ of {:e}", rate * friction);
+            let found = format!("{found}, a coupling λ = αγ of {:.3e}", rate * friction);
             problems.push(Problem::new(place, found, "a coupling that single precision holds, up to 3e38"));
         }
     }
     if let Some(coupling) = coupling.filter(|coupling| !fits(*coupling)) {
         let accepted = "a coupling that single precision holds, up to 3e38";
-        problems.push(Problem::new(format!("{path}.bath.coupling"), format!("found {coupling:e}"), accepted));
+        problems.push(Problem::new(format!("{path}.bath.coupling"), format!("found {coupling:.3e}"), accepted));
     }
 }
 
@@ -368,7 +368,7 @@ fn check_members<const LENGTH: usize>(
     let more = mistakes.len().saturating_sub(LISTED);
     problems.extend(mistakes.into_iter().take(LISTED));
     if more > 0 {
-        problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "see above"));
+        problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "as above"));
     }
 }
 
@@ -393,7 +393,8 @@ fn check_presence(
     let longest =
         scene.particles.iter().filter(named).filter_map(|group| group.chain.as_ref()).map(|chain| chain.beads);
     let found = match longest.max() {
-        Some(beads) if beads >= length => return,
+        // A chain of less than two beads is a mistake by itself.
+        Some(beads) if beads >= length || beads < 2 => return,
         Some(beads) => format!("found chains of {beads} beads"),
         None if species.is_some() => "found no chains of these species".to_owned(),
         None => "found neither chains nor a list".to_owned(),
