@@ -2,7 +2,7 @@
 
 use super::chains;
 use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
-use crate::model::{BathStep, Model, ShallowWater};
+use crate::model::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::State;
 
@@ -62,16 +62,15 @@ fn draw_position_baths(state: &mut State, model: &Model) {
     state.position_baths = all.collect();
 }
 
-/// Draws the bath variables of all bonds from their law at rest.
+/// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
 fn draw_bond_baths(state: &mut State, model: &Model) {
     let Some(bonds) = model.bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
     let key = noise::step_key(model.seed, stream::BOND, 0);
     let all = bonds.bonds.iter().enumerate().map(|(index, bond)| {
         let kind = &bonds.kinds[bond.kind as usize];
-        // What has no memory keeps none, though others do.
-        let Some(bath) = kind.bath.filter(BathStep::remembers) else { return 0 };
+        let width = kind.bath.filter(|step| step.remembers()).map_or(0.0, |step| step.deviation(kind.temperature));
         let words = noise::words(model.generator, key, [index as u32, 1]);
-        ((bath.deviation(kind.temperature) * noise::gaussian(words)) as f32).to_bits()
+        ((width * noise::gaussian(words)) as f32).to_bits()
     });
     state.bond_baths = all.collect();
 }
