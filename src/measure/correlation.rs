@@ -20,6 +20,12 @@ impl WindowedAverage {
         Self { lags: lags.max(1), samples: Vec::new() }
     }
 
+    /// The average of windows of `lags` samples (at least one) that were taken one after the other.
+    #[must_use]
+    pub fn of(lags: usize, samples: &[f64]) -> Self {
+        Self { lags: lags.max(1), samples: samples.to_vec() }
+    }
+
     /// Adds the sample at the next lag of the window; a full window is followed by a new one.
     pub fn push(&mut self, sample: f64) {
         self.samples.push(sample);

@@ -155,7 +155,8 @@ fn starts(points: &[[f64; 2]], shape: DecayFit) -> Vec<Vec<f64>> {
                 starts.extend([0.1, 0.5, 2.0].map(|share| vec![share * frequency, frequency * frequency]));
             }
             // Overdamped, it relaxes at about (a/2)² - Ω² over a.
-            starts.extend([4.5, 10.0, 100.0].map(|ratio| vec![ratio * rate, rate * rate * ratio * (1.0 - ratio / 4.0)]));
+            starts
+                .extend([4.5, 10.0, 100.0].map(|ratio| vec![ratio * rate, rate * rate * ratio * (1.0 - ratio / 4.0)]));
             starts
         }
     }
@@ -342,6 +343,9 @@ mod tests {
         assert_eq!(error, Err(FitError::TooFewPoints { parameters: 3, points: 3 }));
         let single = FittedDecay::of_windows(&short, 1.0, DecayFit::Exponential).unwrap();
         assert_eq!(single.parameters[0].1.standard_error, None);
-        assert_eq!(FittedDecay::of_windows(&WindowedAverage::new(9), 1.0, DecayFit::Exponential), Err(FitError::NoDecay));
+        assert_eq!(
+            FittedDecay::of_windows(&WindowedAverage::new(9), 1.0, DecayFit::Exponential),
+            Err(FitError::NoDecay)
+        );
     }
 }

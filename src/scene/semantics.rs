@@ -258,7 +258,11 @@ fn check_analyses(scene: &Scene, problems: &mut Vec<Problem>) {
         }
         let Some(axis) = asked.axis else { continue };
         if asked.quantity == CountedQuantity::Speed {
-            refuse(format!("{path}.axis"), "found for the quantity \"speed\"".to_owned(), "no `axis`: a speed has none");
+            refuse(
+                format!("{path}.axis"),
+                "found for the quantity \"speed\"".to_owned(),
+                "no `axis`: a speed has none",
+            );
         } else if axis as usize >= scene.space.lengths.len() {
             let name = ["x", "y", "z"][axis as usize];
             refuse(format!("{path}.axis"), format!("found \"{name}\""), "an axis of the box");
