@@ -24,7 +24,9 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(virial));
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    observe_motion(species_of(me), steps_of(me.momentum) + sums.impulse, sums.virial);
+    let momentum = steps_of(me.momentum) + sums.impulse;
+    observe_motion(species_of(me), momentum, sums.virial);
+    store_momentum(me.position.w, momentum_word(momentum, species_of(me)));
     store_force(me.position.w);
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, 5u); }

@@ -34,6 +34,9 @@ pub(super) struct Reported<'a> {
     pub coefficients: &'static str,
     /// The buffer of particles by id.
     pub particles: &'static str,
+    /// The buffer of momenta by id, where velocities are not to be taken from the particles; there only if
+    /// [`needs_velocities`].
+    pub momenta: Option<&'static str>,
     /// The buffer of forces by id, in integer units; there only if [`needs_forces`].
     pub forces: &'static str,
     /// The force that one unit in that buffer stands for.
@@ -44,6 +47,12 @@ pub(super) struct Reported<'a> {
 pub(super) fn needs_forces(output: &Output) -> bool {
     output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Force)
         || output.histograms.iter().any(|asked| asked.quantity == CountedQuantity::Acceleration)
+}
+
+/// Whether an analysis asks for the velocities of a report.
+pub(super) fn needs_velocities(output: &Output) -> bool {
+    output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Velocity)
+        || output.histograms.iter().any(|asked| asked.quantity != CountedQuantity::Acceleration)
 }
 
 /// Adds everything a scene asks for about reported particles to a plan.
@@ -202,10 +211,20 @@ impl Builder<'_> {
         modules
     }
 
-    /// Where the variables of particles and forces are found, and these.
+    /// The module that reads the velocity of a particle.
+    fn velocity(&self) -> &'static str {
+        if self.reported.momenta.is_some() { "common/sampled_momentum" } else { "common/sampled_velocity" }
+    }
+
+    /// Where the variables of particles, momenta and forces are found, and these.
     fn renamed(&self, more: &[(&'static str, &'static str)]) -> Vec<(&'static str, &'static str)> {
         let here = [("particles", self.reported.particles), ("reported_forces", self.reported.forces)];
-        here.into_iter().chain(more.iter().copied()).filter(|(variable, buffer)| variable != buffer).collect()
+        let momenta = self.reported.momenta.map(|buffer| ("reported_momenta", buffer));
+        here.into_iter()
+            .chain(momenta)
+            .chain(more.iter().copied())
+            .filter(|(variable, buffer)| variable != buffer)
+            .collect()
     }
 
     /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
@@ -323,7 +342,7 @@ impl Builder<'_> {
             CorrelatedQuantity::Velocity => {
                 let (frame, before) = self.frame(asked.frame);
                 let names = ["velocity_origins", "velocity_products", "velocity_product_samples"];
-                (vec![frame, "common/sampled_velocity"], before, names)
+                (vec![frame, self.velocity()], before, names)
             }
             CorrelatedQuantity::Force => {
                 let names = ["force_origins", "force_products", "force_product_samples"];
@@ -354,7 +373,7 @@ impl Builder<'_> {
                 } else {
                     ["speed_counts", "speed_count_samples"]
                 };
-                (model.units.momentum, vec![frame, "common/sampled_velocity"], before, names)
+                (model.units.momentum, vec![frame, self.velocity()], before, names)
             }
             CountedQuantity::Acceleration => {
                 let names = ["acceleration_counts", "acceleration_count_samples"];

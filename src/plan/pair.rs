@@ -351,7 +351,12 @@ impl Builder<'_> {
 
     fn integration(&mut self, output: &Output) {
         let forces = self.forces(output);
-        let groups = if self.splits() { self.split_step(forces) } else { self.leapfrog_step(forces) };
+        let groups = if self.splits() {
+            let momenta = self.momenta(output);
+            self.split_step(forces, momenta)
+        } else {
+            self.leapfrog_step(forces)
+        };
         let record = self.kernel(Kernel {
             name: "record_observables",
             modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
@@ -397,7 +402,7 @@ impl Builder<'_> {
 
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
-    fn split_step(&mut self, forces: &'static str) -> u32 {
+    fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
         let observe = ["common/sum64", "common/reduce", "common/observation"];
         let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
@@ -410,7 +415,7 @@ impl Builder<'_> {
             "report_motion",
             Traversal::Rows,
             Masks::Unkept,
-            &[&observe[..], &[forces, "passes/observe_motion"]].concat(),
+            &[&observe[..], &[forces, momenta, "passes/observe_motion"]].concat(),
         );
         let configuration = self.traversal(
             "report_configuration",
@@ -458,6 +463,8 @@ impl Builder<'_> {
             space: space(&self.model.units, self.predicted()),
             coefficients: self.coefficients(),
             particles: "particles",
+            // The particles of a split step's report are half a drift later, and have been kicked for it.
+            momenta: self.splits().then_some("reported_momenta"),
             forces: "reported_forces",
             force_unit: self.plan.force_unit,
         };
@@ -467,6 +474,15 @@ impl Builder<'_> {
     /// The module of coefficients.
     fn coefficients(&self) -> &'static str {
         if self.single() { "common/coefficients_single" } else { "common/coefficients_table" }
+    }
+
+    /// The module that keeps the momenta of a split step's report, or does not.
+    fn momenta(&mut self, output: &Output) -> &'static str {
+        if !analyses::needs_velocities(output) {
+            return "common/momentum_off";
+        }
+        self.buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
+        "common/momentum_on"
     }
 
     /// The module that keeps the forces of a report, or does not.

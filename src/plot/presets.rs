@@ -164,17 +164,20 @@ pub fn autocorrelation_chart(
 ) -> Chart {
     let points = |values: &[f64]| lags.iter().zip(values).map(|(lag, value)| [*lag, *value]).collect::<Vec<_>>();
     let mut panel = Panel::new("Lag (time units)", &format!("Normalised {quantity} autocorrelation"));
-    if !fit.is_empty() {
-        panel.series.push(Series::line("fit", points(fit)).with_ink(SeriesInk::Ink { pattern: 0 }));
-    }
     let name = if fit.is_empty() { "autocorrelation" } else { "measured" };
-    let measured = if lags.len() <= MOST_MARKERS {
+    let few = lags.len() <= MOST_MARKERS;
+    let measured = if few {
         Series::markers(name, points(values))
     } else {
         Series { style: SeriesStyle::Band, ..Series::line(name, points(values)) }
     };
     let known = errors.iter().any(|error| error.is_finite());
     panel.series.push(if known { measured.with_errors(errors.to_vec()) } else { measured });
+    if !fit.is_empty() {
+        // Over separate points; under a line, which it would hide.
+        let ink = SeriesInk::Ink { pattern: usize::from(!few) };
+        panel.series.insert(usize::from(!few), Series::line("fit", points(fit)).with_ink(ink));
+    }
     panel = panel.with_reference("zero", 0.0);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }

@@ -719,9 +719,10 @@ pub struct Autocorrelation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CorrelatedQuantity {
-    /// The velocity.
+    /// The velocity, where the temperature is measured.
     Velocity,
-    /// The sum of all forces of the step, friction and noise included.
+    /// The change of momentum around the report over the time it takes: all forces, friction and noise included.
+    /// With `splitting` it is that of the whole step, two half kicks and the relaxation between them.
     Force,
 }
 
@@ -781,11 +782,11 @@ pub struct Histogram {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CountedQuantity {
-    /// Components of the velocity.
+    /// Components of the velocity, where the temperature is measured.
     Velocity,
     /// The magnitude of the velocity.
     Speed,
-    /// Components of the acceleration: the sum of all forces of the step, friction and noise included, over the mass.
+    /// Components of the acceleration: the force that `autocorrelations` correlate over the mass.
     Acceleration,
 }
 

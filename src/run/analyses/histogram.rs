@@ -8,7 +8,7 @@ use crate::plan::analyses::{
     HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_name, histogram_range, moment_quantum,
 };
 use crate::scene::{self, CountedQuantity};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 /// Counts and sums of powers over all samples.
 pub(super) struct Counts {
@@ -148,23 +148,24 @@ impl Analysis for Counts {
         } else if total == 0.0 {
             Err("there are no particles".to_owned())
         } else {
-            let mut result = json!({
-                "samples": self.samples,
-                "values": total,
-                "range": self.range,
-                "below": histogram.below,
-                "above": histogram.above,
-                "mean": value.first,
-                "standard_deviation": value.standard_deviation(),
-                "kurtosis": value.kurtosis(),
-                "mean_square": magnitude.second,
-                "variance_of_square": magnitude.variance_of_square(),
-            });
-            if speed {
-                // No magnitude is negative, and a kurtosis about zero says nothing of it.
-                result.as_object_mut().map(|result| [result.remove("below"), result.remove("kurtosis")]);
+            let mut result = Map::new();
+            let mut put = |name: &str, value: f64| result.insert(name.to_owned(), json!(value));
+            put("samples", self.samples);
+            put("values", total);
+            put("range", self.range);
+            if !speed {
+                put("below", histogram.below);
             }
-            Ok(result)
+            put("above", histogram.above);
+            put("mean", value.first);
+            put("standard_deviation", value.standard_deviation());
+            if !speed {
+                // About zero it says nothing of a magnitude.
+                put("kurtosis", value.kurtosis());
+            }
+            put("mean_square", magnitude.second);
+            put("variance_of_square", magnitude.variance_of_square());
+            Ok(Value::Object(result))
         };
         let file = match self.asked.quantity {
             CountedQuantity::Velocity => files::VELOCITY_HISTOGRAM,
