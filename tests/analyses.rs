@@ -436,7 +436,7 @@ fn velocities_about_the_centre_of_mass() {
     let r = 10.0625_f64;
     close(means("box"), [4.5 / 6.0, r, r, r.sqrt()]);
     // The centre of mass moves with (0, 0.25, 2): what is left is (3, 0, -3) and (-1, 0, 1).
-    close(means("centre-of-mass"), [0.0, 10.0, 10.0, (18_f64.sqrt() + 2_f64.sqrt()) / 2.0]);
+    close(means("centre-of-mass"), [0.0, 10.0, 10.0, f64::midpoint(18_f64.sqrt(), 2_f64.sqrt())]);
 }
 
 const EVERYTHING: &[&str] = &[
