@@ -156,7 +156,7 @@ fn a_gas_without_forces_keeps_its_velocities() {
         assert_eq!(counts, [0.0, 5.0 * 400.0 * dimension as f64, 0.0]);
         assert!(outcome.summary.results.get("force_autocorrelation").is_none());
         let warned = |text: &str| outcome.summary.warnings.iter().any(|warning| warning.contains(text));
-        assert!(warned("`output.force_autocorrelation`: it is zero"), "{:?}", outcome.summary.warnings);
+        assert!(warned("`output.autocorrelations (force)`: it is zero"), "{:?}", outcome.summary.warnings);
     }
 }
 
