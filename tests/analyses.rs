@@ -156,7 +156,7 @@ fn a_gas_without_forces_keeps_its_velocities() {
         assert_eq!(counts, [0.0, 5.0 * 400.0 * dimension as f64, 0.0]);
         assert!(outcome.summary.results.get("force_autocorrelation").is_none());
         let warned = |text: &str| outcome.summary.warnings.iter().any(|warning| warning.contains(text));
-        assert!(warned("`output.force_autocorrelation`: it is zero"), "{:?}", outcome.summary.warnings);
+        assert!(warned("`output.autocorrelations (force)`: it is zero"), "{:?}", outcome.summary.warnings);
     }
 }
 
@@ -436,7 +436,7 @@ fn velocities_about_the_centre_of_mass() {
     let r = 10.0625_f64;
     close(means("box"), [4.5 / 6.0, r, r, r.sqrt()]);
     // The centre of mass moves with (0, 0.25, 2): what is left is (3, 0, -3) and (-1, 0, 1).
-    close(means("centre-of-mass"), [0.0, 10.0, 10.0, (18_f64.sqrt() + 2_f64.sqrt()) / 2.0]);
+    close(means("centre-of-mass"), [0.0, 10.0, 10.0, f64::midpoint(18_f64.sqrt(), 2_f64.sqrt())]);
 }
 
 const EVERYTHING: &[&str] = &[

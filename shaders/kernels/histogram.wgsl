@@ -2,22 +2,22 @@
 // their own; particles so far outside that their powers would leave the range of integers are counted apart.
 override PARTICLES: u32;
 override BINS: u32;
+override COUNTS: u32;       // the bins; then below, above, and, of particles, far beyond
 override HALF_BINS: f32;    // half bins per unit of what is sampled
 override HALF_BELOW: i32;   // half bins below zero
 override FRACTION: f32;     // of the range, per unit of what is sampled
 override MOMENT: f32;       // reciprocal of the quantum of the powers
 override GROUPS: u32;       // workgroups that share the particles
-const EXTRA: u32 = 3u;      // below, above, and, of particles, far beyond
 const MOMENTS: u32 = 5u;    // of the value: first, second, fourth power; of the vector: second, fourth
 const FARTHEST: f32 = 8.0;  // in ranges
 @group(0) @binding(8) var<storage, read_write> histogram: array<atomic<u32>>; // low and high word of each entry
-var<workgroup> local_counts: array<atomic<u32>, BINS + EXTRA>;
+var<workgroup> local_counts: array<atomic<u32>, COUNTS>;
 var<workgroup> local_moments: array<atomic<u32>, 2u * MOMENTS>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
-    for (var entry = lane; entry < BINS + EXTRA; entry += WORKGROUP) { atomicStore(&local_counts[entry], 0u); }
+    for (var entry = lane; entry < COUNTS; entry += WORKGROUP) { atomicStore(&local_counts[entry], 0u); }
     for (var word = lane; word < 2u * MOMENTS; word += WORKGROUP) { atomicStore(&local_moments[word], 0u); }
     workgroupBarrier();
     let group = linear_workgroup(workgroup, workgroups);
@@ -26,12 +26,12 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) { count(sampled(id)); }
     }
     workgroupBarrier();
-    for (var entry = lane; entry < BINS + EXTRA; entry += WORKGROUP) {
+    for (var entry = lane; entry < COUNTS; entry += WORKGROUP) {
         add_global(entry, Sum64(atomicLoad(&local_counts[entry]), 0u));
     }
     for (var moment = lane; moment < MOMENTS; moment += WORKGROUP) {
         let low = atomicLoad(&local_moments[2u * moment]);
-        add_global(BINS + EXTRA + moment, Sum64(low, atomicLoad(&local_moments[2u * moment + 1u])));
+        add_global(COUNTS + moment, Sum64(low, atomicLoad(&local_moments[2u * moment + 1u])));
     }
 }
 

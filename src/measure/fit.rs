@@ -196,7 +196,7 @@ fn least_squares(points: &[[f64; 2]], shape: DecayFit, start: &[f64]) -> Option<
     None
 }
 
-/// JᵀJ and -Jᵀr of the deviations r, from central differences.
+/// The matrix `JᵀJ` and the vector `-Jᵀr` of the deviations r with derivatives J, from central differences.
 fn normal_equations(points: &[[f64; 2]], shape: DecayFit, parameters: &[f64]) -> (Vec<Vec<f64>>, Vec<f64>) {
     let count = parameters.len();
     let (mut matrix, mut slope) = (vec![vec![0.0; count]; count], vec![0.0; count]);
@@ -297,15 +297,22 @@ mod tests {
             let count = 40;
             let noise = 0.05;
             let fit = FittedDecay::of_windows(&windows(*shape, parameters, count, noise), INTERVAL, *shape).unwrap();
-            // What independent noise makes of the parameters: the inverse of JᵀJ times the variance of a point.
+            // What noise on all points but the first makes of the parameters: A⁻¹ (A - jjᵀ) A⁻¹ times the variance of a
+            // point, with A = JᵀJ and j the derivatives at the first point.
             let points: Vec<[f64; 2]> = (0..LAGS).map(|lag| [lag as f64 * INTERVAL, 0.0]).collect();
-            let (matrix, _) = normal_equations(&points[1..], *shape, parameters);
+            let (matrix, _) = normal_equations(&points, *shape, parameters);
+            let (first, _) = normal_equations(&points[..1], *shape, parameters);
             for (index, (name, found)) in fit.parameters.iter().enumerate() {
                 let mut unit = vec![0.0; parameters.len()];
                 unit[index] = 1.0;
-                let variance = solve(matrix.clone(), unit).unwrap()[index] * noise * noise / count as f64;
+                let column = solve(matrix.clone(), unit).unwrap();
+                let known: f64 = (0..column.len())
+                    .flat_map(|a| (0..column.len()).map(move |b| (a, b)))
+                    .map(|(a, b)| column[a] * first[a][b] * column[b])
+                    .sum();
+                let variance = (column[index] - known) * noise * noise / count as f64;
                 let (exact, error) = (variance.sqrt(), found.standard_error.unwrap());
-                // An error from 20 blocks is itself known to 1/√38; that of point zero, which has none, is left out.
+                // An error from 20 blocks is itself known to 1/√38.
                 assert!((error / exact).ln().abs() < 4.0 / 38_f64.sqrt(), "{shape:?} {name}: {error} against {exact}");
                 let off = (found.value - parameters[index]).abs();
                 assert!(off < 4.0 * exact, "{shape:?} {name} = {} ± {exact}", found.value);
@@ -338,7 +345,9 @@ mod tests {
             assert_eq!(FittedDecay::of_windows(&constant, INTERVAL, shape), Err(FitError::NoDecay));
         }
         let mut short = WindowedAverage::new(3);
-        [3.0, 2.0, 1.0].map(|sample| short.push(sample));
+        for sample in [3.0, 2.0, 1.0] {
+            short.push(sample);
+        }
         let error = FittedDecay::of_windows(&short, 1.0, DecayFit::StretchedExponential);
         assert_eq!(error, Err(FitError::TooFewPoints { parameters: 3, points: 3 }));
         let single = FittedDecay::of_windows(&short, 1.0, DecayFit::Exponential).unwrap();

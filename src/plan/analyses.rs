@@ -394,6 +394,7 @@ impl Builder<'_> {
         };
         let mut constants = vec![
             ("BINS", bins as f64),
+            ("COUNTS", (bins + HISTOGRAM_EXTRA as u64) as f64),
             // From minus to plus the range there are twice as many half bins as from zero.
             ("HALF_BINS", if magnitude { 2.0 } else { 1.0 } * bins as f64 * unit / range),
             ("HALF_BELOW", if magnitude { 0.0 } else { bins as f64 }),

@@ -76,8 +76,12 @@ impl Analysis for Autocorrelation {
         self.products = numbers.to_vec();
     }
 
-    fn restarts_windows(&self) -> Option<String> {
-        Some(format!("output.autocorrelations ({})", self.asked.quantity.name()))
+    fn path(&self) -> String {
+        format!("output.autocorrelations ({})", self.asked.quantity.name())
+    }
+
+    fn restarts_windows(&self) -> bool {
+        true
     }
 
     fn conclude(&self) -> Conclusion {

@@ -57,8 +57,8 @@ impl Analysis for Diffusion {
         self.velocity = second.to_vec();
     }
 
-    fn restarts_windows(&self) -> Option<String> {
-        Some("output.diffusion".to_owned())
+    fn restarts_windows(&self) -> bool {
+        true
     }
 
     fn conclude(&self) -> Conclusion {

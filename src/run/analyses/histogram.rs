@@ -72,6 +72,10 @@ impl Analysis for Counts {
         histogram_name(self.asked.quantity)
     }
 
+    fn path(&self) -> String {
+        format!("output.histograms ({})", self.asked.quantity.name())
+    }
+
     fn add(&mut self, sample: &Sample) {
         let bins = self.histogram.counts.len();
         if sample.sums.len() != bins + HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS {

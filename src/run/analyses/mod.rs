@@ -48,9 +48,13 @@ trait Analysis {
     fn section(&self) -> Vec<u8>;
     /// Goes on from what [`Self::section`] kept.
     fn restore(&mut self, numbers: &[f64]);
-    /// The part of the scene whose open window a resumed run leaves out, if it does.
-    fn restarts_windows(&self) -> Option<String> {
-        None
+    /// The part of the scene that asks for it.
+    fn path(&self) -> String {
+        format!("output.{}", self.name())
+    }
+    /// Whether a resumed run leaves out the window that was open.
+    fn restarts_windows(&self) -> bool {
+        false
     }
     /// Whether there is nothing to write.
     fn is_idle(&self) -> bool {
@@ -122,20 +126,20 @@ impl Analyses {
 
     /// The parts of the scene that a resumed run measures otherwise than an uninterrupted one.
     pub(super) fn restarts_windows(&self) -> Vec<String> {
-        self.gathered.iter().filter_map(|(_, analysis)| analysis.restarts_windows()).collect()
+        let restarted = self.gathered.iter().filter(|(_, analysis)| analysis.restarts_windows());
+        restarted.map(|(_, analysis)| analysis.path()).collect()
     }
 
     /// Writes the tables and adds the results, or why there are none, to the summary.
     pub(super) fn conclude(&self, directory: &RunDirectory, summary: &mut Summary) -> Result<(), RunError> {
         for (_, analysis) in self.gathered.iter().filter(|(_, analysis)| !analysis.is_idle()) {
             let Conclusion { file, table, result, warnings } = analysis.conclude();
-            let name = analysis.name();
             match result {
                 Ok(result) => {
-                    summary.results.insert(name.to_owned(), result);
+                    summary.results.insert(analysis.name().to_owned(), result);
                     summary.warnings.extend(warnings);
                 }
-                Err(reason) => summary.warnings.push(format!("no result for `output.{name}`: {reason}")),
+                Err(reason) => summary.warnings.push(format!("no result for `{}`: {reason}", analysis.path())),
             }
             write_table(&directory.file(file), &table)?;
         }
