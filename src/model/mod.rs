@@ -206,8 +206,9 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
-/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, or, in a scene without heat,
-/// that of its fastest listed particle or of a particle that has rolled down the repulsion.
+/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, that of its fastest listed
+/// particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a particle that has
+/// rolled down the repulsion.
 fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
@@ -217,6 +218,11 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
         if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);
+        }
+    }
+    for interaction in &scene.interactions {
+        if let Interaction::ColouredNoise(noise) = interaction {
+            scale = scale.max(coloured_noise::momentum_scale(noise, scene.time.step));
         }
     }
     if scale == 0.0
