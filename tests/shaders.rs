@@ -347,7 +347,7 @@ fn host_structs_lie_as_in_the_shaders() {
         ("failures", offset_of!(Control, failures)),
         ("failure_elapsed", offset_of!(Control, failure_elapsed)),
         ("failure_place", offset_of!(Control, failure_place)),
-        ("reserved", offset_of!(Control, reserved)),
+        ("demand", offset_of!(Control, demand)),
         ("", size_of::<Control>()),
     ];
     let mut tables = 0;

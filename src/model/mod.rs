@@ -18,7 +18,9 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
-use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
+use crate::scene::{
+    ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene,
+};
 use crate::state::Units;
 
 /// A species of particles.
@@ -76,12 +78,11 @@ impl Model {
         let mut species: Vec<Species> = Vec::new();
         for group in &scene.particles {
             let count = group.resolved_count(scene.space.volume());
-            match species.iter_mut().find(|known| known.name == group.species) {
-                Some(known) => known.count += count,
-                None => {
-                    let name = group.species.clone();
-                    species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
-                }
+            if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
+                known.count += count;
+            } else {
+                let name = group.species.clone();
+                species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
             }
         }
         let (mut pair_force, mut shallow_water) = (None, None);
@@ -222,7 +223,7 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
     }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {
-            scale = scale.max(coloured_noise::momentum_scale(noise, scene.time.step));
+            scale = scale.max(noise_momentum(noise, scene.time.step));
         }
     }
     if scale == 0.0
@@ -234,4 +235,11 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
         scale = 1.0;
     }
     (scale.log2().ceil() - 24.0).exp2()
+}
+
+/// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
+/// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
+fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
+    let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
+    noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
 }
