@@ -105,21 +105,22 @@ impl Builder<'_> {
     fn rebuild(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
         let rows = self.grid.rows();
-        let mut kernels = vec![self.kernel("bin", &["kernels/bin"], groups)];
+        let mut kernels = vec![self.kernel("bin", &[self.cells(), "kernels/bin"], groups)];
         if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let modules = ["common/cells_plain", "common/row_scan", "common/workgroup_scan", "common/same_step"];
+            let modules =
+                [self.cells(), "common/cells_plain", "common/row_scan", "common/workgroup_scan", "common/same_step"];
             kernels.push(self.kernel("scan", &[&modules[..], &["kernels/scan"]].concat(), 1));
         } else {
-            let scan = ["common/cells_plain", "common/row_scan"];
+            let scan = [self.cells(), "common/cells_plain", "common/row_scan"];
             let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
             kernels.push(self.kernel("scan_blocks", &blocks, rows.div_ceil(256)));
-            let tops = ["common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
+            let tops = [self.cells(), "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
             kernels.push(self.kernel("scan_tops", &tops, 1));
             let groups = self.groups(rows);
             kernels.push(self.kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
-        let sorted = ["common/cells_plain", "common/sorted_plain"];
+        let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let arrange = [&sorted[..], &[self.slots(), "kernels/arrange"]].concat();
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));

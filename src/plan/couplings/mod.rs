@@ -153,6 +153,10 @@ impl Builder<'_> {
             ("FRICTION_PER_LENGTH", mass / (model.time_step * units.momentum)),
             ("BATH_SQUARE", inverse(quanta.bath_squared)),
         ];
+        if self.single() {
+            let [repulsion, friction, noise] = self.pair_impulses(0, 0);
+            self.plan.constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
+        }
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push(("PREDICTION", 2.0 * lambda - 1.0));
         }
@@ -192,16 +196,20 @@ impl Builder<'_> {
         matches!(self.plan.layout, Layout::Coupled { predicted: true, .. })
     }
 
-    /// Modules of the vector space, of the stored particle and of its coefficients.
+    /// Modules of the vector space and of the stored particle.
     fn space(&self) -> Vec<&'static str> {
-        let mut modules = match self.model.units.dimension {
-            1 => vec!["common/space1", "common/grid2"],
-            2 => vec!["common/space2", "common/grid2"],
-            _ => vec!["common/space3", "common/grid3"],
-        };
+        let mut modules = vec![match self.model.units.dimension {
+            1 => "common/space1",
+            2 => "common/space2",
+            _ => "common/space3",
+        }];
         modules.push(if self.predicted() { "common/particle_predicted" } else { "common/particle" });
         modules.extend(["common/control", "common/dispatch"]);
         modules
+    }
+
+    fn cells(&self) -> &'static str {
+        if self.model.units.dimension == 3 { "common/grid3" } else { "common/grid2" }
     }
 
     fn coefficients(&self) -> &'static str {

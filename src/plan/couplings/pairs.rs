@@ -74,10 +74,6 @@ impl Builder<'_> {
     }
 
     fn pair_constants(&mut self) {
-        if self.single() {
-            let [repulsion, friction, noise] = self.pair_impulses(0, 0);
-            self.plan.constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
-        }
         let Bath::Memory { rate, scheme, .. } = self.force.bath else { return };
         // All pairs of species have the rate in common, and with it all but the size of their baths.
         let step = BathStep::with_memory(scheme, 1.0, rate, self.model.time_step);
@@ -95,7 +91,7 @@ impl Builder<'_> {
     /// What a kernel needs of a pair of species: impulse of half a step by the repulsion at contact, and without memory the
     /// impulses of friction (per unit velocity; of one species, momentum) and noise, with memory the response of the bath to
     /// its coupling function and its deviation at rest.
-    fn pair_impulses(&self, a: usize, b: usize) -> [f64; 3] {
+    pub(super) fn pair_impulses(&self, a: usize, b: usize) -> [f64; 3] {
         if self.model.species.is_empty() {
             return [0.0; 3];
         }
