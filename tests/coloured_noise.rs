@@ -51,9 +51,7 @@ fn forces(scene: &Scene, steps: usize) -> Vec<Vec<[f64; 3]>> {
             engine.advance(1, 1).unwrap();
             let after = engine.reported().unwrap();
             let change = |(new, old): (&[i32; 3], &[i32; 3])| {
-                std::array::from_fn(|axis| {
-                    f64::from(new[axis] - old[axis]) * model.units.momentum / model.time_step
-                })
+                std::array::from_fn(|axis| f64::from(new[axis] - old[axis]) * model.units.momentum / model.time_step)
             };
             let forces = after.momenta.iter().zip(&before.momenta).map(change).collect();
             before = after;
@@ -84,7 +82,15 @@ fn assert_within(found: Measured, expected: f64, widest: f64, what: &str) {
 fn integral(f: impl Fn(f64) -> f64, x: f64) -> f64 {
     let pieces = 2000;
     let width = x / f64::from(pieces);
-    let weight = |k: i32| if k == 0 || k == pieces { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+    let weight = |k: i32| {
+        if k == 0 || k == pieces {
+            1.0
+        } else if k % 2 == 1 {
+            4.0
+        } else {
+            2.0
+        }
+    };
     (0..=pieces).map(|k| weight(k) * f(f64::from(k) * width)).sum::<f64>() * width / 3.0
 }
 
@@ -432,8 +438,7 @@ fn temperatures_are_about_the_centre_of_mass() {
     let reported = device.reported();
     let momenta: Vec<[f64; 3]> = reported.momenta.iter().map(|units| model.units.momentum(*units)).collect();
     let count = momenta.len() as f64;
-    let bulk: [f64; 3] =
-        std::array::from_fn(|axis| momenta.iter().map(|momentum| momentum[axis]).sum::<f64>() / count);
+    let bulk: [f64; 3] = std::array::from_fn(|axis| momenta.iter().map(|momentum| momentum[axis]).sum::<f64>() / count);
     let squares = |about: [f64; 3]| {
         let square = |momentum: &[f64; 3]| (0..2).map(|axis| (momentum[axis] - about[axis]).powi(2)).sum::<f64>();
         momenta.iter().map(square).sum::<f64>()
@@ -525,16 +530,16 @@ fn show(found: Measured) -> String {
 fn temperatures_of_the_processes() {
     println!("| process | T | expected |\n|-|-|-|");
     for (process, time, expected, allowance, time_step, duration) in [
-        ("kangaroo", 0.05, 4.8, 0.3, 0.002, 2000.0),
-        ("kangaroo-exponential", 0.05, 8.6, 0.4, 0.002, 2000.0),
-        ("short", 0.05, 1.27, 0.02, 0.005, 2000.0),
-        ("short", 0.039, 1.0, 0.01, 0.005, 4000.0),
+        ("short", 0.039, 1.0, 0.01, 0.01, 1500.0),
+        ("short", 0.05, 1.27, 0.02, 0.01, 1500.0),
+        ("kangaroo", 0.05, 4.8, 0.3, 0.002, 1000.0),
+        ("kangaroo-exponential", 0.05, 8.6, 0.4, 0.002, 1000.0),
     ] {
         let process_change = format!("interactions.1.process={process}");
         let time_change = format!("interactions.1.time={time}");
         let found = temperature(200.0, duration, time_step, &[&process_change, &time_change]);
         println!("| {process}, {time} | {} | {expected} ± {allowance} |", show(found));
-        found.assert(process, expected, allowance, 0.25 * allowance.max(0.02 * expected));
+        found.assert(process, expected, allowance, 0.5 * allowance);
     }
 }
 
@@ -551,7 +556,7 @@ fn temperature_along_the_line_of_the_paper() {
             format!("interactions.0.friction={friction}"),
         ];
         let changes: Vec<&str> = changes.iter().map(String::as_str).collect();
-        let found = temperature(150.0, 1500.0, 0.005, &changes);
+        let found = temperature(150.0, 600.0, 0.01, &changes);
         println!("| {strength} | {friction:.4} | {} |", show(found));
         found.assert(&format!("strength {strength}"), 1.0, 0.05, 0.01);
     }
@@ -564,10 +569,10 @@ fn standard_dissipative_particles_beside_it() {
     let integrator = r#"integrator={"type": "splitting"}"#;
     let time_step = 0.01;
     let mut device = Device::new(&gas(&["time.step=0.01", "output.energies.every=50", integrator, dpd]));
-    device.step(4000);
+    device.step(2000);
     let (mut temperatures, mut variances) = (Vec::new(), Vec::new());
-    for _ in 0..600 {
-        device.step((5.0 / time_step) as u64);
+    for _ in 0..200 {
+        device.step((2.0 / time_step) as u64);
         temperatures.push(device.observe().kinetic_temperature());
         let reported = device.reported();
         let unit = Model::new(&gas(&[integrator, dpd])).units;
@@ -594,7 +599,7 @@ fn accelerations_have_two_peaks_and_velocities_of_short_forces_are_gaussian() {
         let (model, _, mut engine) = run(&scene);
         engine.advance(20_000, 500).unwrap();
         let (mut accelerations, mut velocities) = (Vec::new(), Vec::new());
-        for _ in 0..200 {
+        for _ in 0..100 {
             engine.advance(99, 99).unwrap();
             engine.advance(1, 1).unwrap();
             let before = engine.reported().unwrap();

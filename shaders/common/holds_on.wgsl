@@ -50,18 +50,13 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
     return impulse;
 }
 
-// Stored momenta of step 0 are full-step ones, and the process of step 0 begins there.
-fn cross_closing_half(id: u32, hold: ptr<function, Hold>) -> Steps {
-    var closing = Steps(0);
-    for (var pending = control.closing; pending != 0; pending = 0) { closing = cross_half_step(id, hold); }
-    return closing;
-}
-
 // Both half steps around this step: they end at it and begin with it.
 fn advance_hold(id: u32) -> Held {
     var hold = holds[id];
     let jump = hold.jump;
-    let closing = cross_closing_half(id, &hold);
+    var closing = Steps(0);
+    // Stored momenta of step 0 are full-step ones, and its process begins with it.
+    for (var pending = control.closing; pending != 0; pending = 0) { closing = cross_half_step(id, &hold); }
     let opening = cross_half_step(id, &hold);
     holds[id].fraction = hold.fraction;
     holds[id].halves = hold.halves;
@@ -72,8 +67,9 @@ fn advance_hold(id: u32) -> Held {
     }
     return Held(closing, opening);
 }
-// The half step that ends at this step alone, for a report: nothing is stored.
+// The half step that ends at this step alone, for a report: nothing is stored. At step 0 it is the one that begins with it,
+// which tells the force; the momentum is complete without it.
 fn closing_of_hold(id: u32) -> Steps {
     var hold = holds[id];
-    return cross_closing_half(id, &hold);
+    return cross_half_step(id, &hold);
 }

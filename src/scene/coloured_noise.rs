@@ -14,7 +14,8 @@ pub(super) fn check(scene: &Scene, noise: &ColouredNoiseInteraction, path: &str,
     let dimension = scene.space.lengths.len();
     if noise.process == NoiseProcess::Literal && dimension != 2 {
         let found = format!("found \"literal\" in {dimension} dimensions");
-        let accepted = "\"kangaroo\", \"kangaroo-exponential\" or \"short\": the printed process is one of two dimensions";
+        let accepted =
+            "\"kangaroo\", \"kangaroo-exponential\" or \"short\": the printed process is one of two dimensions";
         problems.push(Problem::new(format!("{path}.process"), found, accepted));
     }
     let least = LEAST_TIME * scene.time.step;

@@ -43,7 +43,11 @@ impl Builder<'_> {
         // Words and jumps of the particles whose force ends in a step are few unless forces are short.
         let jumps = self.model.time_step / noise.time;
         let bytes = size_of::<crate::state::Hold>() as u64;
-        self.buffer("holds", "random force of each particle and the time left of it, by number", bytes * self.particles);
+        self.buffer(
+            "holds",
+            "random force of each particle and the time left of it, by number",
+            bytes * self.particles,
+        );
         self.plan.operations_per_particle += 30.0 + 120.0 * jumps;
     }
 }
