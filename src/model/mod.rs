@@ -12,7 +12,7 @@ mod topology;
 pub use angles::{Angle, Angles};
 pub use bath::BathStep;
 pub use bonds::{Bond, BondKind, Bonds};
-pub use coloured_noise::ColouredNoise;
+pub use coloured_noise::{ColouredNoise, Jump};
 pub use dpd::PairForce;
 pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};

@@ -40,6 +40,10 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             bring_to_rest(&mut state, &thermal, model);
         }
         draw_position_baths(&mut state, model);
+        draw_bond_baths(&mut state, model);
+        if let Some(noise) = &model.coloured_noise {
+            state.holds = noise.first_holds(model, state.len());
+        }
         if model.tether.is_some() {
             state.tethers.clone_from(&state.positions);
         }
@@ -58,6 +62,19 @@ fn draw_position_baths(state: &mut State, model: &Model) {
     };
     let all = (0..state.len()).map(|id| std::array::from_fn(|axis| draw(id, axis).to_bits()));
     state.position_baths = all.collect();
+}
+
+/// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
+fn draw_bond_baths(state: &mut State, model: &Model) {
+    let Some(bonds) = model.bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
+    let key = noise::step_key(model.seed, stream::BOND, 0);
+    let all = bonds.bonds.iter().enumerate().map(|(index, bond)| {
+        let kind = &bonds.kinds[bond.kind as usize];
+        let width = kind.bath.filter(|step| step.remembers()).map_or(0.0, |step| step.deviation(kind.temperature));
+        let words = noise::words(model.generator, key, [index as u32, 1]);
+        ((width * noise::gaussian(words)) as f32).to_bits()
+    });
+    state.bond_baths = all.collect();
 }
 
 /// Gives the particles of a group masses in proportion to the depth where they are; tracers have none.
