@@ -4,6 +4,7 @@
 //! reads it into a [`Scene`] and checks what a schema cannot say. Mistakes are reported all at once.
 
 mod builtin;
+mod coloured_noise;
 mod error;
 mod load;
 mod nearest;

@@ -36,6 +36,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.list();
     builder.pairs();
     builder.tethers();
+    builder.coloured_noise();
     builder.motion(output);
     builder.observables(output);
     builder.analyses(output);
