@@ -12,13 +12,13 @@ mod topology;
 pub use angles::{Angle, Angles};
 pub use bath::BathStep;
 pub use bonds::{Bond, BondKind, Bonds};
-pub use coloured_noise::ColouredNoise;
+pub use coloured_noise::{ColouredNoise, Jump};
 pub use dpd::PairForce;
 pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
-use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
+use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
 
 /// A species of particles.
@@ -230,8 +230,9 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
-/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, or, in a scene without heat,
-/// that of its fastest listed particle or of a particle that has rolled down the repulsion.
+/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, that of its fastest listed
+/// particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a particle that has
+/// rolled down the repulsion.
 fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
@@ -243,6 +244,11 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
             scale = scale.max(group.mass * fastest / 8.0);
         }
     }
+    for interaction in &scene.interactions {
+        if let Interaction::ColouredNoise(noise) = interaction {
+            scale = scale.max(noise_momentum(noise, scene.time.step));
+        }
+    }
     if scale == 0.0
         && let Some(force) = pair_force
     {
@@ -252,4 +258,11 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
         scale = 1.0;
     }
     (scale.log2().ceil() - 24.0).exp2()
+}
+
+/// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
+/// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
+fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
+    let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
+    noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
 }

@@ -31,7 +31,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
 }
 
 /// φ(r), whose derivative is √ω within the cutoff; constant beyond it.
-fn coupling(distance: f64, cutoff: f64, weight_exponent: f64) -> f64 {
+pub(super) fn coupling(distance: f64, cutoff: f64, weight_exponent: f64) -> f64 {
     let power = weight_exponent / 2.0 + 1.0;
     -cutoff / power * (1.0 - distance / cutoff).max(0.0).powf(power)
 }

@@ -11,12 +11,14 @@
 //! closed.
 
 mod cotter_reich;
+mod couplings;
 mod groot_warren;
 mod observables;
 mod pairs;
 mod shallow_water;
 mod splitting;
 
+pub use couplings::CouplingsReference;
 pub use shallow_water::ShallowWaterReference;
 pub(crate) use shallow_water::mesh_splines;
 pub use splitting::Relaxation;
@@ -46,6 +48,14 @@ pub enum Unstable {
         step: u64,
         /// The particle's id.
         particle: usize,
+    },
+    /// A bond that is longer than its potential allows.
+    #[error("step {step}: bond {bond} is longer than it can be")]
+    Bond {
+        /// The step.
+        step: u64,
+        /// The bond's index.
+        bond: usize,
     },
     /// A smoothed depth of shallow water that is negative.
     #[error("step {step}: there is no depth left at mesh node ({}, {})", node[0], node[1])]
@@ -112,7 +122,8 @@ impl Reference {
     pub fn step(&mut self) -> Result<(), Unstable> {
         let Report { mut momenta, kick, .. } = self.report(&self.pairs());
         add(&mut momenta, &kick);
-        let mut next = State { step: self.state.step + 1, momenta: self.narrow(&momenta)?, ..State::default() };
+        let mut next =
+            State { step: self.state.step + 1, momenta: narrow(&momenta, self.state.step)?, ..State::default() };
         if let Integrator::GrootWarren { lambda } = self.model.integrator
             && lambda != 0.5
         {
@@ -121,7 +132,7 @@ impl Reference {
                     momentum[axis] += ((2.0 * lambda - 1.0) * kick[axis] as f64).round_ties_even() as i64;
                 }
             }
-            next.predicted = self.narrow(&momenta)?;
+            next.predicted = narrow(&momenta, self.state.step)?;
         }
         let kept = std::mem::replace(&mut self.state.momenta, next.momenta);
         let drifts: Vec<[i64; 3]> = (0..kept.len()).map(|particle| self.drift(particle)).collect();
@@ -171,7 +182,7 @@ impl Reference {
     /// # Errors
     /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
     pub fn reported_state(&self) -> Result<State, Unstable> {
-        let momenta = self.narrow(&self.report(&self.pairs()).momenta)?;
+        let momenta = narrow(&self.report(&self.pairs()).momenta, self.state.step)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }
 
@@ -234,13 +245,14 @@ impl Reference {
         let (momentum_i, momentum_j) = (momenta[pair.first], momenta[pair.second]);
         std::array::from_fn(|axis| momentum_i[axis] as f64 * scale_i - momentum_j[axis] as f64 * scale_j)
     }
+}
 
-    fn narrow(&self, momenta: &[[i64; 3]]) -> Result<Vec<[i32; 3]>, Unstable> {
-        let fits = |units: &i64| i32::try_from(*units).is_ok();
-        match momenta.iter().position(|momentum| !momentum.iter().all(fits)) {
-            Some(particle) => Err(Unstable::Momentum { step: self.state.step, particle }),
-            None => Ok(momenta.iter().map(|momentum| momentum.map(|units| units as i32)).collect()),
-        }
+/// Momenta as the state keeps them.
+fn narrow(momenta: &[[i64; 3]], step: u64) -> Result<Vec<[i32; 3]>, Unstable> {
+    let fits = |units: &i64| i32::try_from(*units).is_ok();
+    match momenta.iter().position(|momentum| !momentum.iter().all(fits)) {
+        Some(particle) => Err(Unstable::Momentum { step, particle }),
+        None => Ok(momenta.iter().map(|momentum| momentum.map(|units| units as i32)).collect()),
     }
 }
 

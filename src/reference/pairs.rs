@@ -117,13 +117,13 @@ fn linked_cells(positions: &[[u32; 3]], cells: [usize; 3], dimension: usize, pai
     }
 }
 
-/// Of each two opposite neighbours of a cell, one: 13 in three dimensions, 4 in two.
+/// Of each two opposite neighbours of a cell, one: 13 in three dimensions, 4 in two, 1 in one.
 fn half_stencil(dimension: usize) -> Vec<[isize; 3]> {
     let mut stencil = Vec::new();
     for z in -1..=1_isize {
         for y in -1..=1_isize {
             for x in -1..=1_isize {
-                if [z, y, x] > [0, 0, 0] && (dimension == 3 || z == 0) {
+                if [z, y, x] > [0, 0, 0] && [x, y, z][dimension..].iter().all(|&offset| offset == 0) {
                     stencil.push([x, y, z]);
                 }
             }
@@ -177,7 +177,7 @@ pub(super) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], un
     }
 }
 
-const MOST_UNITS: f64 = (1_u64 << 44) as f64;
+pub(super) const MOST_UNITS: f64 = (1_u64 << 44) as f64;
 
 /// Scalar product.
 #[inline]
@@ -193,16 +193,21 @@ mod tests {
         (0..count)
             .map(|id| {
                 let [x, y, z, _] = noise::pcg4d([id, 7, 7, 7]);
-                if dimension == 3 { [x, y, z] } else { [x, y, 0] }
+                let position = [x, y, z];
+                std::array::from_fn(|axis| if axis < dimension { position[axis] } else { 0 })
             })
             .collect()
     }
 
     #[test]
     fn linked_cells_find_what_all_pairs_find() {
-        for (lengths, dimension) in
-            [([3.0, 3.0, 3.0], 3), ([3.1, 4.7, 9.2], 3), ([6.0, 3.5, 1.0], 2), ([40.0, 40.0, 40.0], 3)]
-        {
+        for (lengths, dimension) in [
+            ([3.0, 3.0, 3.0], 3),
+            ([3.1, 4.7, 9.2], 3),
+            ([6.0, 3.5, 1.0], 2),
+            ([40.0, 40.0, 40.0], 3),
+            ([50.0, 1.0, 1.0], 1),
+        ] {
             let units = Units { dimension, lengths, momentum: 1.0 };
             let positions = scattered(300, dimension);
             let mut found: Vec<_> = find_pairs(&units, &positions, 1.0);

@@ -20,6 +20,7 @@
 
 mod analyses;
 mod circulations;
+mod conservation;
 mod energies;
 mod error;
 mod pace;

@@ -24,6 +24,7 @@ pub fn builtin() -> &'static [Builtin] {
         "dpd-fluid-2d",
         "binary-mixture",
         "ideal-dissipative-gas",
+        "coloured-noise",
         "shallow-water",
         "shallow-water-memory",
         "shallow-water-equilibrium",

@@ -5,6 +5,7 @@
 
 mod builtin;
 mod chains;
+mod coloured_noise;
 mod couplings;
 mod error;
 mod load;

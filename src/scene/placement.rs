@@ -42,6 +42,9 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         }
         draw_position_baths(&mut state, model);
         draw_bond_baths(&mut state, model);
+        if let Some(noise) = &model.coloured_noise {
+            state.holds = noise.first_holds(model, state.len());
+        }
         if model.tether.is_some() {
             state.tethers.clone_from(&state.positions);
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::error::Warning;
-use super::{Interaction, Scene, Velocities};
+use super::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
 use crate::model::{CLEAN_SHARE, Model, PairForce, ShallowWater, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
@@ -21,9 +21,13 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn_of_friction(scene, &model.species, force, &mut warnings);
         warn_of_stiffness(scene, &model.species, force, &mut warnings);
     }
-    for interaction in &scene.interactions {
-        if let Interaction::Dpd(dpd) = interaction {
-            warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings);
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        match interaction {
+            Interaction::Dpd(dpd) => warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings),
+            Interaction::ColouredNoise(noise) => {
+                warn_of_noise(noise, &model, &format!("interactions[{index}]"), &mut warnings);
+            }
+            _ => {}
         }
     }
     if model.is_coupled() {
@@ -150,6 +154,27 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
                  up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable"
             ),
         );
+    }
+}
+
+/// Impulses of fewer units of momentum are rounded by more than a thousandth.
+const COARSE_IMPULSE: f64 = 500.0;
+
+fn warn_of_noise(noise: &ColouredNoiseInteraction, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
+    if noise.process == NoiseProcess::Literal {
+        let message = "the process as it is printed has a mean force that is not zero and that grows with age: it has no \
+                       stationary state, and drives the centre of mass; `kangaroo` keeps its holding times without that";
+        warn(warnings, format!("{path}.process"), message.to_owned());
+    }
+    let impulse = 0.5 * noise.strength.sqrt() * model.time_step;
+    let units = impulse / model.units.momentum;
+    if noise.strength > 0.0 && units < COARSE_IMPULSE {
+        let message = format!(
+            "the noise changes a momentum by {impulse:.1e} in half a step, {units:.1} of the units of {:.1e} that momenta \
+             are counted in: rounding distorts it; a larger `time.step` or a lower `temperature` resolves it better",
+            model.units.momentum
+        );
+        warn(warnings, format!("{path}.strength"), message);
     }
 }
 

@@ -8,7 +8,7 @@ use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
-use mesoscope::reference::{Reference, ShallowWaterReference};
+use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -113,6 +113,28 @@ pub fn water_reference(scene: &Scene) -> ShallowWaterReference {
     ShallowWaterReference::new(model, state).expect("a scene of shallow water")
 }
 
+/// Independent oscillators: particles tied to where they start, with a bath on every coordinate.
+pub fn oscillators(changes: &[&str]) -> Scene {
+    let text = r#"{
+        "title": "test", "space": {"box": [50, 50, 50]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1.5,
+        "particles": [{"species": "A", "count": 1000, "mass": 2}],
+        "interactions": [{"type": "langevin", "bath": {"type": "memory", "rate": 1, "coupling": 20}},
+            {"type": "tether", "stiffness": 10}],
+        "output": {"energies": {"every": 1}}
+    }"#;
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", text, &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// A standard Gaussian number for each pair of counters, apart from all that a run draws.
+pub fn deviate(seed: u64, counters: [u32; 2]) -> f64 {
+    let key = mesoscope::noise::seed_key(seed, u32::MAX);
+    mesoscope::noise::gaussian(mesoscope::noise::words(scene::Generator::Threefry2x32, key, counters))
+}
+
 /// The largest difference of any momentum or position, in integer units.
 pub fn largest_difference(a: &State, b: &State) -> (i64, i64) {
     assert_eq!(a.len(), b.len());
@@ -198,6 +220,32 @@ impl Implementation for Reference {
     }
 }
 
+impl Implementation for CouplingsReference {
+    fn name(&self) -> &'static str {
+        "reference"
+    }
+
+    fn step(&mut self, steps: u64) {
+        self.run(steps).unwrap();
+    }
+
+    fn attempt(&mut self, steps: u64) -> bool {
+        self.run(steps).is_ok()
+    }
+
+    fn observe(&mut self) -> Observables {
+        CouplingsReference::observe(self).unwrap()
+    }
+
+    fn reported(&mut self) -> State {
+        self.reported_state().unwrap()
+    }
+
+    fn state(&mut self) -> State {
+        CouplingsReference::state(self).clone()
+    }
+}
+
 impl Implementation for ShallowWaterReference {
     fn name(&self) -> &'static str {
         "reference"
@@ -240,8 +288,12 @@ impl Device {
 
     /// The same with options.
     pub fn with(scene: &Scene, options: Options) -> Self {
-        let (model, state) = start(scene);
-        Self { engine: engine(scene, &state, options), model, last: None }
+        Self::from_state(scene, &start(scene).1, options)
+    }
+
+    /// A scene on the device from a state of its own.
+    pub fn from_state(scene: &Scene, state: &State, options: Options) -> Self {
+        Self { engine: engine(scene, state, options), model: Model::new(scene), last: None }
     }
 
     fn samples(&mut self) -> Vec<Observables> {
@@ -308,6 +360,14 @@ impl Measured {
     pub fn of(series: &[f64]) -> Self {
         let estimate = mesoscope::measure::statistics::estimate(series).expect("a series");
         Self { mean: estimate.mean, error: estimate.standard_error.expect("more than one sample") }
+    }
+
+    /// The mean of independent numbers.
+    pub fn of_independent(numbers: &[f64]) -> Self {
+        let count = numbers.len() as f64;
+        let mean = numbers.iter().sum::<f64>() / count;
+        let variance = numbers.iter().map(|number| (number - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        Self { mean, error: (variance / count).sqrt() }
     }
 
     /// The ratio of two means; its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩.
