@@ -5,6 +5,8 @@
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
 mod analyses;
+mod angles;
+mod bonds;
 mod coloured_noise;
 mod list;
 mod motion;
@@ -35,6 +37,8 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.buffers();
     builder.list();
     builder.pairs();
+    builder.bonds();
+    builder.angles();
     builder.tethers();
     builder.coloured_noise();
     builder.motion(output);
