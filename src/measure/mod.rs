@@ -3,6 +3,7 @@
 pub mod circulation;
 pub mod correlation;
 mod field;
+pub mod harmonic_chain;
 mod mesh_fields;
 mod observables;
 pub mod statistics;
