@@ -9,7 +9,7 @@
 ///
 /// The noise of equation (47), √(kTγ), would leave the chain at half the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Chain {
+pub struct SpringChain {
     /// Number N of beads that move.
     pub beads: usize,
     /// Mass m of a bead.
@@ -20,7 +20,7 @@ pub struct Chain {
     pub friction: f64,
 }
 
-impl Chain {
+impl SpringChain {
     /// √(κ/m).
     #[must_use]
     pub fn frequency(&self) -> f64 {
@@ -59,23 +59,23 @@ pub struct HarmonicChain {
 impl HarmonicChain {
     /// The chain of beads.
     #[must_use]
-    pub fn micro(&self) -> Chain {
+    pub fn micro(&self) -> SpringChain {
         let beads = self.clusters * self.cluster_size;
-        Chain { beads, mass: self.mass, stiffness: self.stiffness, friction: 0.0 }
+        SpringChain { beads, mass: self.mass, stiffness: self.stiffness, friction: 0.0 }
     }
 
     /// The chain of clusters with friction and noise, of mass nm, stiffness κ/n and friction γ*√(mκ): equation (45).
     #[must_use]
-    pub fn dissipative(&self) -> Chain {
+    pub fn dissipative(&self) -> SpringChain {
         let friction = self.reduced_friction * (self.mass * self.stiffness).sqrt();
-        Chain { friction, ..self.frictionless() }
+        SpringChain { friction, ..self.frictionless() }
     }
 
     /// The chain of clusters without either.
     #[must_use]
-    pub fn frictionless(&self) -> Chain {
+    pub fn frictionless(&self) -> SpringChain {
         let size = self.cluster_size as f64;
-        Chain { beads: self.clusters, mass: size * self.mass, stiffness: self.stiffness / size, friction: 0.0 }
+        SpringChain { beads: self.clusters, mass: size * self.mass, stiffness: self.stiffness / size, friction: 0.0 }
     }
 
     /// n/ω₀, in which a pulse travels from one cluster to the next: the unit of the reduced time τ = ω₀t/n.
@@ -123,9 +123,9 @@ mod tests {
     /// One bead out by 1 between two springs, and moving.
     #[test]
     fn the_ends_pull() {
-        let one = Chain { beads: 1, mass: 2.0, stiffness: 3.0, friction: 0.0 };
+        let one = SpringChain { beads: 1, mass: 2.0, stiffness: 3.0, friction: 0.0 };
         assert_eq!(one.energy(&[1.0], &[2.0]), 3.0 + 1.0);
-        let two = Chain { beads: 2, ..one };
+        let two = SpringChain { beads: 2, ..one };
         assert_eq!(two.energy(&[1.0, -1.0], &[0.0, 0.0]), 1.5 * (1.0 + 4.0 + 1.0));
     }
 }

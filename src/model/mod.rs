@@ -7,7 +7,7 @@ mod shallow_water;
 
 pub use bath::BathStep;
 pub use dpd::PairForce;
-pub use harmonic_chain::{Chain, HarmonicChain};
+pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 

@@ -5,7 +5,7 @@
 //! second part, which a chain of clusters joined by springs κ/n does not have either: its neighbours are further apart.
 //! Here the ends are exact too: the fixed bead is one bead, not one cluster, from its neighbour.
 
-use crate::model::{Chain, HarmonicChain};
+use crate::model::{SpringChain, HarmonicChain};
 
 /// ⟨P²⟩ = nmkT of a cluster, of beads or whole.
 #[must_use]
@@ -36,7 +36,7 @@ pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f
 
 /// The variance of x_{i+1} - x_i of a chain, kT/κ [1 - 1/(N+1)]; of clusters, that of springs κ/n.
 #[must_use]
-pub fn separation_variance(chain: &Chain, temperature: f64) -> f64 {
+pub fn separation_variance(chain: &SpringChain, temperature: f64) -> f64 {
     temperature / chain.stiffness * (1.0 - 1.0 / (chain.beads as f64 + 1.0))
 }
 

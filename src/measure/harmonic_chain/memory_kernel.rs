@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn the_kernel_moves_a_cluster_as_its_beads_do() {
         use crate::measure::harmonic_chain::NormalModes;
-        use crate::model::Chain;
+        use crate::model::SpringChain;
         let n = 8;
         let kernel = MemoryKernel::new(n, 1);
         // The whole restoring force on the mean, 2/n, less what the beads screen.
@@ -193,7 +193,7 @@ mod tests {
             *found.last_mut().unwrap() = now + 0.5 * step * (before + after);
             before = rate(&found);
         }
-        let chain = Chain { beads: n, mass: 1.0, stiffness: 1.0, friction: 0.0 };
+        let chain = SpringChain { beads: n, mass: 1.0, stiffness: 1.0, friction: 0.0 };
         let times: Vec<f64> = (0..=15).map(f64::from).collect();
         let exact = NormalModes::new(chain).momentum_autocorrelation(n, &times);
         for (second, exact) in exact.iter().enumerate() {

@@ -1,12 +1,12 @@
 //! The exact motion of a chain without noise.
 
-use crate::model::Chain;
+use crate::model::SpringChain;
 use std::f64::consts::PI;
 
 /// The normal modes of a chain between fixed ends: sin(πik/(N+1)), bead i = 1 … N, mode k = 1 … N.
 #[derive(Debug, Clone)]
 pub struct NormalModes {
-    chain: Chain,
+    chain: SpringChain,
     /// sin(πj/(N+1)) for j = 0 … 2N+1, one full turn.
     sines: Vec<f64>,
 }
@@ -14,7 +14,7 @@ pub struct NormalModes {
 impl NormalModes {
     /// The modes of a chain.
     #[must_use]
-    pub fn new(chain: Chain) -> Self {
+    pub fn new(chain: SpringChain) -> Self {
         let turn = 2 * (chain.beads + 1);
         let sines = (0..turn).map(|j| (PI * j as f64 / (chain.beads + 1) as f64).sin()).collect();
         Self { chain, sines }
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
     use crate::model::HarmonicChain;
 
-    const CHAIN: Chain = Chain { beads: 12, mass: 2.0, stiffness: 3.0, friction: 0.0 };
+    const CHAIN: SpringChain = SpringChain { beads: 12, mass: 2.0, stiffness: 3.0, friction: 0.0 };
 
     /// J₀(x) of positive x by Bessel's integral; the trapezoidal rule is exact to rounding for a periodic integrand.
     fn bessel(x: f64) -> f64 {
@@ -142,7 +142,7 @@ mod tests {
     fn the_motion_obeys_its_equations() {
         // γ from none to one that overdamps most modes.
         for friction in [0.0, 0.4, 6.0] {
-            let chain = Chain { friction, ..CHAIN };
+            let chain = SpringChain { friction, ..CHAIN };
             let modes = NormalModes::new(chain);
             let start: Vec<f64> = (0..12).map(|i| f64::from(i * i % 7) - 2.0).collect();
             let kick: Vec<f64> = (0..12).map(|i| f64::from(i * 5 % 11) - 4.0).collect();
@@ -170,7 +170,7 @@ mod tests {
         let start: Vec<f64> = (0..12).map(|i| f64::from(i % 3)).collect();
         let still = vec![0.0; 12];
         for (friction, kept) in [(0.0, true), (0.1, false)] {
-            let chain = Chain { friction, ..CHAIN };
+            let chain = SpringChain { friction, ..CHAIN };
             let (x, p) = NormalModes::new(chain).evolved(&start, &still, 30.0);
             let change = chain.energy(&x, &p) / chain.energy(&start, &still) - 1.0;
             assert_eq!(change.abs() < 1e-12, kept, "{change}");
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn a_bead_forgets_its_momentum_as_in_an_infinite_chain() {
         let beads = 4000;
-        let chain = Chain { beads, ..CHAIN };
+        let chain = SpringChain { beads, ..CHAIN };
         let times: Vec<f64> = (0..20).map(|j| f64::from(j) * 0.5).collect();
         let found = NormalModes::new(chain).momentum_autocorrelation(1, &times);
         for (time, found) in times.iter().zip(found) {

@@ -119,7 +119,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::measure::harmonic_chain::{NormalModes, equilibrium, thermal_start};
-    use crate::model::{Chain, HarmonicChain};
+    use crate::model::{SpringChain, HarmonicChain};
     use rand::{RngExt, SeedableRng, rngs::StdRng};
 
     fn gaussian(rng: &mut StdRng) -> f64 {
@@ -153,7 +153,7 @@ mod tests {
         let clusters = 512;
         let layout =
             HarmonicChain { clusters, cluster_size: 4, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
-        let chain: Chain = layout.frictionless();
+        let chain: SpringChain = layout.frictionless();
         let modes = NormalModes::new(chain);
         let mut rng = StdRng::seed_from_u64(3);
         let start = thermal_start(&chain, 2.0, || gaussian(&mut rng));

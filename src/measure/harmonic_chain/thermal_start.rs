@@ -1,13 +1,13 @@
 //! A chain drawn from its canonical equilibrium.
 
-use crate::model::Chain;
+use crate::model::SpringChain;
 
 /// Displacements and momenta of a chain at temperature kT between fixed ends, exactly distributed. `gaussian` gives
 /// independent standard Gaussian numbers; 2N + 1 are drawn, N + 1 for the springs and then N for the momenta.
 ///
 /// The springs would be independent but for the fixed ends, which take their common mean from them.
 #[must_use]
-pub fn thermal_start(chain: &Chain, temperature: f64, mut gaussian: impl FnMut() -> f64) -> (Vec<f64>, Vec<f64>) {
+pub fn thermal_start(chain: &SpringChain, temperature: f64, mut gaussian: impl FnMut() -> f64) -> (Vec<f64>, Vec<f64>) {
     let deviation = (temperature / chain.stiffness).sqrt();
     let extensions: Vec<f64> = (0..=chain.beads).map(|_| deviation * gaussian()).collect();
     let mean = extensions.iter().sum::<f64>() / extensions.len() as f64;
@@ -31,7 +31,7 @@ mod tests {
     /// Against kT/κ A⁻¹; 4 standard errors of a variance from 40 000 samples are 2.9 % of it.
     #[test]
     fn displacements_have_the_covariance_of_equilibrium() {
-        let chain = Chain { beads: 7, mass: 2.0, stiffness: 3.0, friction: 0.0 };
+        let chain = SpringChain { beads: 7, mass: 2.0, stiffness: 3.0, friction: 0.0 };
         let mut rng = StdRng::seed_from_u64(1);
         let samples = 40_000;
         let mut covariance = [[0.0; 7]; 7];
