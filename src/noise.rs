@@ -13,6 +13,16 @@ pub mod stream {
     pub const VELOCITY: u32 = 3;
     /// Noise of the bath on a mesh node.
     pub const MESH: u32 = 4;
+    /// The bath of a pair at the time it enters the neighbour list.
+    pub const PAIR_START: u32 = 5;
+    /// Noise of the bath on a particle's coordinates.
+    pub const PARTICLE: u32 = 6;
+    /// Jumps of a coloured noise.
+    pub const JUMP: u32 = 7;
+    /// Noise of the bath of a bond.
+    pub const BOND: u32 = 8;
+    /// Directions of bonds at the start.
+    pub const CHAIN: u32 = 9;
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.

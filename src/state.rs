@@ -71,9 +71,109 @@ pub struct State {
     pub node_masses: Vec<u32>,
     /// Bath variable of each mesh node, the bits of an `f32`, where there is a bath on the mesh.
     pub node_bath: Vec<u32>,
+    /// What the baths of listed pairs remember, in order of the numbers of their particles; empty without memory and
+    /// before the first step.
+    pub pair_baths: Vec<PairBath>,
+    /// Where the particles were when their neighbours were listed; empty without a list and before the first step.
+    pub anchors: Vec<[u32; 3]>,
+    /// Bath variables of each particle's coordinates, bits of `f32`, where they have baths with memory.
+    pub position_baths: Vec<[u32; 3]>,
+    /// Bath variable of each bond, the bits of an `f32`, where bonds have baths with memory.
+    pub bond_baths: Vec<u32>,
+    /// The coloured noise of each particle, where there is one.
+    pub holds: Vec<Hold>,
+    /// Where each particle is tied to, in scenes with tethers.
+    pub tethers: Vec<[u32; 3]>,
+}
+
+/// What the bath of a listed pair remembers.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PairBath {
+    /// The smaller of the particles' numbers.
+    pub first: u32,
+    /// The larger one.
+    pub second: u32,
+    /// e s - λₑ(1 + e)/2 φ at the last step at which the pair was in contact, the bits of an `f32`.
+    pub memory: u32,
+    /// The low word of that step.
+    pub stamp: u32,
+}
+
+/// A random force that is constant for a random time.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Hold {
+    /// The force, bits of `f32`.
+    pub force: [u32; 3],
+    /// What is left of its time beyond whole half steps, in half steps, the bits of an `f32`.
+    pub fraction: u32,
+    /// Whole half steps that are left of its time.
+    pub halves: u32,
+    /// Number of jumps so far.
+    pub jump: u32,
 }
 
 impl State {
+    /// What some states have and others not, by name: arrays of words.
+    #[must_use]
+    pub fn arrays(&self) -> [(&'static str, &[u32]); 10] {
+        [
+            ("predicted", bytemuck::cast_slice(&self.predicted)),
+            ("masses", &self.masses),
+            ("node_masses", &self.node_masses),
+            ("node_bath", &self.node_bath),
+            ("pair_baths", bytemuck::cast_slice(&self.pair_baths)),
+            ("anchors", bytemuck::cast_slice(&self.anchors)),
+            ("position_baths", bytemuck::cast_slice(&self.position_baths)),
+            ("bond_baths", &self.bond_baths),
+            ("holds", bytemuck::cast_slice(&self.holds)),
+            ("tethers", bytemuck::cast_slice(&self.tethers)),
+        ]
+    }
+
+    /// Sets one of [`Self::arrays`].
+    ///
+    /// # Errors
+    /// What is wrong with it: an unknown name, or words that are no whole number of its elements.
+    pub fn set_array(&mut self, name: &str, words: &[u32]) -> Result<(), String> {
+        fn elements<T: bytemuck::Pod>(name: &str, words: &[u32]) -> Result<Vec<T>, String> {
+            match bytemuck::try_cast_slice(words) {
+                Ok(elements) => Ok(elements.to_vec()),
+                Err(_) => Err(format!("its `{name}` are cut off")),
+            }
+        }
+        match name {
+            "predicted" => self.predicted = elements(name, words)?,
+            "masses" => self.masses = words.to_vec(),
+            "node_masses" => self.node_masses = words.to_vec(),
+            "node_bath" => self.node_bath = words.to_vec(),
+            "pair_baths" => self.pair_baths = elements(name, words)?,
+            "anchors" => self.anchors = elements(name, words)?,
+            "position_baths" => self.position_baths = elements(name, words)?,
+            "bond_baths" => self.bond_baths = words.to_vec(),
+            "holds" => self.holds = elements(name, words)?,
+            "tethers" => self.tethers = elements(name, words)?,
+            _ => return Err(format!("it holds an unknown array `{name}`")),
+        }
+        Ok(())
+    }
+
+    /// The first array that has neither no element nor one for each particle, where it should.
+    #[must_use]
+    pub fn misshapen(&self) -> Option<&'static str> {
+        let count = self.len();
+        let lengths = [
+            ("predicted", self.predicted.len()),
+            ("masses", self.masses.len()),
+            ("anchors", self.anchors.len()),
+            ("position_baths", self.position_baths.len()),
+            ("holds", self.holds.len()),
+            ("tethers", self.tethers.len()),
+        ];
+        lengths.into_iter().find(|(_, length)| *length != 0 && *length != count).map(|(name, _)| name)
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {

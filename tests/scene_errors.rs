@@ -73,7 +73,10 @@ fn unknown_keys() {
 fn values_out_of_range_or_of_another_type() {
     refused(&["particles.0.mass=-1"], &["particles[0].mass: found -1; accepted: a number greater than zero"]);
     refused(&["time.step=0"], &["time.step: found 0; accepted: a number greater than zero"]);
-    refused(&["space.box=[]"], &["space.box: found a list of 0 entries; accepted: a list of 2 to 3 entries"]);
+    refused(
+        &["space.box=[]"],
+        &["space.box: found a list of 0 entries; accepted: a list of 1 to 3 entries, each a number greater than zero"],
+    );
     refused(&["space.box=[9,9,9,9]"], &["space.box: found a list of 4 entries"]);
     refused(&["space.box=[9,9,-9]"], &["space.box[2]: found -9; accepted: a number greater than zero"]);
     refused(&["time.steps=ten"], &["time.steps: found the text \"ten\"; accepted: a whole number, zero or positive"]);

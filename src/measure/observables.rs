@@ -9,7 +9,9 @@ pub struct Observables {
     pub step: u64,
     /// Number of particles.
     pub particles: u64,
-    /// Number of dimensions, 2 or 3.
+    /// Number of those that can move.
+    pub mobile: u64,
+    /// Number of dimensions.
     pub dimension: usize,
     /// Volume of the box (area in two dimensions).
     pub volume: f64,
@@ -29,8 +31,8 @@ pub struct Observables {
     pub total_virial: f64,
     /// Total momentum.
     pub momentum: [f64; 3],
-    /// Whether the total momentum is constant, so that it is no degree of freedom of a temperature.
-    pub momentum_is_constant: bool,
+    /// Whether the motion of the centre of mass is no degree of freedom of a temperature.
+    pub about_centre_of_mass: bool,
     /// Energy of bath variables with memory.
     pub bath_energy: f64,
     /// Mean square of the bath variables.
@@ -50,17 +52,18 @@ impl Observables {
         if self.particles == 0 { [f64::NAN; 3] } else { self.momentum.map(|momentum| momentum / self.mass) }
     }
 
-    /// Kinetic temperature kT, about the centre-of-mass velocity where that is constant; NaN for too few particles.
+    /// Kinetic temperature kT, about the velocity of the centre of mass where that is none of heat; NaN for too few
+    /// particles.
     #[must_use]
     pub fn kinetic_temperature(&self) -> f64 {
-        if !self.momentum_is_constant {
-            return 2.0 * self.kinetic_energy / (self.dimension as f64 * self.particles as f64);
+        if !self.about_centre_of_mass {
+            return 2.0 * self.kinetic_energy / (self.dimension as f64 * self.mobile as f64);
         }
-        if self.particles < 2 {
+        if self.mobile < 2 {
             return f64::NAN;
         }
         let bulk = self.momentum.iter().map(|momentum| momentum * momentum).sum::<f64>() / (2.0 * self.mass);
-        2.0 * (self.kinetic_energy - bulk) / (self.dimension as f64 * (self.particles - 1) as f64)
+        2.0 * (self.kinetic_energy - bulk) / (self.dimension as f64 * (self.mobile - 1) as f64)
     }
 
     /// Configurational temperature Σ|∇V|² / Σ∇²V of this one step; NaN where no pair interacts.
@@ -98,6 +101,7 @@ mod tests {
     const PAIR: Observables = Observables {
         step: 0,
         particles: 2,
+        mobile: 2,
         dimension: 3,
         volume: 10.0,
         mass: 3.0,
@@ -108,7 +112,7 @@ mod tests {
         conservative_virial: 6.0,
         total_virial: 12.0,
         momentum: [0.0, 3.0, 0.0],
-        momentum_is_constant: true,
+        about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
     };
@@ -120,7 +124,7 @@ mod tests {
         // Bulk motion holds 9 / 6 of the kinetic energy.
         assert!((PAIR.kinetic_temperature() - 7.0 / 3.0).abs() < 1e-15);
         assert_eq!(PAIR.configurational_temperature(), 2.0);
-        let on_a_mesh = Observables { momentum_is_constant: false, ..PAIR };
+        let on_a_mesh = Observables { about_centre_of_mass: false, ..PAIR };
         assert!((on_a_mesh.kinetic_temperature() - 10.0 / 6.0).abs() < 1e-15);
         assert!((PAIR.conservative_pressure() - (7.0 / 15.0 + 0.2)).abs() < 1e-15);
         assert!((PAIR.pressure() - (7.0 / 15.0 + 0.4)).abs() < 1e-15);
@@ -128,7 +132,7 @@ mod tests {
 
     #[test]
     fn what_is_undefined_is_not_a_number() {
-        let single = Observables { particles: 1, gradient_squared: 0.0, laplacian: 0.0, ..PAIR };
+        let single = Observables { particles: 1, mobile: 1, gradient_squared: 0.0, laplacian: 0.0, ..PAIR };
         assert!(single.kinetic_temperature().is_nan());
         assert!(single.pressure().is_nan());
         assert!(single.configurational_temperature().is_nan());

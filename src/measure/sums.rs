@@ -16,6 +16,7 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
     Observables {
         step: sample.step,
         particles: plan.particles,
+        mobile: model.mobile_particles(),
         dimension: model.units.dimension,
         volume: model.units.volume(),
         mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
@@ -26,7 +27,7 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         conservative_virial: sum(6) * quanta.pair_energy,
         gradient_squared: sum(7) * quanta.force_squared,
         laplacian: sum(8) * quanta.curvature,
-        momentum_is_constant: true,
+        about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: 0.0,
         bath_square: 0.0,
     }
@@ -50,6 +51,7 @@ fn shallow_water(
     Observables {
         step,
         particles: water.carriers,
+        mobile: water.carriers,
         dimension: 2,
         volume: model.units.volume(),
         mass: water.total_mass() as f64 * water.mass_unit,
@@ -58,7 +60,7 @@ fn shallow_water(
         potential_energy: sum(3) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
-        momentum_is_constant: false,
+        about_centre_of_mass: false,
         gradient_squared: 0.0,
         laplacian: 0.0,
         conservative_virial: f64::NAN,

@@ -1,6 +1,6 @@
 //! Heat baths with exponential memory: the family of schemes of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
-use crate::scene::BathScheme;
+use crate::scene::{Bath, BathScheme};
 
 /// One step of a bath variable s that is coupled to a function h of the positions,
 ///
@@ -18,6 +18,23 @@ pub struct BathStep {
 }
 
 impl BathStep {
+    /// The step of a bath as the scene gives it, for a friction.
+    #[must_use]
+    pub fn of(bath: &Bath, friction: f64, time_step: f64) -> Self {
+        match *bath {
+            Bath::White { .. } => Self::without_memory(friction, time_step),
+            Bath::Memory { rate, coupling, scheme, .. } => {
+                Self::with_memory(scheme, coupling.unwrap_or(rate * friction), rate, time_step)
+            }
+        }
+    }
+
+    /// Whether the bath has a memory.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        self.continuous_coupling.is_finite()
+    }
+
     /// The step of a bath ds = -αs dt + λ dh + √(2kTλα) dW.
     #[must_use]
     pub fn with_memory(scheme: BathScheme, coupling: f64, rate: f64, time_step: f64) -> Self {

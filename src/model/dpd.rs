@@ -1,7 +1,8 @@
 //! Pair forces of dissipative particle dynamics, doi:10.1063/1.474784.
 
 use super::Species;
-use crate::scene::DpdInteraction;
+use super::bath::BathStep;
+use crate::scene::{Bath, DpdInteraction};
 
 /// Soft repulsion, friction and noise between all pairs of species.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,17 +11,26 @@ pub struct PairForce {
     pub cutoff: f64,
     /// Exponent of the friction weight ω = (1 - r/rc)^exponent.
     pub weight_exponent: f64,
+    /// Temperature kT of the bath.
+    pub temperature: f64,
+    /// The bath of every pair.
+    pub bath: Bath,
+    /// Margin of a neighbour list beyond the cutoff.
+    pub skin: f64,
     species: usize,
     repulsion: Vec<f64>,
     friction: Vec<f64>,
 }
 
 impl PairForce {
-    pub(super) fn new(interaction: &DpdInteraction, species: &[Species]) -> Self {
+    pub(super) fn new(interaction: &DpdInteraction, species: &[Species], temperature: f64) -> Self {
         let count = species.len();
         let mut force = Self {
             cutoff: interaction.cutoff,
             weight_exponent: interaction.weight_exponent,
+            temperature: interaction.bath.temperature(temperature),
+            bath: interaction.bath.clone(),
+            skin: interaction.skin,
             species: count,
             repulsion: vec![interaction.repulsion; count * count],
             friction: vec![interaction.friction; count * count],
@@ -44,7 +54,16 @@ impl PairForce {
     pub(crate) fn none(units: &crate::state::Units, species: usize) -> Self {
         let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
         let zeros = vec![0.0; species * species];
-        Self { cutoff: 0.5 * shortest, weight_exponent: 2.0, species, repulsion: zeros.clone(), friction: zeros }
+        Self {
+            cutoff: 0.5 * shortest,
+            weight_exponent: 2.0,
+            temperature: 0.0,
+            bath: Bath::default(),
+            skin: 0.0,
+            species,
+            repulsion: zeros.clone(),
+            friction: zeros,
+        }
     }
 
     /// Repulsion a between two species.
@@ -57,6 +76,27 @@ impl PairForce {
     #[must_use]
     pub fn friction(&self, a: usize, b: usize) -> f64 {
         self.friction[a * self.species + b]
+    }
+
+    /// Whether the bath of pairs has a memory.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        matches!(self.bath, Bath::Memory { .. })
+    }
+
+    /// The bath step of a pair of species, coupled to φ(r).
+    #[must_use]
+    pub fn bath_step(&self, a: usize, b: usize, time_step: f64) -> BathStep {
+        BathStep::of(&self.bath, self.friction(a, b), time_step)
+    }
+
+    /// Whether any pair of species has friction, with memory or without.
+    #[must_use]
+    pub fn has_friction(&self) -> bool {
+        match self.bath {
+            Bath::White { .. } => self.largest_friction() > 0.0,
+            Bath::Memory { rate, coupling, .. } => coupling.unwrap_or(rate * self.largest_friction()) > 0.0,
+        }
     }
 
     /// The largest magnitude of any repulsion.

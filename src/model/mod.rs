@@ -1,13 +1,22 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
+mod angles;
 mod bath;
+mod bonds;
+mod coloured_noise;
 mod dpd;
 mod harmonic_chain;
+mod position;
 mod shallow_water;
+mod topology;
 
+pub use angles::{Angle, Angles};
 pub use bath::BathStep;
+pub use bonds::{Bond, BondKind, Bonds};
+pub use coloured_noise::ColouredNoise;
 pub use dpd::PairForce;
 pub use harmonic_chain::{HarmonicChain, SpringChain};
+pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
@@ -23,6 +32,8 @@ pub struct Species {
     pub mass: f64,
     /// Number of particles.
     pub count: u64,
+    /// Whether they are held where they start.
+    pub fixed: bool,
 }
 
 /// Everything the equations of motion need.
@@ -46,6 +57,16 @@ pub struct Model {
     pub integrator: Integrator,
     /// The pair force, if the scene has one.
     pub pair_force: Option<PairForce>,
+    /// A heat bath on the coordinates of particles.
+    pub position_bath: Option<PositionBath>,
+    /// A random force on every particle that is constant for random times.
+    pub coloured_noise: Option<ColouredNoise>,
+    /// Spring constant that ties every particle to where it started.
+    pub tether: Option<f64>,
+    /// Bonds, if there are any.
+    pub bonds: Option<Bonds>,
+    /// Angles between bonds, if they are stiff.
+    pub angles: Option<Angles>,
     /// Shallow water on a mesh, if the scene has it; the momenta of its particles are per unit of mass.
     pub shallow_water: Option<ShallowWater>,
 }
@@ -57,15 +78,26 @@ impl Model {
         let mut species: Vec<Species> = Vec::new();
         for group in &scene.particles {
             let count = group.resolved_count(scene.space.volume());
-            match species.iter_mut().find(|known| known.name == group.species) {
-                Some(known) => known.count += count,
-                None => species.push(Species { name: group.species.clone(), mass: group.mass, count }),
+            if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
+                known.count += count;
+            } else {
+                let name = group.species.clone();
+                species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
             }
         }
         let (mut pair_force, mut shallow_water) = (None, None);
+        let (mut position_bath, mut coloured_noise, mut tether) = (None, None, None);
+        let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
         for interaction in &scene.interactions {
             match interaction {
-                Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, &species)),
+                Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, &species, scene.temperature)),
+                Interaction::Langevin(langevin) => {
+                    position_bath = Some(PositionBath::new(langevin, &species, scene.temperature, scene.time.step));
+                }
+                Interaction::ColouredNoise(noise) => coloured_noise = Some(ColouredNoise::new(noise)),
+                Interaction::Tether(spring) => tether = Some(spring.stiffness),
+                Interaction::Bonds(interaction) => bonds.add(interaction, scene),
+                Interaction::Angles(interaction) => angles.add(interaction, scene),
                 Interaction::ShallowWater(water) => shallow_water = Some(ShallowWater::new(water, scene)),
             }
         }
@@ -85,8 +117,46 @@ impl Model {
             distribution: scene.noise.distribution,
             integrator: scene.integrator.clone(),
             pair_force,
+            position_bath,
+            coloured_noise,
+            tether,
+            bonds: (!bonds.bonds.is_empty()).then_some(bonds),
+            angles: (!angles.angles.is_empty()).then_some(angles),
             shallow_water,
         }
+    }
+
+    /// Whether the scene has more than pairs without memory in two or three dimensions: then every coupling adds its
+    /// impulses up on its own, and listed pairs persist.
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.shallow_water.is_none()
+            && (self.pair_force.as_ref().is_some_and(PairForce::remembers)
+                || self.position_bath.is_some()
+                || self.coloured_noise.is_some()
+                || self.tether.is_some()
+                || self.bonds.is_some()
+                || self.angles.is_some()
+                || self.has_fixed_particles()
+                || self.units.dimension == 1)
+    }
+
+    /// Temperature kT of the bath of pairs.
+    #[must_use]
+    pub fn pair_temperature(&self) -> f64 {
+        self.pair_force.as_ref().map_or(self.temperature, |force| force.temperature)
+    }
+
+    /// Whether some particles are held where they start.
+    #[must_use]
+    pub fn has_fixed_particles(&self) -> bool {
+        self.species.iter().any(|species| species.fixed && species.count > 0)
+    }
+
+    /// Number of particles that can move.
+    #[must_use]
+    pub fn mobile_particles(&self) -> u64 {
+        self.species.iter().filter(|species| !species.fixed).map(|species| species.count).sum()
     }
 
     /// Whether steps are split, friction apart from the conservative force. Without friction there is nothing to split.
@@ -96,10 +166,26 @@ impl Model {
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
     }
 
-    /// Whether the equations of motion keep the total momentum. A mesh and a rotation do not.
+    /// Whether the equations of motion keep the total momentum. A mesh, a rotation and whatever acts on particles by
+    /// themselves do not.
     #[must_use]
     pub fn conserves_momentum(&self) -> bool {
+        self.coloured_noise.is_none() && self.is_free()
+    }
+
+    /// Whether temperatures are about the velocity of the centre of mass: where that is constant, and where it is driven by
+    /// nothing but a random force.
+    #[must_use]
+    pub fn measures_about_centre_of_mass(&self) -> bool {
+        self.is_free()
+    }
+
+    /// Whether nothing but a coloured noise couples particles to what is fixed in space.
+    fn is_free(&self) -> bool {
         self.shallow_water.is_none()
+            && self.position_bath.is_none()
+            && self.tether.is_none()
+            && !self.has_fixed_particles()
     }
 
     /// Number of particles.
@@ -125,7 +211,9 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
 /// that of its fastest listed particle or of a particle that has rolled down the repulsion.
 fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
-    let mut scale = (heaviest * scene.temperature).sqrt();
+    let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
+    let hottest = baths.fold(scene.temperature, f64::max);
+    let mut scale = (heaviest * hottest).sqrt();
     for group in &scene.particles {
         if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));

@@ -13,10 +13,7 @@
 //!     positions    N × 3 u32
 //!     momenta      N × 3 i32
 //!     species      N u32
-//!     predicted    u64 (0 or N), that many × 3 i32
-//!     masses       u64 (0 or N), that many u32
-//!     node masses  u64, that many u32
-//!     node bath    u64, that many u32
+//!     arrays       u64 count, of those that are not empty; each: u64 length, name in UTF-8; u64 count, that many u32
 //!     sections     u64 count; each: u64 length, name in UTF-8; u64 length, bytes
 //! checksum         u64       FNV-1a of the payload
 //! ```
@@ -29,7 +26,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 const MAGIC: [u8; 8] = *b"MESOCKPT";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const HEADER: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 8;
 
@@ -98,16 +95,14 @@ pub enum CheckpointError {
 pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
     let scene = serde_json::to_vec(scene).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
     let sections_length: u64 = sections.iter().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
+    let mut arrays = state.arrays().to_vec();
+    arrays.retain(|(_, words)| !words.is_empty());
     let length = 8
         + scene.len() as u64
         + 16
         + 28 * state.len() as u64
         + 8
-        + 12 * state.predicted.len() as u64
-        + [&state.masses, &state.node_masses, &state.node_bath]
-            .map(|words| 8 + 4 * words.len() as u64)
-            .iter()
-            .sum::<u64>()
+        + arrays.iter().map(|(name, words)| 16 + name.len() as u64 + 4 * words.len() as u64).sum::<u64>()
         + 8
         + sections_length;
     write_atomically(path, |writer| {
@@ -121,9 +116,9 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
         payload.words(bytemuck::cast_slice(&state.positions))?;
         payload.words(bytemuck::cast_slice(&state.momenta))?;
         payload.words(&state.species)?;
-        payload.number(state.predicted.len() as u64)?;
-        payload.words(bytemuck::cast_slice(&state.predicted))?;
-        for words in [&state.masses, &state.node_masses, &state.node_bath] {
+        payload.number(arrays.len() as u64)?;
+        for (name, words) in arrays {
+            payload.counted(name.as_bytes())?;
             payload.number(words.len() as u64)?;
             payload.words(words)?;
         }
@@ -150,13 +145,14 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let payload = payload_of(path, &bytes)?;
     let malformed = |problem: String| CheckpointError::Malformed { path: own(), problem };
     let mut reader = Reader { rest: payload };
-    let (scene, state, sections) = reader.content().ok_or_else(|| malformed("a length is wrong".to_owned()))?;
-    let scene: Scene = serde_json::from_slice(scene).map_err(|error| malformed(format!("its scene: {error}")))?;
-    if !state.predicted.is_empty() && state.predicted.len() != state.len() {
-        return Err(malformed("some particles have predicted momenta and others none".to_owned()));
+    let (scene, mut state, arrays, sections) =
+        reader.content().ok_or_else(|| malformed("a length is wrong".to_owned()))?;
+    for (name, words) in arrays {
+        state.set_array(&name, &words).map_err(malformed)?;
     }
-    if !state.masses.is_empty() && state.masses.len() != state.len() {
-        return Err(malformed("some particles have masses of their own and others none".to_owned()));
+    let scene: Scene = serde_json::from_slice(scene).map_err(|error| malformed(format!("its scene: {error}")))?;
+    if let Some(name) = state.misshapen() {
+        return Err(malformed(format!("some particles have `{name}` and others none")));
     }
     Ok(Checkpoint { scene, state, sections })
 }
@@ -257,7 +253,7 @@ struct Reader<'a> {
     rest: &'a [u8],
 }
 
-type Content<'a> = (&'a [u8], State, Vec<(String, Vec<u8>)>);
+type Content<'a> = (&'a [u8], State, Vec<(String, Vec<u32>)>, Vec<(String, Vec<u8>)>);
 
 impl<'a> Reader<'a> {
     fn take(&mut self, length: u64) -> Option<&'a [u8]> {
@@ -300,15 +296,17 @@ impl<'a> Reader<'a> {
         let positions = self.vectors(count)?;
         let momenta = self.vectors(count)?;
         let species = self.words(count)?;
-        let predicted_count = self.number()?;
-        let predicted = self.vectors(predicted_count)?;
-        let [masses, node_masses, node_bath] = [self.counted_words()?, self.counted_words()?, self.counted_words()?];
+        let mut arrays = Vec::new();
+        for _ in 0..self.number()? {
+            let name = std::str::from_utf8(self.counted()?).ok()?.to_owned();
+            arrays.push((name, self.counted_words()?));
+        }
         let mut sections = Vec::new();
         for _ in 0..self.number()? {
             let name = std::str::from_utf8(self.counted()?).ok()?.to_owned();
             sections.push((name, self.counted()?.to_vec()));
         }
-        let state = State { step, positions, momenta, species, predicted, masses, node_masses, node_bath };
-        self.rest.is_empty().then_some((scene, state, sections))
+        let state = State { step, positions, momenta, species, ..State::default() };
+        self.rest.is_empty().then_some((scene, state, arrays, sections))
     }
 }

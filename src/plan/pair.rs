@@ -207,7 +207,7 @@ impl Builder<'_> {
         let half = 0.5 * self.model.time_step;
         let unit = self.model.units.momentum;
         let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
-        let amplitude = (2.0 * friction * self.model.temperature / self.model.time_step).sqrt();
+        let amplitude = (2.0 * friction * self.force.temperature / self.model.time_step).sqrt();
         [repulsion * half / unit, friction * half, amplitude * half / unit]
     }
 
@@ -295,7 +295,7 @@ impl Builder<'_> {
             Integrator::GrootWarren { .. } => "common/friction_velocity",
         });
         modules.push(if self.splits() { "common/drift_halves" } else { "common/drift" });
-        if frictional && self.model.temperature > 0.0 {
+        if frictional && self.force.temperature > 0.0 {
             modules.push("common/random_on");
             modules.push(match self.model.distribution {
                 Distribution::Uniform => "common/noise_uniform",

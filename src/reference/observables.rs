@@ -11,6 +11,7 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
     let mut observables = Observables {
         step: state.step,
         particles: state.len() as u64,
+        mobile: model.mobile_particles(),
         dimension,
         volume: model.units.volume(),
         mass: reference.masses.iter().sum(),
@@ -21,7 +22,7 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
         conservative_virial: 0.0,
         total_virial: report.total_virial,
         momentum: [0.0; 3],
-        momentum_is_constant: true,
+        about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: 0.0,
         bath_square: 0.0,
     };

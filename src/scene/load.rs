@@ -85,15 +85,25 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     if problems.is_empty() { Ok(scene) } else { Err(invalid(name, problems)) }
 }
 
-/// The integrator that is left out belongs to the interaction.
+/// The integrator that is left out belongs to the interactions.
 fn default_integrator(document: &mut Value) {
-    let water = document["interactions"]
-        .as_array()
-        .is_some_and(|list| list.iter().any(|interaction| interaction["type"] == "shallow-water"));
-    if let (true, Some(scene)) = (water, document.as_object_mut())
+    let interactions = document["interactions"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let coupled = |interaction: &Value| match interaction["type"].as_str() {
+        Some("dpd") => interaction["bath"]["type"] == "memory",
+        Some("langevin" | "coloured-noise" | "tether" | "bonds" | "angles") => true,
+        _ => false,
+    };
+    let integrator = if interactions.iter().any(|interaction| interaction["type"] == "shallow-water") {
+        "gyro"
+    } else if interactions.iter().any(coupled) {
+        "cotter-reich"
+    } else {
+        return;
+    };
+    if let Some(scene) = document.as_object_mut()
         && !scene.contains_key("integrator")
     {
-        scene.insert("integrator".to_owned(), serde_json::json!({"type": "gyro"}));
+        scene.insert("integrator".to_owned(), serde_json::json!({"type": integrator}));
     }
 }
 

@@ -40,19 +40,32 @@ impl Interaction {
     pub fn cutoff(&self) -> f64 {
         match self {
             Self::Dpd(dpd) => dpd.cutoff,
-            Self::ShallowWater(_) => 0.0,
+            _ => 0.0,
+        }
+    }
+}
+
+impl Interaction {
+    /// Temperature of the heat bath, in a scene of a temperature; that of the scene without one.
+    pub(crate) fn bath_temperature(&self, scene: f64) -> f64 {
+        match self {
+            Self::Dpd(dpd) => dpd.bath.temperature(scene),
+            Self::Langevin(langevin) => langevin.bath.temperature(scene),
+            Self::Bonds(bonds) => bonds.bath.temperature(scene),
+            Self::ColouredNoise(_) | Self::Tether(_) | Self::Angles(_) | Self::ShallowWater(_) => scene,
         }
     }
 }
 
 impl ParticleGroup {
-    /// Number of particles, whichever way the scene gives it.
+    /// Number of particles, whichever way the scene gives it; a density is rounded to whole chains.
     #[must_use]
     pub fn resolved_count(&self, volume: f64) -> u64 {
+        let beads = self.chain.as_ref().map_or(1.0, |chain| f64::from(chain.beads.max(1)));
         match (&self.placement, self.count, self.number_density) {
             (Placement::Listed { positions }, _, _) => positions.len() as u64,
             (_, Some(count), _) => count,
-            (_, None, Some(density)) => (density * volume).round() as u64,
+            (_, None, Some(density)) => ((density * volume / beads).round() * beads) as u64,
             (_, None, None) => 0,
         }
     }

@@ -27,7 +27,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         set_in_motion(&mut state, group, count, model);
         let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
         state.species.resize(first + count, species as u32);
-        if group.velocities == Velocities::Thermal {
+        if group.velocities == Velocities::Thermal && !group.fixed {
             thermal.extend(first..first + count);
         }
     }
@@ -36,9 +36,28 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         draw_thermal_velocities(&mut state, &thermal, model, water);
         draw_bath(&mut state, model, water);
     } else {
-        bring_to_rest(&mut state, &thermal, model);
+        if model.conserves_momentum() {
+            bring_to_rest(&mut state, &thermal, model);
+        }
+        draw_position_baths(&mut state, model);
+        if model.tether.is_some() {
+            state.tethers.clone_from(&state.positions);
+        }
     }
     state
+}
+
+/// Draws the bath variables of all coordinates from their law at rest.
+fn draw_position_baths(state: &mut State, model: &Model) {
+    let Some(bath) = model.position_bath.as_ref().filter(|bath| bath.memory) else { return };
+    let key = noise::step_key(model.seed, stream::PARTICLE, 0);
+    let draw = |id: usize, axis: usize| {
+        let width = bath.steps[state.species[id] as usize].deviation(bath.temperature);
+        let words = noise::words(model.generator, key, [id as u32, axis as u32]);
+        if axis < model.units.dimension { (width * noise::gaussian(words)) as f32 } else { 0.0 }
+    };
+    let all = (0..state.len()).map(|id| std::array::from_fn(|axis| draw(id, axis).to_bits()));
+    state.position_baths = all.collect();
 }
 
 /// Gives the particles of a group masses in proportion to the depth where they are; tracers have none.
@@ -167,6 +186,7 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
     let first = state.momenta.len();
     let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
     match &group.velocities {
+        _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
         // Masses differ from particle to particle there, and are known only once all are.
         Velocities::Thermal if model.shallow_water.is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {

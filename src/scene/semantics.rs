@@ -136,6 +136,11 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
                 }
                 check_pairs(scene, dpd, &path, problems);
             }
+            Interaction::Langevin(_)
+            | Interaction::ColouredNoise(_)
+            | Interaction::Tether(_)
+            | Interaction::Bonds(_)
+            | Interaction::Angles(_) => {}
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));

@@ -54,9 +54,9 @@ fn current_version() -> u32 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Space {
-    /// Edge lengths; two of them make a two-dimensional scene, three a three-dimensional one.
+    /// Edge lengths, one for each dimension of the scene: one, two or three.
     #[serde(rename = "box")]
-    #[schemars(length(min = 2, max = 3), extend("items" = serde_json::json!({"type": "number", "exclusiveMinimum": 0})))]
+    #[schemars(length(min = 1, max = 3), extend("items" = serde_json::json!({"type": "number", "exclusiveMinimum": 0})))]
     pub lengths: Vec<f64>,
 }
 
@@ -90,7 +90,8 @@ pub enum Integrator {
         lambda: f64,
     },
     /// The Markov limit (18)-(21) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8: friction from the discrete
-    /// gradient of the coupling function.
+    /// gradient of the coupling function. With memory, and for couplings other than pairs, their scheme (14)-(17): the
+    /// default of scenes that have those.
     CotterReich {},
     /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
     /// circles. Symplectic in its magnetic form, so that the circulation of material loops is kept at any time step.
@@ -167,6 +168,12 @@ pub struct ParticleGroup {
     /// measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub tracer: bool,
+    /// Whether the particles are held where they start.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
+    /// Chains that the particles form, one after the other; left out, none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<Chain>,
     /// Where the particles start.
     #[serde(default)]
     pub placement: Placement,
@@ -177,6 +184,22 @@ pub struct ParticleGroup {
 
 fn one() -> f64 {
     1.0
+}
+
+/// Chains of particles with consecutive numbers; `bonds` and `angles` act along them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Chain {
+    /// Particles in a chain; those of the group are a whole number of chains.
+    #[schemars(range(min = 2))]
+    pub beads: u32,
+    /// Distance of neighbours along a chain at the start.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub spacing: f64,
+    /// Whether the last particle of a chain is bonded to the first.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub closed: bool,
 }
 
 /// Where the particles of a group start.
@@ -265,6 +288,16 @@ pub enum Velocities {
 pub enum Interaction {
     /// Dissipative particle dynamics: soft repulsion a(1 - r/rc), friction and noise along the line of centres.
     Dpd(DpdInteraction),
+    /// Friction and noise on every particle by itself: Langevin dynamics, with memory a generalised Langevin equation.
+    Langevin(LangevinInteraction),
+    /// A random force on every particle that is constant for random times.
+    ColouredNoise(ColouredNoiseInteraction),
+    /// A spring from every particle to where it started: V = K(r - r₀)²/2.
+    Tether(TetherInteraction),
+    /// Bonds along chains, or between listed particles: a potential, and friction and noise along the bond.
+    Bonds(BondsInteraction),
+    /// Stiffness of chains: V = k(1 + cos θ) for each angle θ between bonds, least where the chain is straight.
+    Angles(AnglesInteraction),
     /// Rotating shallow water by the Hamiltonian particle-mesh method, with a heat bath on the mesh if asked for.
     ShallowWater(ShallowWaterInteraction),
 }
@@ -391,6 +424,59 @@ pub enum MeshBath {
     White {},
 }
 
+/// The heat bath of a coupling function h: doi:10.1209/epl/i2003-00621-8.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Bath {
+    /// Friction and noise without memory: the force -∇h (γ dh/dt + √(2kTγ) dW/dt).
+    White {
+        /// Temperature kT of this bath; left out, that of the scene.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
+        temperature: Option<f64>,
+    },
+    /// Exponential memory: the force -s∇h with ds = -αs dt + λ dh + √(2kTλα) dW, where λ = αγ. For a fast bath the limit
+    /// without memory.
+    Memory {
+        /// Rate α at which the bath forgets.
+        #[schemars(range(min = 0.0))]
+        rate: f64,
+        /// Coupling λ, in place of a friction: what a bath that never forgets (α = 0) is given by.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
+        coupling: Option<f64>,
+        /// The scheme of the bath step.
+        #[serde(default)]
+        scheme: BathScheme,
+        /// Temperature kT of this bath; left out, that of the scene.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(range(min = 0.0))]
+        temperature: Option<f64>,
+    },
+}
+
+impl Default for Bath {
+    fn default() -> Self {
+        Self::White { temperature: None }
+    }
+}
+
+impl Bath {
+    /// Whether this is the bath of a scene that does not mention one.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The temperature of the bath in a scene of a temperature.
+    #[must_use]
+    pub fn temperature(&self, scene: f64) -> f64 {
+        match self {
+            Self::White { temperature } | Self::Memory { temperature, .. } => temperature.unwrap_or(scene),
+        }
+    }
+}
+
 /// The scheme of a bath step with memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -437,6 +523,154 @@ pub struct DpdInteraction {
     /// Pairs of species with coefficients of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pairs: Vec<DpdPair>,
+    /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
+    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    pub bath: Bath,
+    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, or beside couplings
+    /// other than pairs. A wide one is built less often and holds more pairs; no result but the noise depends on it.
+    #[serde(default = "default_skin")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub skin: f64,
+}
+
+fn default_skin() -> f64 {
+    0.3
+}
+
+/// Friction and noise on every particle by itself, coupled to its coordinates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LangevinInteraction {
+    /// Friction γ of every species not listed in `species`, a force per velocity.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// Species with a friction of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub species: Vec<SpeciesFriction>,
+    /// The heat bath of every coordinate.
+    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    pub bath: Bath,
+}
+
+/// The friction of one species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeciesFriction {
+    /// The species.
+    pub name: String,
+    /// Friction γ.
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+}
+
+/// A random force on every particle that stays constant for random times: the dynamics of Borreguero, Ellero and Adams.
+/// It acts on particles one by one, so that momentum is not conserved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ColouredNoiseInteraction {
+    /// Mean square α of the force.
+    #[schemars(range(min = 0.0))]
+    pub strength: f64,
+    /// Correlation time: ε of `kangaroo` and `literal`, τ of `short`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub time: f64,
+    /// The process.
+    #[serde(default)]
+    pub process: NoiseProcess,
+}
+
+/// How a coloured noise jumps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoiseProcess {
+    /// Random directions held for ε/φ with φ = √U: zero mean, isotropic and stationary, with an algebraic tail
+    /// C(t) = α(1 - t/2ε) up to ε and αε/2t beyond (default).
+    #[default]
+    Kangaroo,
+    /// The same with exponentially distributed holding times of mean ε/φ: C(t) = α(ε/t)(1 - exp(-t/ε)).
+    KangarooExponential,
+    /// Holding times of mean τ whatever the direction: C(t) = α exp(-t/τ).
+    Short,
+    /// As the paper prints it, equations (8) and (9): two dimensions only. Its mean is not zero and it ages.
+    Literal,
+}
+
+/// A spring from every particle to where it started.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TetherInteraction {
+    /// Spring constant K.
+    #[schemars(range(min = 0.0))]
+    pub stiffness: f64,
+}
+
+/// Bonds along chains, or between listed particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BondsInteraction {
+    /// Species whose chains are bonded; left out, all chains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<Vec<String>>,
+    /// Pairs of particle numbers to bond, in place of chains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<[u32; 2]>,
+    /// The potential; left out, none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub potential: Option<BondPotential>,
+    /// Friction γ along the bond.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// The heat bath of every bond, coupled to its length.
+    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    pub bath: Bath,
+    /// Whether bonded particles are spared each other's repulsion.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub exclude_repulsion: bool,
+}
+
+/// The potential of a bond of length r.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum BondPotential {
+    /// V = K(r - r₀)²/2.
+    Harmonic {
+        /// Spring constant K.
+        #[schemars(range(min = 0.0))]
+        stiffness: f64,
+        /// Length r₀ at rest.
+        #[serde(default)]
+        #[schemars(range(min = 0.0))]
+        length: f64,
+    },
+    /// Finitely extensible: V = -K R²/2 ln(1 - (r - r₀)²/R²), doi:10.1063/1.458541 with r₀ = 0.
+    Fene {
+        /// Spring constant K.
+        #[schemars(range(min = 0.0))]
+        stiffness: f64,
+        /// Largest extension R.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        extent: f64,
+        /// Length r₀ at rest.
+        #[serde(default)]
+        #[schemars(range(min = 0.0))]
+        length: f64,
+    },
+}
+
+/// Stiffness of chains, or of listed triples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnglesInteraction {
+    /// Species whose chains are stiff; left out, all chains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<Vec<String>>,
+    /// Triples of particle numbers, the middle of the angle in the middle, in place of chains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub triples: Vec<[u32; 3]>,
+    /// Stiffness k.
+    pub stiffness: f64,
 }
 
 fn two() -> f64 {

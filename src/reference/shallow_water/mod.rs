@@ -180,6 +180,7 @@ impl ShallowWaterReference {
         let mut observables = Observables {
             step: self.state.step,
             particles: water.carriers,
+            mobile: water.carriers,
             dimension: 2,
             volume: self.model.units.volume(),
             mass: 0.0,
@@ -190,7 +191,7 @@ impl ShallowWaterReference {
             conservative_virial: f64::NAN,
             total_virial: f64::NAN,
             momentum: [0.0; 3],
-            momentum_is_constant: false,
+            about_centre_of_mass: false,
             bath_energy: 0.0,
             bath_square: 0.0,
         };
