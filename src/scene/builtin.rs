@@ -27,6 +27,7 @@ pub fn builtin() -> &'static [Builtin] {
         "shallow-water",
         "shallow-water-memory",
         "shallow-water-equilibrium",
-        "jet-instability"
+        "jet-instability",
+        "harmonic-chain"
     ]
 }

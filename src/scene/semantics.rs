@@ -141,6 +141,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
             | Interaction::Tether(_)
             | Interaction::Bonds(_)
             | Interaction::Angles(_) => {}
+            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
@@ -150,6 +151,9 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
         super::shallow_water::check_absence(scene, problems);
+    }
+    if super::harmonic_chain::harmonic_chain(scene).is_none() {
+        super::harmonic_chain::check_absence(scene, problems);
     }
     let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {

@@ -5,7 +5,7 @@
 //! second part, which a chain of clusters joined by springs κ/n does not have either: its neighbours are further apart.
 //! Here the ends are exact too: the fixed bead is one bead, not one cluster, from its neighbour.
 
-use crate::model::{SpringChain, HarmonicChain};
+use crate::model::{HarmonicChain, SpringChain};
 
 /// ⟨P²⟩ = nmkT of a cluster, of beads or whole.
 #[must_use]

@@ -47,7 +47,8 @@ impl MemoryKernel {
             _ => 0.0,
         });
         let block = internal.transpose() * &own * &internal;
-        let [first, last] = [0, cluster_size.saturating_sub(1)].map(|bead| internal.row(bead.min(cluster_size)).transpose());
+        let [first, last] =
+            [0, cluster_size.saturating_sub(1)].map(|bead| internal.row(bead.min(cluster_size)).transpose());
         let neighbour = -(&last * first.transpose());
         let mut matrix = DMatrix::zeros(total, total);
         for cluster in 0..clusters {
@@ -157,7 +158,8 @@ mod tests {
             1 => -1.0,
             _ => 0.0_f64,
         });
-        let means = DMatrix::from_fn(n * clusters, clusters, |i, c| if i / n == c { 1.0 / (n as f64).sqrt() } else { 0.0 });
+        let means =
+            DMatrix::from_fn(n * clusters, clusters, |i, c| if i / n == c { 1.0 / (n as f64).sqrt() } else { 0.0 });
         // (Qᵀ D⁻¹ Q)⁻¹ = D_QQ - D_QR D_RR⁻¹ D_RQ.
         let eliminated = (means.transpose() * beads.clone().try_inverse().unwrap() * &means).try_inverse().unwrap();
         let direct = means.transpose() * beads * &means;
@@ -230,7 +232,8 @@ mod tests {
         let kernel = MemoryKernel::new(16, 9);
         assert!((kernel.lowest_frequency() * 16.0 - PI).abs() < 0.1, "{}", kernel.lowest_frequency());
         let long = 2000.0 * FRAC_PI_2 / kernel.lowest_frequency();
-        let mean = (0..40_000).map(|j| kernel.running_friction(long * (f64::from(j) + 0.5) / 40_000.0)).sum::<f64>() / 4e4;
+        let mean =
+            (0..40_000).map(|j| kernel.running_friction(long * (f64::from(j) + 0.5) / 40_000.0)).sum::<f64>() / 4e4;
         assert!(mean.abs() < 1e-3, "{mean}");
     }
 }

@@ -49,8 +49,7 @@ impl NormalModes {
         let beads = self.chain.beads;
         let size = cluster_size.clamp(1, beads.max(1));
         let clusters = beads / size;
-        let cosines: Vec<f64> =
-            (0..self.sines.len()).map(|j| (PI * j as f64 / (beads + 1) as f64).cos()).collect();
+        let cosines: Vec<f64> = (0..self.sines.len()).map(|j| (PI * j as f64 / (beads + 1) as f64).cos()).collect();
         let mut correlations = vec![0.0; times.len()];
         for mode in 1..=beads {
             // The sum of a mode over a cluster: its value in the middle times the sum of cos(πk(i - middle)/(N+1)).
@@ -211,8 +210,7 @@ mod tests {
     /// The mean of the triangle over the ends of a chain of N' clusters differs by 1/N', the corners by 1/√n or so.
     #[test]
     fn large_clusters_forget_linearly() {
-        let chain =
-            HarmonicChain { clusters: 60, cluster_size: 64, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+        let chain = HarmonicChain { clusters: 60, cluster_size: 64, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
         let taus = [0.25, 0.5, 0.75, 1.5, 2.0, 4.0];
         let times = taus.map(|tau| tau * chain.cluster_time());
         let found = NormalModes::new(chain.micro()).momentum_autocorrelation(64, &times);

@@ -119,7 +119,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::measure::harmonic_chain::{NormalModes, equilibrium, thermal_start};
-    use crate::model::{SpringChain, HarmonicChain};
+    use crate::model::{HarmonicChain, SpringChain};
     use rand::{RngExt, SeedableRng, rngs::StdRng};
 
     fn gaussian(rng: &mut StdRng) -> f64 {
@@ -151,8 +151,7 @@ mod tests {
     #[test]
     fn errors_come_from_clusters_and_not_from_time() {
         let clusters = 512;
-        let layout =
-            HarmonicChain { clusters, cluster_size: 4, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+        let layout = HarmonicChain { clusters, cluster_size: 4, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
         let chain: SpringChain = layout.frictionless();
         let modes = NormalModes::new(chain);
         let mut rng = StdRng::seed_from_u64(3);
@@ -174,7 +173,9 @@ mod tests {
         assert!((0.5..2.0).contains(&(error * (clusters as f64).sqrt())), "{error}");
         within(estimates.separation_variance.unwrap(), equilibrium::separation_variance(&chain, 2.0));
         let times: Vec<f64> = (0..8).map(|lag| interval * f64::from(lag)).collect();
-        for (found, expected) in series.momentum_correlation(8).into_iter().zip(modes.momentum_autocorrelation(1, &times)) {
+        for (found, expected) in
+            series.momentum_correlation(8).into_iter().zip(modes.momentum_autocorrelation(1, &times))
+        {
             let error = found.standard_error.unwrap();
             assert!((found.mean - exact * expected).abs() < 4.0 * error, "{found:?}, {}", exact * expected);
             assert!(error < 0.1 * exact);
