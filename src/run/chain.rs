@@ -21,9 +21,6 @@ const LONGEST_LAG: f64 = 5.0;
 /// Pulses are shown at this many times from the start to the end, both included.
 const PROFILES: usize = 4;
 
-/// Clusters of the bath whose memory is computed: those beside it reflect nothing before it ends.
-const MEMORY_CLUSTERS: usize = 3;
-
 /// Largest number of beads in a cluster whose memory is computed, in a second or two.
 const LARGEST_CLUSTER: usize = 256;
 
@@ -260,7 +257,7 @@ impl Chains {
     /// The memory of clusters as large as those of the scene and larger, in fours.
     fn kernels(&self) -> Vec<MemoryKernel> {
         let sizes = std::iter::successors(Some(self.trios.pulse.cluster_size), |size| Some(4 * size));
-        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(|size| MemoryKernel::new(size, MEMORY_CLUSTERS)).collect()
+        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(|size| MemoryKernel::new(size)).collect()
     }
 
     fn results(&self, pulse: &Table, kernels: &[MemoryKernel]) -> Value {
@@ -347,9 +344,7 @@ fn memory(kernels: &[MemoryKernel]) -> Table {
     let times = std::iter::once(0.0).chain((0..=POINTS).map(|point| first * ratio.powi(point as i32)));
     let row = |time: f64| {
         let mut row = vec![time];
-        // What comes back from the ends is no part of a long chain.
-        let inside = |kernel: &MemoryKernel| time < (MEMORY_CLUSTERS - 1) as f64 * kernel.cluster_size() as f64;
-        row.extend(kernels.iter().map(|k| if inside(k) { k.running_friction(time) } else { f64::NAN }));
+        row.extend(kernels.iter().map(|kernel| kernel.running_friction(time)));
         if let Some((_, plateau)) = plateau {
             let within = time <= plateau.range[1];
             row.push(if within { plateau.friction + plateau.slope * time } else { f64::NAN });

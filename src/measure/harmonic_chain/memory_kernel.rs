@@ -1,9 +1,13 @@
 //! The memory that a harmonic chain has of the momenta of its clusters.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{PI, TAU};
 
-/// The exact memory kernel of a cluster in the middle of others, in units of the beads: ω₀ = m = κ = 1.
+/// Clusters of a ring that stands for an endless chain. What goes round it needs ω₀t = `RING` × n, and forces on clusters held
+/// fixed fall off by 2 + √3 from one to the next.
+const RING: usize = 32;
+
+/// The exact memory kernel of a cluster of an endless chain, in units of the beads: ω₀ = m = κ = 1.
 ///
 /// With the beads' matrix in the basis of cluster means Q and of all other coordinates R, the momenta of clusters obey
 /// the generalised Langevin equation of Mori with
@@ -32,47 +36,17 @@ pub struct Plateau {
 }
 
 impl MemoryKernel {
-    /// The kernel of the middle one of `clusters` clusters of `cluster_size` beads between fixed ends. What comes back
-    /// from the ends needs ω₀t = (clusters - 1) × `cluster_size`; before that the number of clusters makes no difference.
-    /// Takes of the order of (`clusters` × `cluster_size`)³ operations.
+    /// The kernel of a cluster of `cluster_size` beads. Takes of the order of `cluster_size`³ operations, a few hundred times.
     #[must_use]
-    pub fn new(cluster_size: usize, clusters: usize) -> Self {
-        let internal = internal_coordinates(cluster_size);
-        let width = internal.ncols();
-        let total = clusters * width;
-        // Inside a cluster the beads' matrix is the same in every cluster; neighbours share one spring.
-        let own = DMatrix::from_fn(cluster_size, cluster_size, |i, j| match i.abs_diff(j) {
-            0 => 2.0,
-            1 => -1.0,
-            _ => 0.0,
+    pub fn new(cluster_size: usize) -> Self {
+        let waves = (1..=RING / 2).map(|wave| {
+            let share = if 2 * wave == RING { 1.0 } else { 2.0 };
+            (share / RING as f64, TAU * wave as f64 / RING as f64)
         });
-        let block = internal.transpose() * &own * &internal;
-        let [first, last] =
-            [0, cluster_size.saturating_sub(1)].map(|bead| internal.row(bead.min(cluster_size)).transpose());
-        let neighbour = -(&last * first.transpose());
-        let mut matrix = DMatrix::zeros(total, total);
-        for cluster in 0..clusters {
-            let at = cluster * width;
-            matrix.view_mut((at, at), (width, width)).copy_from(&block);
-            if cluster + 1 < clusters {
-                matrix.view_mut((at, at + width), (width, width)).copy_from(&neighbour);
-                matrix.view_mut((at + width, at), (width, width)).copy_from(&neighbour.transpose());
-            }
-        }
-        let mean = 1.0 / (cluster_size as f64).sqrt();
-        let middle = clusters / 2;
-        let mut coupling = DVector::zeros(total);
-        coupling.rows_mut(middle * width, width).copy_from(&((&first + &last) * mean));
-        if middle > 0 {
-            coupling.rows_mut((middle - 1) * width, width).copy_from(&(&last * -mean));
-        }
-        if middle + 1 < clusters {
-            coupling.rows_mut((middle + 1) * width, width).copy_from(&(&first * -mean));
-        }
-        let eigen = SymmetricEigen::new(matrix);
-        let projections = eigen.eigenvectors.tr_mul(&coupling);
-        let mode = |(eigenvalue, projection): (&f64, &f64)| [eigenvalue.sqrt(), projection * projection / eigenvalue];
-        Self { cluster_size, modes: eigen.eigenvalues.iter().zip(projections.iter()).map(mode).collect() }
+        let modes = waves.flat_map(|(share, phase)| {
+            wave_modes(cluster_size, phase).into_iter().map(move |[frequency, weight]| [frequency, share * weight])
+        });
+        Self { cluster_size, modes: modes.collect() }
     }
 
     /// Number n of beads in a cluster.
@@ -135,12 +109,28 @@ impl MemoryKernel {
     }
 }
 
-/// An orthonormal basis of the coordinates of a cluster that leave its mean where it is: cosines.
-fn internal_coordinates(cluster_size: usize) -> DMatrix<f64> {
+/// Frequencies and weights of the kernel of a wave of clusters, of which each is ahead of the last by a phase θ.
+///
+/// Cosines cos(πk(i + ½)/n), k = 1 … n - 1, are the modes of the free beads of a cluster. The springs between clusters add one
+/// vector's product with itself, and it is that vector through which the means act: with f the amplitudes of the cosines
+/// at the first bead and a = 2f sin(θ/2) for even k, 2f cos(θ/2) for odd k (the latter a quarter of a turn apart in phase),
+/// D_RR = 4 sin²(πk/2n) + a aᵀ and D_RQ = 2 sin(θ/2) a/√n.
+fn wave_modes(cluster_size: usize, phase: f64) -> Vec<[f64; 2]> {
     let size = cluster_size as f64;
-    DMatrix::from_fn(cluster_size, cluster_size.saturating_sub(1), |bead, wave| {
-        (2.0 / size).sqrt() * (PI * (wave + 1) as f64 * (bead as f64 + 0.5) / size).cos()
-    })
+    let (sine, cosine) = (0.5 * phase).sin_cos();
+    let inner = cluster_size.saturating_sub(1);
+    let half_angle = |index: usize| PI * (index + 1) as f64 / (2.0 * size);
+    let joint = DVector::from_fn(inner, |index, _| {
+        let first = (2.0 / size).sqrt() * half_angle(index).cos();
+        2.0 * first * if index % 2 == 1 { sine } else { cosine }
+    });
+    let free = DMatrix::from_diagonal(&DVector::from_fn(inner, |index, _| 4.0 * half_angle(index).sin().powi(2)));
+    let eigen = SymmetricEigen::new(free + &joint * joint.transpose());
+    let projections = eigen.eigenvectors.tr_mul(&joint);
+    let coupling = 4.0 * sine * sine / size;
+    let mode =
+        |(eigenvalue, projection): (&f64, &f64)| [eigenvalue.sqrt(), coupling * projection * projection / eigenvalue];
+    eigen.eigenvalues.iter().zip(projections.iter()).map(mode).collect()
 }
 
 #[cfg(test)]
@@ -148,38 +138,49 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// K(0) = D_QR D_RR⁻¹ D_RQ, by elimination of the clamped means from the beads' matrix itself: the Schur complement,
-    /// with a basis that is no basis of cosines.
-    #[test]
-    fn the_kernel_begins_with_what_the_beads_screen() {
-        let (n, clusters) = (6, 5);
+    /// K(t) of the middle one of some clusters between fixed ends, from matrices of all beads: with P = 1 - QQᵀ, the clamped
+    /// beads move by PDP, of which the means are null vectors.
+    fn between_ends(n: usize, clusters: usize, times: &[f64]) -> Vec<f64> {
         let beads = DMatrix::from_fn(n * clusters, n * clusters, |i, j| match i.abs_diff(j) {
             0 => 2.0,
             1 => -1.0,
             _ => 0.0_f64,
         });
-        let means =
-            DMatrix::from_fn(n * clusters, clusters, |i, c| if i / n == c { 1.0 / (n as f64).sqrt() } else { 0.0 });
-        // (Qᵀ D⁻¹ Q)⁻¹ = D_QQ - D_QR D_RR⁻¹ D_RQ.
-        let eliminated = (means.transpose() * beads.clone().try_inverse().unwrap() * &means).try_inverse().unwrap();
-        let direct = means.transpose() * beads * &means;
-        let expected = direct[(2, 2)] - eliminated[(2, 2)];
-        let found = MemoryKernel::new(n, clusters).value(0.0);
-        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        let mean = |i: usize, c: usize| if i / n == c { 1.0 / (n as f64).sqrt() } else { 0.0 };
+        let means = DMatrix::from_fn(n * clusters, clusters, mean);
+        let projector = DMatrix::identity(n * clusters, n * clusters) - &means * means.transpose();
+        let force = &projector * &beads * means.column(clusters / 2);
+        let eigen = SymmetricEigen::new(&projector * beads * &projector);
+        let projections = eigen.eigenvectors.tr_mul(&force);
+        let modes: Vec<(f64, f64)> = eigen.eigenvalues.iter().copied().zip(projections.iter().copied()).collect();
+        let moving = || modes.iter().filter(|(eigenvalue, _)| *eigenvalue > 1e-9);
+        times.iter().map(|t| moving().map(|(d, p)| p * p / d * (d.sqrt() * t).cos()).sum()).collect()
     }
 
-    /// The generalised Langevin equation with this kernel gives the exact momentum autocorrelation of a cluster. With a
-    /// single cluster it is a scalar equation: Ċ = -Ω² ∫C - ∫K C, integrated by the trapezoidal rule.
+    /// Nine clusters are nearly endless until what they send to the ends comes back.
     #[test]
-    fn the_kernel_moves_a_cluster_as_its_beads_do() {
-        use crate::measure::harmonic_chain::NormalModes;
-        use crate::model::SpringChain;
-        let n = 8;
-        let kernel = MemoryKernel::new(n, 1);
-        // The whole restoring force on the mean, 2/n, less what the beads screen.
-        let square = 2.0 / n as f64 - kernel.value(0.0);
-        let (step, steps) = (0.01, 1500);
-        let memory: Vec<f64> = (0..=steps).map(|j| kernel.value(step * j as f64)).collect();
+    fn the_kernel_is_that_of_a_cluster_among_many() {
+        let n = 12;
+        let kernel = MemoryKernel::new(n);
+        let times = [0.0, 0.5, 3.0, 10.0, 24.0];
+        for (time, expected) in times.iter().zip(between_ends(n, 9, &times)) {
+            assert!((kernel.value(*time) - expected).abs() < 2e-4, "{time}: {} {expected}", kernel.value(*time));
+        }
+        let few = between_ends(n, 3, &[0.0])[0];
+        assert!((kernel.value(0.0) - few).abs() > 1e-3, "{few}");
+    }
+
+    /// The generalised Langevin equation with this kernel gives the exact motion of a wave of clusters,
+    /// C = Σ [sin(nq/2)/(n sin(q/2))]² cos(2 sin(q/2) t) over the beads' waves q = (θ + 2πm)/n. Integrated by the trapezoidal
+    /// rule: Ċ = -∫ (Ω² + K(t - t')) C(t') dt', where Ω² is the force on the means less what the beads screen.
+    #[test]
+    fn the_kernel_moves_clusters_as_their_beads_do() {
+        let (n, phase) = (8, 1.3_f64);
+        let modes = wave_modes(n, phase);
+        let kernel = |time: f64| modes.iter().map(|[frequency, weight]| weight * (frequency * time).cos()).sum::<f64>();
+        let square = 4.0 * (0.5 * phase).sin().powi(2) / n as f64 - kernel(0.0);
+        let (step, steps) = (0.01, 2000);
+        let memory: Vec<f64> = (0..=steps).map(|j| kernel(step * f64::from(j))).collect();
         let rate = |found: &[f64]| {
             let last = found.len() - 1;
             let ends = |j: usize| if j == 0 || j == last { 0.5 } else { 1.0 };
@@ -195,43 +196,36 @@ mod tests {
             *found.last_mut().unwrap() = now + 0.5 * step * (before + after);
             before = rate(&found);
         }
-        let chain = SpringChain { beads: n, mass: 1.0, stiffness: 1.0, friction: 0.0 };
-        let times: Vec<f64> = (0..=15).map(f64::from).collect();
-        let exact = NormalModes::new(chain).momentum_autocorrelation(n, &times);
-        for (second, exact) in exact.iter().enumerate() {
+        for second in 0..=20 {
+            let exact = |m: usize| {
+                let half = 0.5 * (phase + TAU * m as f64) / n as f64;
+                let share = (n as f64 * half).sin() / (n as f64 * half.sin());
+                share * share * (2.0 * half.sin() * second as f64).cos()
+            };
+            let exact: f64 = (0..n).map(exact).sum();
             assert!((found[100 * second] - exact).abs() < 2e-4, "t = {second}: {} {exact}", found[100 * second]);
         }
-    }
-
-    /// More clusters change nothing before a wave comes back from the ends.
-    #[test]
-    fn the_ends_are_far_away() {
-        let [three, seven] = [3, 7].map(|clusters| MemoryKernel::new(16, clusters));
-        for time in [0.0, 3.0, 10.0, 24.0] {
-            assert!((three.running_friction(time) - seven.running_friction(time)).abs() < 1e-4, "{time}");
-        }
-        assert!((three.running_friction(60.0) - seven.running_friction(60.0)).abs() > 1e-2);
     }
 
     /// γ* → ½: with clusters of 64 and 256 beads .4966 and .4974.
     #[test]
     fn the_plateau_lies_at_one_half() {
         for size in [64, 128, 256] {
-            let kernel = MemoryKernel::new(size, 3);
+            let kernel = MemoryKernel::new(size);
             let plateau = kernel.plateau().unwrap();
             assert!((0.495..0.5).contains(&plateau.friction), "{size}: {plateau:?}");
             assert!(plateau.slope < 0.0);
         }
-        assert_eq!(MemoryKernel::new(16, 3).plateau(), None);
+        assert_eq!(MemoryKernel::new(16).plateau(), None);
     }
 
     /// A sum of sines of a lowest frequency πω₀/n and above has no mean: so has the integral over all times. Its mean over
     /// many periods of the lowest frequency ends within their number's share of its height.
     #[test]
     fn the_integral_over_all_times_is_zero() {
-        let kernel = MemoryKernel::new(16, 9);
+        let kernel = MemoryKernel::new(16);
         assert!((kernel.lowest_frequency() * 16.0 - PI).abs() < 0.1, "{}", kernel.lowest_frequency());
-        let long = 2000.0 * FRAC_PI_2 / kernel.lowest_frequency();
+        let long = 1000.0 * PI / kernel.lowest_frequency();
         let mean =
             (0..40_000).map(|j| kernel.running_friction(long * (f64::from(j) + 0.5) / 40_000.0)).sum::<f64>() / 4e4;
         assert!(mean.abs() < 1e-3, "{mean}");
