@@ -98,6 +98,8 @@ pub struct PairBath {
     pub memory: u32,
     /// The low word of that step.
     pub stamp: u32,
+    /// 1 if the pair is spared its repulsion; else 0.
+    pub spared: u32,
 }
 
 /// A random force that is constant for a random time.

@@ -80,8 +80,65 @@ fn plans() -> &'static [(String, Plan)] {
             }
         }
         plans.extend(water_plans());
+        plans.extend(coupled_plans());
         plans
     })
+}
+
+/// The same of couplings that add their impulses up.
+fn coupled_plans() -> Vec<(String, Plan)> {
+    let pairs = [
+        "",
+        r#"{"type":"dpd","repulsion":25,"friction":4.5}"#,
+        r#"{"type":"dpd","friction":4.5,"weight_exponent":1,"bath":{"type":"white","temperature":0}}"#,
+        r#"{"type":"dpd","repulsion":25}"#,
+        r#"{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3,"scheme":"symmetric"}}"#,
+        r#"{"type":"dpd","weight_exponent":1,"bath":{"type":"memory","rate":0,"coupling":2,"temperature":0}}"#,
+    ];
+    let positions = [
+        "",
+        r#"{"type":"langevin","friction":1}"#,
+        r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#,
+        r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3,"temperature":0}}"#,
+    ];
+    let others = ["", r#"{"type":"tether","stiffness":2}"#];
+    let mut interactions = Vec::new();
+    for pair in pairs {
+        for position in positions {
+            for other in others {
+                let all: Vec<&str> = [pair, position, other].into_iter().filter(|text| !text.is_empty()).collect();
+                interactions.push(format!("interactions=[{}]", all.join(",")));
+            }
+        }
+    }
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"fixed":true}]"#,
+    ];
+    let mut plans = Vec::new();
+    for interactions in &interactions {
+        for particles in particles {
+            for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
+                for generator in ["pcg4d", "threefry2x32-20"] {
+                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                    for integrator in ["cotter-reich", "groot-warren"] {
+                        let white = !interactions.contains("langevin") && !interactions.contains("memory");
+                        if integrator == "groot-warren" && !white {
+                            continue;
+                        }
+                        let lambda = if integrator == "groot-warren" { r#","lambda":0.65"# } else { "" };
+                        let integrator = format!(r#"integrator={{"type":"{integrator}"{lambda}}}"#);
+                        let changes = [interactions.as_str(), particles, space, &generator, &integrator];
+                        let options =
+                            Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
+                        plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
+                    }
+                }
+            }
+        }
+    }
+    plans
 }
 
 /// The same of shallow water.
@@ -347,21 +404,23 @@ fn host_structs_lie_as_in_the_shaders() {
         ("failures", offset_of!(Control, failures)),
         ("failure_elapsed", offset_of!(Control, failure_elapsed)),
         ("failure_place", offset_of!(Control, failure_place)),
-        ("reserved", offset_of!(Control, reserved)),
+        ("demand", offset_of!(Control, demand)),
         ("", size_of::<Control>()),
     ];
     let mut tables = 0;
     for (scene, plan) in plans() {
         // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
         let (predicted, stride) = match plan.layout {
-            Layout::Particles { predicted, .. } => (predicted, if predicted { 48 } else { 32 }),
+            Layout::Particles { predicted, .. } | Layout::Coupled { predicted, .. } => {
+                (predicted, if predicted { 48 } else { 32 })
+            }
             Layout::Water { .. } => (false, 24),
         };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
         if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
             let particles = match plan.layout {
                 Layout::Water { carriers, .. } => carriers as u64,
-                Layout::Particles { .. } => plan.particles,
+                Layout::Particles { .. } | Layout::Coupled { .. } => plan.particles,
             };
             let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
             assert_eq!(bytes("particles").unwrap(), expected, "{scene}");
@@ -397,7 +456,9 @@ fn host_structs_lie_as_in_the_shaders() {
                 for (member, expected) in members {
                     assert_eq!(offset(shader, "PairCoefficients", member), expected, "PairCoefficients.{member}");
                 }
-                assert_eq!(bytes("coefficients"), Some(2 * 2 * 16));
+                // Coupled scenes add a row for the species by themselves.
+                let rows = if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
+                assert_eq!(bytes("coefficients"), Some(rows * 2 * 16));
             }
             if declared("Tracker") {
                 let stride = u64::from(offset(shader, "Tracker", ""));

@@ -9,7 +9,7 @@ struct Control {
     failures: atomic<u32>,       // FAILURE_ bits
     failure_elapsed: atomic<u32>,// `elapsed` when the first of them was raised
     failure_place: atomic<u32>,  // the first mesh node with a failure
-    reserved: u32,
+    demand: atomic<u32>,        // 1 when the neighbours of particles have to be listed again
 }
 @group(0) @binding(0) var<storage, read_write> control: Control;
 

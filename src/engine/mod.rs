@@ -39,8 +39,8 @@ pub struct Control {
     pub failure_elapsed: u32,
     /// The first mesh node with a failure.
     pub failure_place: u32,
-    /// Nothing yet.
-    pub reserved: u32,
+    /// 1 when the neighbours of particles have to be listed again.
+    pub demand: u32,
 }
 
 /// One row of a sampler.
@@ -99,7 +99,14 @@ impl<'a> Engine<'a> {
                 let made = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some(buffer.name),
                     size: buffer.bytes,
-                    usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
+                    usage: wgpu::BufferUsages::STORAGE
+                        | wgpu::BufferUsages::COPY_SRC
+                        | wgpu::BufferUsages::COPY_DST
+                        | if buffer.name == pipeline::DEMANDS {
+                            wgpu::BufferUsages::INDIRECT
+                        } else {
+                            wgpu::BufferUsages::empty()
+                        },
                     mapped_at_creation: false,
                 });
                 if let Contents::Bytes(bytes) = &buffer.contents {
@@ -286,9 +293,15 @@ impl<'a> Engine<'a> {
             self.record_report(&mut pass);
         }
         self.submit(encoder)?;
-        let mut state = self.download()?;
-        state.predicted.clear();
-        Ok(state)
+        let Some(buffer) = self.plan.reported else {
+            let mut state = self.download()?;
+            state.predicted.clear();
+            return Ok(state);
+        };
+        let layout = Layout::Particles { dimension: self.plan.units.dimension, predicted: false };
+        let words = self.words(buffer)?;
+        let state = layout.unpack(self.step, &[&words], self.plan.particles as usize);
+        state.map_err(|reason| EngineError::State { reason })
     }
 
     /// The words of a buffer of the plan, as they are once the device is done.
@@ -406,9 +419,13 @@ impl<'a> Engine<'a> {
             }
             bits if bits & 32 != 0 => format!("the depth at {}, is negative", self.node(control.failure_place)),
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
-            bits if bits & 4 != 0 => "a particle moves further than the cutoff in one step".to_owned(),
+            bits if bits & 4 != 0 => {
+                "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
+            }
             _ => match self.plan.layout {
-                Layout::Particles { .. } => "a momentum is more than 64 times its natural scale".to_owned(),
+                Layout::Particles { .. } | Layout::Coupled { .. } => {
+                    "a momentum is more than 64 times its natural scale".to_owned()
+                }
                 Layout::Water { .. } => {
                     let limit = self.plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
                     let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);

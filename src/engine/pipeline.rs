@@ -3,33 +3,34 @@
 use std::collections::HashMap;
 
 use crate::gpu::{self, Gpu, GpuError};
-use crate::plan::{Kernel, Plan};
+use crate::plan::{Kernel, Plan, folded};
 
 /// A kernel ready to be recorded.
 pub(super) struct Stage {
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
-    workgroups: [u32; 2],
+    size: Size,
+}
+
+enum Size {
+    Fixed([u32; 2]),
+    /// A buffer and the first byte of the number of workgroups in it.
+    Demanded(wgpu::Buffer, u64),
 }
 
 impl Stage {
     pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.bindings, &[]);
-        pass.dispatch_workgroups(self.workgroups[0], self.workgroups[1], 1);
+        match &self.size {
+            Size::Fixed([width, height]) => pass.dispatch_workgroups(*width, *height, 1),
+            Size::Demanded(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
+        }
     }
 }
 
-/// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
-pub(super) fn fold(workgroups: u32) -> [u32; 2] {
-    const LIMIT: u32 = 65_535;
-    if workgroups <= LIMIT {
-        [workgroups, 1]
-    } else {
-        let height = workgroups.div_ceil(LIMIT);
-        [workgroups.div_ceil(height), height]
-    }
-}
+/// The buffer that holds the workgroups of kernels whose number depends on the step.
+pub(super) const DEMANDS: &str = "demands";
 
 pub(super) fn stage(
     gpu: &Gpu,
@@ -82,19 +83,9 @@ pub(super) fn stage(
         });
         (pipeline, bindings)
     })?;
-    Ok(Stage { pipeline, bindings, workgroups: fold(kernel.workgroups) })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fold;
-
-    #[test]
-    fn folding_covers_every_workgroup() {
-        for count in [1, 65_535, 65_536, 131_071, 1_000_000, 20_000_000] {
-            let [width, height] = fold(count);
-            assert!(width <= 65_535 && height <= 65_535);
-            assert!(u64::from(width) * u64::from(height) >= u64::from(count));
-        }
-    }
+    let size = match (kernel.demand, buffers.get(DEMANDS)) {
+        (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
+        _ => Size::Fixed(folded(kernel.workgroups)),
+    };
+    Ok(Stage { pipeline, bindings, size })
 }

@@ -68,7 +68,11 @@ fn rank(info: &wgpu::AdapterInfo) -> u32 {
 }
 
 fn adapters() -> Vec<wgpu::Adapter> {
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    // Indirect sizes are zero or those of the plan, which have been checked: a kernel that checks them each time would cost
+    // as much as the kernels that they spare.
+    descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+    let instance = wgpu::Instance::new(descriptor);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
     adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
     adapters

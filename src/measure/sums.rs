@@ -13,6 +13,8 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
     if let Some(water) = &model.shallow_water {
         return shallow_water(sample.step, sum, plan, model, water);
     }
+    // Energy, square and number of the baths come last, where there are any that remember.
+    let remembering = sample.sums.len() > 9;
     Observables {
         step: sample.step,
         particles: plan.particles,
@@ -28,8 +30,8 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         gradient_squared: sum(7) * quanta.force_squared,
         laplacian: sum(8) * quanta.curvature,
         about_centre_of_mass: model.measures_about_centre_of_mass(),
-        bath_energy: 0.0,
-        bath_square: 0.0,
+        bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
+        bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
     }
 }
 

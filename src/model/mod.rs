@@ -114,6 +114,11 @@ impl Model {
         }
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
+        if let Some(force) = &mut pair_force {
+            // Of two images of a neighbour a list must see only one.
+            let shortest = scene.space.lengths.iter().copied().fold(f64::INFINITY, f64::min);
+            force.skin = force.skin.min(0.5 * shortest - force.cutoff).max(0.0);
+        }
         let momentum = match &shallow_water {
             Some(water) => velocity_unit(scene, water),
             None => momentum_unit(scene, &species, pair_force.as_ref(), chains.as_ref()),
@@ -157,6 +162,26 @@ impl Model {
     #[must_use]
     pub fn pair_temperature(&self) -> f64 {
         self.pair_force.as_ref().map_or(self.temperature, |force| force.temperature)
+    }
+
+    /// Whether any force derives from a potential.
+    #[must_use]
+    pub fn has_potential(&self) -> bool {
+        let bonds = self.bonds.as_ref();
+        self.shallow_water.is_some()
+            || self.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0)
+            || self.tether.is_some()
+            || bonds.is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.potential.is_some()))
+            || self.angles.is_some()
+    }
+
+    /// Whether any bath has a memory.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.shallow_water.as_ref().is_some_and(|water| water.bath.is_some_and(|bath| bath.remembers()))
+            || self.pair_force.as_ref().is_some_and(PairForce::remembers)
+            || self.position_bath.as_ref().is_some_and(|bath| bath.memory)
+            || self.bonds.as_ref().is_some_and(Bonds::have_memory)
     }
 
     /// Whether some particles are held where they start.

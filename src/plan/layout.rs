@@ -1,7 +1,7 @@
 //! How the integer state lies in the buffers of a plan.
 
 use crate::model::LARGEST_MASS;
-use crate::state::State;
+use crate::state::{Hold, PairBath, State};
 
 /// How the integer state lies in buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +25,33 @@ pub enum Layout {
         /// The bins of particles with mass, if they are not in one array.
         bins: Option<Bins>,
     },
+    /// Particles whose couplings add their impulses up: an array `particles` in the order of the last list, and by number or
+    /// bond whatever else is remembered.
+    Coupled {
+        /// Number of dimensions.
+        dimension: usize,
+        /// Whether particles carry predicted momenta.
+        predicted: bool,
+        /// The list of neighbours, if there are pairs.
+        listed: Option<Listed>,
+        /// Whether baths on coordinates remember.
+        position_baths: bool,
+        /// Number of bonds, if their baths remember.
+        bond_baths: usize,
+        /// Whether there is a coloured noise.
+        holds: bool,
+        /// Whether particles are tied to where they started.
+        tethers: bool,
+    },
+}
+
+/// A list of neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Listed {
+    /// Pairs for which one particle has room.
+    pub capacity: usize,
+    /// Whether the baths of pairs remember.
+    pub memory: bool,
 }
 
 /// A bin of particles for every cell of a mesh.
@@ -115,6 +142,19 @@ impl Layout {
     pub fn buffers(&self) -> Vec<&'static str> {
         match *self {
             Self::Particles { .. } => vec!["particles"],
+            Self::Coupled { listed, position_baths, bond_baths, holds, tethers, .. } => {
+                let optional = [
+                    ("anchors", listed.is_some()),
+                    ("neighbours", listed.is_some()),
+                    ("memories", listed.is_some_and(|listed| listed.memory)),
+                    ("position_baths", position_baths),
+                    ("bond_baths", bond_baths > 0),
+                    ("holds", holds),
+                    ("tethers", tethers),
+                ];
+                let asked = optional.into_iter().filter(|(_, asked)| *asked).map(|(name, _)| name);
+                std::iter::once("particles").chain(asked).collect()
+            }
             Self::Water { tracers, bath_nodes, bins, .. } => {
                 let mut names = if bins.is_some() { vec!["bins", "stayed", "arrived"] } else { vec!["particles"] };
                 if tracers > 0 {
@@ -134,23 +174,37 @@ impl Layout {
     /// [`Misfit`].
     pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         match *self {
-            Self::Particles { predicted, .. } => {
-                if predicted && state.step > 0 && state.predicted.len() != state.len() {
-                    return Err("predicted momenta are".into());
+            Self::Particles { predicted, .. } => Ok(vec![pack_particles(state, order, predicted)?]),
+            Self::Coupled { predicted, listed, position_baths, bond_baths, holds, tethers, .. } => {
+                let mut contents = vec![pack_particles(state, order, predicted)?];
+                if let Some(listed) = listed {
+                    contents.extend(listed.pack(state, order)?);
                 }
-                let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
-                for &id in order {
-                    words.extend(state.positions[id]);
-                    words.push(id as u32);
-                    words.extend(state.momenta[id].map(|unit| unit as u32));
-                    words.push(state.species[id]);
-                    if predicted {
-                        let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
-                        words.extend(predicted.map(|unit| unit as u32));
-                        words.push(state.species[id]);
+                if position_baths {
+                    contents.push(by_number(&state.position_baths, state.len(), "bath variables are", |s| {
+                        [s[0], s[1], s[2], 0]
+                    })?);
+                }
+                if bond_baths > 0 {
+                    if state.bond_baths.len() != bond_baths {
+                        return Err("bath variables of bonds are".into());
                     }
+                    contents.push(state.bond_baths.clone());
                 }
-                Ok(vec![words])
+                if holds {
+                    contents.push(by_number(
+                        &state.holds,
+                        state.len(),
+                        "random forces are",
+                        bytemuck::cast::<Hold, [u32; 6]>,
+                    )?);
+                }
+                if tethers {
+                    contents.push(by_number(&state.tethers, state.len(), "ends of tethers are", |r| {
+                        [r[0], r[1], r[2], 0]
+                    })?);
+                }
+                Ok(contents)
             }
             Self::Water { carriers, tracers, bath_nodes, bins } => {
                 if state.masses.len() != state.len() {
@@ -206,19 +260,15 @@ impl Layout {
         let contents = |index: usize| contents.get(index).copied().unwrap_or_default();
         match *self {
             Self::Particles { dimension, predicted } => {
+                unpack_particles(&mut state, contents(0), dimension, predicted, place)?;
+            }
+            Self::Coupled { dimension, predicted, .. } => {
+                unpack_particles(&mut state, contents(0), dimension, predicted, place)?;
                 let width = if predicted { 12 } else { 8 };
-                state.species = vec![0; count];
-                if predicted {
-                    state.predicted = vec![[0; 3]; count];
-                }
-                for particle in contents(0).chunks_exact(width).take(count) {
-                    let id = place(particle[3])?;
-                    state.positions[id] = [particle[0], particle[1], if dimension == 2 { 0 } else { particle[2] }];
-                    state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
-                    state.species[id] = particle[7];
-                    if predicted {
-                        state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
-                    }
+                let numbers: Vec<u32> =
+                    contents(0).chunks_exact(width).take(count).map(|particle| particle[3]).collect();
+                for (index, name) in self.buffers().into_iter().enumerate() {
+                    self.unpack_array(&mut state, name, contents(index), &numbers, contents(index.saturating_sub(1)));
                 }
             }
             Self::Water { carriers, tracers, bath_nodes, bins } => {
@@ -248,5 +298,166 @@ impl Layout {
             }
         }
         Ok(state)
+    }
+}
+
+impl Layout {
+    /// One of the arrays of a coupled scene; `numbers` are those of the particles as they are stored, and `previous` is the
+    /// array before it.
+    fn unpack_array(&self, state: &mut State, name: &str, words: &[u32], numbers: &[u32], previous: &[u32]) {
+        let count = numbers.len();
+        match (name, self) {
+            // A list of pairs that remember nothing may be made anew at any time.
+            ("anchors", Self::Coupled { listed: Some(Listed { memory: true, .. }), .. }) => {
+                let mut anchors = vec![[0; 3]; count];
+                for (number, anchor) in numbers.iter().zip(words.chunks_exact(4)) {
+                    anchors[*number as usize] = [anchor[0], anchor[1], anchor[2]];
+                }
+                state.anchors = anchors;
+            }
+            ("memories", Self::Coupled { listed: Some(listed), .. }) => {
+                state.pair_baths = listed.unpack(previous, words, numbers);
+            }
+            ("position_baths", _) => {
+                state.position_baths = words.chunks_exact(4).take(count).map(|s| [s[0], s[1], s[2]]).collect();
+            }
+            ("bond_baths", Self::Coupled { bond_baths, .. }) => {
+                state.bond_baths = words.iter().copied().take(*bond_baths).collect();
+            }
+            ("holds", _) => {
+                let holds = words.chunks_exact(6).take(count);
+                state.holds = holds.map(|words| bytemuck::pod_read_unaligned(bytemuck::cast_slice(words))).collect();
+            }
+            ("tethers", _) => {
+                state.tethers = words.chunks_exact(4).take(count).map(|r| [r[0], r[1], r[2]]).collect();
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Words of all particles in an order of their numbers.
+fn pack_particles(state: &State, order: &[usize], predicted: bool) -> Result<Vec<u32>, Misfit> {
+    if predicted && state.step > 0 && state.predicted.len() != state.len() {
+        return Err("predicted momenta are".into());
+    }
+    let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
+    for &id in order {
+        words.extend(state.positions[id]);
+        words.push(id as u32);
+        words.extend(state.momenta[id].map(|unit| unit as u32));
+        words.push(state.species[id]);
+        if predicted {
+            let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
+            words.extend(predicted.map(|unit| unit as u32));
+            words.push(state.species[id]);
+        }
+    }
+    Ok(words)
+}
+
+/// What [`pack_particles`] packed; `place` tells where a number belongs, once.
+fn unpack_particles(
+    state: &mut State,
+    words: &[u32],
+    dimension: usize,
+    predicted: bool,
+    mut place: impl FnMut(u32) -> Result<usize, String>,
+) -> Result<(), String> {
+    let count = state.positions.len();
+    let width = if predicted { 12 } else { 8 };
+    state.species = vec![0; count];
+    if predicted {
+        state.predicted = vec![[0; 3]; count];
+    }
+    for particle in words.chunks_exact(width).take(count) {
+        let id = place(particle[3])?;
+        state.positions[id] = [particle[0], particle[1], if dimension == 3 { particle[2] } else { 0 }];
+        state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
+        state.species[id] = particle[7];
+        if predicted {
+            state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
+        }
+    }
+    Ok(())
+}
+
+/// Words of something that every particle has, in order of their numbers.
+fn by_number<T: Copy, const WIDTH: usize>(
+    elements: &[T],
+    count: usize,
+    what: &str,
+    words: impl Fn(T) -> [u32; WIDTH],
+) -> Result<Vec<u32>, Misfit> {
+    if elements.len() != count {
+        return Err(what.into());
+    }
+    Ok(elements.iter().flat_map(|element| words(*element)).collect())
+}
+
+/// Bits of a listed neighbour that tell where it is stored.
+const NEIGHBOUR: u32 = 0x7fff_ffff;
+
+impl Listed {
+    /// Where the particles were when they were listed, the list, and what its pairs remember if they do. A state without a
+    /// list gets an empty one, made so far away that a new one is asked for.
+    fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
+        let count = state.len();
+        if !state.anchors.is_empty() && state.anchors.len() != count {
+            return Err("places of the last list are".into());
+        }
+        let away = |position: [u32; 3]| position.map(|component| component.wrapping_add(1 << 31));
+        let anchors = order.iter().flat_map(|&id| {
+            let [x, y, z] = state.anchors.get(id).copied().unwrap_or_else(|| away(state.positions[id]));
+            [x, y, z, id as u32]
+        });
+        let mut contents = vec![anchors.collect()];
+        let mut neighbours = vec![0_u32; count * (self.capacity + 1)];
+        let mut memories = vec![0_u32; if self.memory { 2 * count * self.capacity } else { 0 }];
+        let mut slots = vec![0; count];
+        for (slot, &id) in order.iter().enumerate() {
+            slots[id] = slot;
+        }
+        for pair in &state.pair_baths {
+            let ends = [pair.first, pair.second].map(|id| slots.get(id as usize).copied());
+            let [Some(first), Some(second)] = ends else { return Err("particles of remembered pairs are".into()) };
+            // The rule of `shaders/kernels/list.wgsl`.
+            let odd = pair.first.wrapping_add(pair.second) & 1 == 1;
+            let (owner, other) = if odd { (first, second) } else { (second, first) };
+            let entry = neighbours[owner] as usize;
+            if entry == self.capacity {
+                return Err(Misfit::Crowded);
+            }
+            neighbours[owner] += 1;
+            neighbours[(entry + 1) * count + owner] = other as u32 | pair.spared << 31;
+            if self.memory {
+                let place = 2 * (entry * count + owner);
+                memories[place] = pair.memory;
+                memories[place + 1] = pair.stamp;
+            }
+        }
+        contents.push(neighbours);
+        if self.memory {
+            contents.push(memories);
+        }
+        Ok(contents)
+    }
+
+    /// The pairs of a list, in order of their numbers.
+    fn unpack(&self, neighbours: &[u32], memories: &[u32], numbers: &[u32]) -> Vec<PairBath> {
+        let count = numbers.len();
+        let mut pairs = Vec::new();
+        for slot in 0..count {
+            for entry in 0..(neighbours[slot] as usize).min(self.capacity) {
+                let word = neighbours[(entry + 1) * count + slot];
+                let other = (word & NEIGHBOUR) as usize;
+                let (Some(a), Some(b)) = (numbers.get(slot), numbers.get(other)) else { continue };
+                let place = 2 * (entry * count + slot);
+                let (memory, stamp) = (memories[place], memories[place + 1]);
+                pairs.push(PairBath { first: *a.min(b), second: *a.max(b), memory, stamp, spared: word >> 31 });
+            }
+        }
+        pairs.sort_unstable_by_key(|pair| (pair.first, pair.second));
+        pairs
     }
 }

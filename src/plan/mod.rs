@@ -1,5 +1,6 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
+mod couplings;
 mod grid;
 mod layout;
 mod pair;
@@ -7,7 +8,7 @@ mod shallow_water;
 pub mod smoothing;
 
 pub use grid::Grid;
-pub use layout::{Bins, Layout, Misfit};
+pub use layout::{Bins, Layout, Listed, Misfit};
 
 use crate::model::Model;
 use crate::scene::Output;
@@ -18,7 +19,19 @@ use crate::state::Units;
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     match &model.shallow_water {
         Some(water) => shallow_water::plan(model, water, output, options),
+        None if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         None => pair::plan(model, equilibration, output, hardware, options),
+    }
+}
+
+/// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
+pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
+    const LIMIT: u32 = 65_535;
+    if workgroups <= LIMIT {
+        [workgroups, 1]
+    } else {
+        let height = workgroups.div_ceil(LIMIT);
+        [workgroups.div_ceil(height), height]
     }
 }
 
@@ -43,21 +56,30 @@ pub struct Options {
     pub copies: Option<u64>,
     /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
     pub storage: Option<Storage>,
+    /// Whether pairs without memory are listed too, for integrators with one traversal a step.
+    pub listed: bool,
+    /// How often the room for the pairs of a particle in the list has been doubled.
+    pub list_growth: u32,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
 }
 
 impl Options {
-    /// Whether there is a plan that takes any crowd, and this is not it.
+    /// Whether there is a plan that takes a larger crowd.
     #[must_use]
     pub fn has_room_left(&self) -> bool {
-        self.copies.is_none()
+        self.list_growth < 31
     }
 
-    /// The same choices with room for any crowd of so many particles.
+    /// The same choices with room for any crowd of so many particles in a cell, and twice the room in lists.
     #[must_use]
     pub fn with_room(self, particles: u64) -> Self {
-        Self { copies: Some(particles), storage: Some(Storage::Sorted), ..self }
+        Self {
+            copies: Some(particles),
+            storage: Some(Storage::Sorted),
+            list_growth: self.list_growth.saturating_add(1),
+            ..self
+        }
     }
 
     /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
@@ -96,6 +118,8 @@ pub struct Kernel {
     pub modules: Vec<&'static str>,
     /// Number of workgroups.
     pub workgroups: u32,
+    /// Where its number of workgroups is in the buffer `demands`, in threes of words, if it depends on the step.
+    pub demand: Option<u32>,
     /// Constants of this kernel only; all others come from [`Plan::constants`].
     pub constants: Vec<(&'static str, f64)>,
     /// Variables whose buffer has another name: `(variable, buffer)`.
@@ -203,6 +227,8 @@ pub struct Plan {
     pub finish_report: Vec<usize>,
     /// The samplers; the first is that of the observables.
     pub samplers: Vec<Sampler>,
+    /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
+    pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
 }
@@ -226,5 +252,19 @@ impl Plan {
     #[must_use]
     pub fn largest_buffer(&self) -> u64 {
         self.buffers.iter().map(|buffer| buffer.bytes).max().unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folded;
+
+    #[test]
+    fn folding_covers_every_workgroup() {
+        for count in [1, 65_535, 65_536, 131_071, 1_000_000, 20_000_000] {
+            let [width, height] = folded(count);
+            assert!(width <= 65_535 && height <= 65_535);
+            assert!(u64::from(width) * u64::from(height) >= u64::from(count));
+        }
     }
 }

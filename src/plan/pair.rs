@@ -57,6 +57,7 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
         advance: Vec::new(),
         finish_report: Vec::new(),
         samplers: Vec::new(),
+        reported: None,
         operations_per_particle: 0.0,
     }
 }
@@ -64,7 +65,7 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
 /// are counted in 2⁻³² of a typical one, which leaves room for 2³¹ times as much, and the squares of forces and the
 /// curvatures, which are hundreds of times as large as the scales they are made from, in 2⁻²⁴.
-fn quanta(model: &Model) -> Quanta {
+pub(super) fn quanta(model: &Model) -> Quanta {
     let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
     let lightest = if lightest.is_finite() { lightest } else { 1.0 };
     let heaviest = model.species.iter().map(|species| species.mass).fold(lightest, f64::max);
@@ -223,6 +224,7 @@ impl Builder<'_> {
             name,
             modules,
             workgroups: workgroups.max(1) as u32,
+            demand: None,
             constants: Vec::new(),
             renamed: Vec::new(),
         })
@@ -355,6 +357,7 @@ impl Builder<'_> {
             name,
             modules,
             workgroups: (rows * segments) as u32,
+            demand: None,
             constants: vec![("SEGMENTS", segments as f64)],
             renamed: Vec::new(),
         })
@@ -366,6 +369,7 @@ impl Builder<'_> {
             name: "record_observables",
             modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
+            demand: None,
             constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", f64::from(groups))],
             renamed: Vec::new(),
         });
@@ -500,6 +504,7 @@ impl Builder<'_> {
             name: "pair_histogram",
             modules,
             workgroups: (rows * segments) as u32,
+            demand: None,
             constants: [&constants[..], &[("SEGMENTS", segments as f64)]].concat(),
             renamed: Vec::new(),
         });
@@ -507,6 +512,7 @@ impl Builder<'_> {
             name: "record_histogram",
             modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
             workgroups: 1,
+            demand: None,
             constants: vec![("BINS", f64::from(bins))],
             renamed: vec![("samples", "histogram_samples")],
         });
@@ -537,6 +543,7 @@ impl Builder<'_> {
             name: sampler.name,
             modules,
             workgroups: groups as u32,
+            demand: None,
             constants: sampler.constants,
             renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
         });
@@ -544,6 +551,7 @@ impl Builder<'_> {
             name: "record_sample",
             modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
+            demand: None,
             constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
             renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
         });

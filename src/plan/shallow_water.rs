@@ -101,6 +101,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
         advance: Vec::new(),
         finish_report: Vec::new(),
         samplers: Vec::new(),
+        reported: None,
         operations_per_particle: 0.0,
     }
 }
@@ -216,6 +217,7 @@ impl Builder<'_> {
             name,
             modules,
             workgroups: workgroups.max(1) as u32,
+            demand: None,
             constants: Vec::new(),
             renamed: Vec::new(),
         })
@@ -351,6 +353,7 @@ impl Builder<'_> {
             name: "record_observables",
             modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
             workgroups: 1,
+            demand: None,
             constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", groups as f64)],
             renamed: Vec::new(),
         });
@@ -391,6 +394,7 @@ impl Builder<'_> {
             name: "record_tracers",
             modules: vec!["common/water", "common/control", "kernels/record_tracers"],
             workgroups: 1,
+            demand: None,
             constants: Vec::new(),
             renamed: vec![("samples", "tracer_samples")],
         });

@@ -39,6 +39,7 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
             name: "depths",
             modules: vec!["common/dispatch", "common/deviation", "kernels/deviation"],
             workgroups: workgroups(water.nodes(), workgroup),
+            demand: None,
             constants: [constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat(),
             renamed: Vec::new(),
         };
@@ -225,6 +226,7 @@ impl Fourier<'_> {
             name: pass.name,
             modules,
             workgroups: workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup),
+            demand: None,
             constants,
             renamed: if number.is_multiple_of(2) { swapped } else { Vec::new() },
         }
@@ -345,6 +347,7 @@ fn chebyshev(
                 name,
                 modules,
                 workgroups,
+                demand: None,
                 constants: [constants.as_slice(), &[("PARITY", f64::from(parity))]].concat(),
                 renamed: vec![("waves", from), ("waves_next", to)],
             });

@@ -24,8 +24,8 @@ impl EnergyTable {
 
 /// Energies per particle, temperatures and pressures over time; a panel none of whose columns exist is left out.
 ///
-/// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, `temperature`,
-/// `configurational_temperature`, `pressure` and `pressure_conservative`. `temperature` is the set kT, drawn as a
+/// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, `bath_energy`, `extended_energy`,
+/// `temperature`, `configurational_temperature`, `pressure` and `pressure_conservative`. `temperature` is the set kT, drawn as a
 /// reference; a value that is not finite leaves it out.
 #[must_use]
 pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, temperature: f64) -> Chart {
@@ -34,7 +34,14 @@ pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, tem
         (
             "Energy per particle (energy units)",
             per_particle,
-            [("kinetic_energy", "kinetic"), ("potential_energy", "potential"), ("total_energy", "total")].as_slice(),
+            [
+                ("kinetic_energy", "kinetic"),
+                ("potential_energy", "potential"),
+                ("total_energy", "total"),
+                ("bath_energy", "baths"),
+                ("extended_energy", "total with baths"),
+            ]
+            .as_slice(),
         ),
         (
             "Temperature (energy units)",

@@ -13,29 +13,32 @@ type Cell = fn(&Observables, f64) -> f64;
 
 /// The columns of a model after `step`; those without meaning for it are left out.
 fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
-    let repulsive = model.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0);
-    let spatial = model.units.dimension == 3;
+    let potential = model.has_potential();
+    let dimension = model.units.dimension;
     let water = model.shallow_water.as_ref();
-    let bath = water.and_then(|water| water.bath);
-    let memory = bath.is_some_and(|bath| bath.continuous_coupling.is_finite());
+    let memory = model.has_memory();
+    // Curvature is summed over all particles, and the force on those that are held is not one of heat.
+    let configurational = potential && water.is_none() && !model.has_fixed_particles() && model.angles.is_none();
+    // What is tied to places in space presses on nothing.
+    let pressure = water.is_none() && model.tether.is_none() && !model.has_fixed_particles();
     let all: [(&'static str, bool, Cell); 17] = [
         ("time", true, |row, step| row.step as f64 * step),
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
-        ("potential_energy", repulsive || water.is_some(), |row, _| row.potential_energy),
+        ("potential_energy", potential, |row, _| row.potential_energy),
         ("total_energy", true, |row, _| row.total_energy()),
         ("bath_energy", memory, |row, _| row.bath_energy),
         ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
-        ("bath_square", bath.is_some(), |row, _| row.bath_square),
+        ("bath_square", memory || water.is_some_and(|water| water.bath.is_some()), |row, _| row.bath_square),
         ("temperature", true, |row, _| row.kinetic_temperature()),
-        (CONFIGURATIONAL, repulsive, |row, _| row.configurational_temperature()),
-        ("pressure", water.is_none(), |row, _| row.pressure()),
-        ("pressure_conservative", repulsive, |row, _| row.conservative_pressure()),
+        (CONFIGURATIONAL, configurational, |row, _| row.configurational_temperature()),
+        ("pressure", pressure, |row, _| row.pressure()),
+        ("pressure_conservative", pressure && potential, |row, _| row.conservative_pressure()),
         ("momentum_x", true, |row, _| row.momentum[0]),
-        ("momentum_y", true, |row, _| row.momentum[1]),
-        ("momentum_z", spatial, |row, _| row.momentum[2]),
+        ("momentum_y", dimension >= 2, |row, _| row.momentum[1]),
+        ("momentum_z", dimension == 3, |row, _| row.momentum[2]),
         ("center_of_mass_velocity_x", true, |row, _| row.centre_of_mass_velocity()[0]),
-        ("center_of_mass_velocity_y", true, |row, _| row.centre_of_mass_velocity()[1]),
-        ("center_of_mass_velocity_z", spatial, |row, _| row.centre_of_mass_velocity()[2]),
+        ("center_of_mass_velocity_y", dimension >= 2, |row, _| row.centre_of_mass_velocity()[1]),
+        ("center_of_mass_velocity_z", dimension == 3, |row, _| row.centre_of_mass_velocity()[2]),
     ];
     all.into_iter().filter(|(_, applies, _)| *applies).map(|(name, _, cell)| (name, cell)).collect()
 }

@@ -28,6 +28,9 @@ pub fn builtin() -> &'static [Builtin] {
         "shallow-water-memory",
         "shallow-water-equilibrium",
         "jet-instability",
+        "edpd-fluid",
+        "langevin-gas",
+        "gle-oscillator",
         "harmonic-chain"
     ]
 }

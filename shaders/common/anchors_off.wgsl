@@ -1,0 +1,2 @@
+// No neighbours are listed.
+fn check_anchor(slot: u32, fraction: Fraction) {}

@@ -1,0 +1,27 @@
+// The bath of a pair with exponential memory, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8. Of c the friction
+// is the response of the bath to its coupling function, and the noise its standard deviation at rest.
+//
+// What is kept of a pair is q = e s - c phi and the step. Beyond the cutoff phi is zero and the bath is free: when the pair
+// meets again after k steps, all that it has missed is made up for in one draw.
+override PERSISTENCE: f32;  // e
+override LOSS: f32;         // 1 - e
+override DECAY: f32;        // ln |e|
+override SPREAD: f32;       // root of 1 - e^2
+override BATH_IMPULSE: f32; // impulse of half a step per bath
+@group(0) @binding(24) var<storage, read_write> memories: array<vec2<u32>>;
+
+fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
+    let memory = memories[place];
+    let missed = control.step.x - memory.y - 1u;
+    let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, PERSISTENCE < 0.0 && (missed & 1u) == 1u);
+    let exponent = -2.0 * DECAY * (f32(missed) + 1.0);
+    let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
+    let spread = select(sqrt(lost), SPREAD, missed == 0u);
+    return kept * bitcast<f32>(memory.x) + f32(control.closing) * c.friction * coupling(contact.w)
+        + c.noise * spread * bath_noise(me.position.w, other.position.w);
+}
+fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
+    let bath = bath_of_pair(c, contact, me, other, place);
+    note_bath(c, contact, bath, place);
+    return push - BATH_IMPULSE * root * bath;
+}

@@ -1,0 +1,24 @@
+// Puts every particle into its cell, remembers where it came from and where it is, and clears the counts for the next
+// time.
+override PARTICLES: u32;
+override CELLS: u32;
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
+@group(0) @binding(27) var<storage, read_write> came_from: array<u32>;
+@group(0) @binding(28) var<storage, read_write> anchors: array<vec4<u32>>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (index < CELLS) { counts[index] = 0u; }
+    if (index >= PARTICLES) { return; }
+    let particle = particles[index];
+    let fraction = fraction_of(particle.position);
+    let slot = cells[cell_index(row_of(fraction), column_of(fraction))] + ranks[index];
+    sorted[slot] = particle;
+    came_from[slot] = index;
+    anchors[slot] = particle.position;
+    note_slot(particle.position.w, slot);
+}

@@ -1,0 +1,54 @@
+// Visits every listed pair, from its owner: first finds those in contact, then computes their impulses and hands them to
+// both ends.
+override PARTICLES: u32;
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+// The number of a particle's pairs, then its pairs: one row of particles after the other.
+@group(0) @binding(23) var<storage, read_write> neighbours: array<u32>;
+
+const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) { visit(slot); }
+    finish_pairs(group, lane);
+}
+
+fn visit(slot: u32) {
+    prepare_noise();
+    let me = particles[slot];
+    let count = neighbours[slot];
+    var kick = Steps(0);
+    var sound = true;
+    for (var base = 0u; base < count; base += 32u) {
+        let end = min(32u, count - base);
+        var mask = 0u;
+        for (var bit = 0u; bit < end; bit++) {
+            let neighbour = neighbours[(base + bit + 1u) * PARTICLES + slot];
+            let d = separation(me.position, particles[neighbour & NEIGHBOUR_MASK].position);
+            mask |= select(0u, 1u << bit, dot(d, d) < CUTOFF * CUTOFF);
+        }
+        while (mask != 0u) {
+            let entry = base + firstTrailingBit(mask);
+            mask &= mask - 1u;
+            let neighbour = neighbours[(entry + 1u) * PARTICLES + slot];
+            let other_slot = neighbour & NEIGHBOUR_MASK;
+            let other = particles[other_slot];
+            let contact = contact_of(separation(me.position, other.position));
+            let c = coefficients_of(species_of(me), species_of(other));
+            let root = root_weight(contact.w);
+            let repulsion = select(repulsion_impulse(c, 1.0), 0.0, spared(neighbour));
+            let push = repulsion * contact.w;
+            let magnitude = impulse_of_pair(push, c, contact, root, me, other, entry * PARTICLES + slot);
+            let impulse = Steps(round(magnitude * contact.direction));
+            sound = sound && abs(magnitude) < IMPULSE_LIMIT;
+            kick += impulse;
+            add_kick(other_slot, -impulse);
+            note_pair(slot, other_slot, repulsion, magnitude, contact);
+        }
+    }
+    add_kick(slot, kick);
+    raise(select(FAILURE_IMPULSE, 0u, sound));
+}

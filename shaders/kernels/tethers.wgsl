@@ -1,0 +1,21 @@
+// A spring from every particle to where it started.
+override PARTICLES: u32;
+override TETHER: f32; // impulse of half a step per length
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(35) var<storage, read_write> tethers: array<vec4<u32>>; // by number
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) {
+        let position = particles[slot].position;
+        let length = separation(position, tethers[position.w]);
+        let impulse = -TETHER * length;
+        add_kick(slot, Steps(round(impulse)));
+        raise(select(FAILURE_IMPULSE, 0u, largest(abs(impulse)) < 134217728.0));
+        note_tether(slot, length);
+    }
+    finish_tethers(group, lane);
+}

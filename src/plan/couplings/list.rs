@@ -1,0 +1,170 @@
+//! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far.
+
+use super::Builder;
+use crate::model::{Model, PairForce};
+use crate::noise::{self, stream};
+use crate::plan::{Contents, Options, folded};
+use std::f64::consts::PI;
+
+/// Rows of cells that a single workgroup still scans faster than three kernels would.
+const SINGLE_SCAN_ROWS: u64 = 1024;
+
+/// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
+/// that for every time it has turned out to be too little.
+pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u64 {
+    let particles = model.particle_count();
+    let range = force.cutoff + force.skin;
+    let ball = match model.units.dimension {
+        1 => 2.0 * range,
+        2 => PI * range * range,
+        _ => 4.0 / 3.0 * PI * range.powi(3),
+    };
+    let owned = 0.5 * ball * particles as f64 / model.units.volume();
+    let room = (1.5 * owned + 12.0).ceil() * f64::from(options.list_growth.min(31)).exp2();
+    (room as u64).min(particles.saturating_sub(1)).max(1)
+}
+
+impl Builder<'_> {
+    /// Whether bonds ask where a particle is.
+    fn slots(&self) -> &'static str {
+        if self.model.bonds.is_some() || self.model.angles.is_some() { "common/slots_on" } else { "common/slots_off" }
+    }
+
+    /// The clock and, for pairs, the list.
+    pub(super) fn list(&mut self) {
+        if self.model.bonds.is_some() || self.model.angles.is_some() {
+            self.buffer("slots", "where each particle is stored", 4 * self.particles);
+        }
+        let clock = ["common/begin_step", "common/threefry"];
+        let groups = self.groups(self.particles);
+        if self.model.pair_force.is_none() {
+            let tick = self.bare_kernel(
+                "tick",
+                [&["common/control", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),
+                1,
+            );
+            self.plan.sort = vec![tick];
+            if self.slots() == "common/slots_on" {
+                let stock =
+                    self.kernel("take_stock", &["common/anchors_off", self.slots(), "kernels/take_stock"], groups);
+                self.plan.prepare = vec![stock];
+            }
+            return;
+        }
+        self.list_constants();
+        let begin = self.bare_kernel(
+            "begin",
+            [&["common/control", "common/dispatch"], &clock[..], &["kernels/begin"]].concat(),
+            1,
+        );
+        let stock = self.kernel("take_stock", &["common/anchors_on", self.slots(), "kernels/take_stock"], groups);
+        self.plan.prepare = vec![stock];
+        let rebuild = self.rebuild();
+        let sizes: Vec<u32> = rebuild
+            .iter()
+            .flat_map(|kernel| {
+                let [width, height] = folded(self.plan.kernels[*kernel].workgroups);
+                [width, height, 1]
+            })
+            .collect();
+        for (index, kernel) in rebuild.iter().enumerate() {
+            self.plan.kernels[*kernel].demand = Some((rebuild.len() + index) as u32);
+        }
+        self.plan.kernels[begin].constants.push(("CONDITIONAL", rebuild.len() as f64));
+        let bytes: Vec<u8> = bytemuck::cast_slice(&[&sizes[..], &vec![0; sizes.len()]].concat()).to_vec();
+        self.buffer_of("demands", "workgroups of the kernels of the list", bytes.len() as u64, Contents::Bytes(bytes));
+        self.plan.sort = [&[begin][..], &rebuild].concat();
+        self.list_buffers();
+    }
+
+    fn list_constants(&mut self) {
+        let range = self.force.cutoff + self.force.skin;
+        let span = |axis: usize| {
+            let cells = if axis < self.grid.dimension { self.grid.cells[axis] } else { 1 };
+            f64::from(if cells >= 3 { 3 } else { 1 })
+        };
+        self.plan.constants.extend([
+            ("CELLS_X", f64::from(self.grid.cells[0])),
+            ("CELLS_Y", f64::from(self.grid.cells[1])),
+            ("CELLS_Z", f64::from(self.grid.cells[2])),
+            ("CELLS", self.grid.count() as f64),
+            ("SPAN_X", span(0)),
+            ("SPAN_Y", span(1)),
+            ("SPAN_Z", span(2)),
+            ("SQUARED_RANGE", range * range),
+            ("SQUARED_REACH", 0.25 * self.force.skin * self.force.skin),
+            ("LIST_CAPACITY", self.list_capacity() as f64),
+        ]);
+    }
+
+    fn list_capacity(&self) -> u64 {
+        capacity(self.model, self.force, self.options)
+    }
+
+    /// The kernels that order the particles and list their neighbours.
+    fn rebuild(&mut self) -> Vec<usize> {
+        let groups = self.groups(self.particles);
+        let rows = self.grid.rows();
+        let mut kernels = vec![self.kernel("bin", &[self.cells(), "kernels/bin"], groups)];
+        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
+            let modules =
+                [self.cells(), "common/cells_plain", "common/row_scan", "common/workgroup_scan", "common/same_step"];
+            kernels.push(self.kernel("scan", &[&modules[..], &["kernels/scan"]].concat(), 1));
+        } else {
+            let scan = [self.cells(), "common/cells_plain", "common/row_scan"];
+            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
+            kernels.push(self.kernel("scan_blocks", &blocks, rows.div_ceil(256)));
+            let tops = [self.cells(), "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
+            kernels.push(self.kernel("scan_tops", &tops, 1));
+            let groups = self.groups(rows);
+            kernels.push(self.kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
+            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        }
+        let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
+        let arrange_groups = self.groups(self.particles.max(self.grid.count()));
+        let arrange = [&sorted[..], &[self.slots(), "kernels/arrange"]].concat();
+        kernels.push(self.kernel("arrange", &arrange, arrange_groups));
+        let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
+        let modules = [&sorted[..], &[span, self.exclusions(), "kernels/list"]].concat();
+        let list = self.kernel("list", &modules, groups);
+        kernels.push(list);
+        if self.force.remembers() {
+            let mut modules = vec!["common/sorted_plain", "common/neighbour_words", self.coefficients()];
+            modules.extend(["common/gaussian", "common/threefry", "kernels/carry"]);
+            modules.extend(self.words());
+            let carry = self.kernel("carry", &modules, groups);
+            let key = noise::seed_key(self.model.seed, stream::PAIR_START);
+            self.plan.kernels[carry].constants =
+                vec![("START_STREAM_X", f64::from(key[0])), ("START_STREAM_Y", f64::from(key[1]))];
+            kernels.push(carry);
+            kernels.push(self.kernel("settle_list", &["kernels/settle_list"], groups));
+        } else {
+            self.plan.kernels[list].renamed = vec![("neighbours_next", "neighbours")];
+        }
+        kernels.push(self.kernel("settle", &["common/sorted_plain", "kernels/settle"], groups));
+        kernels
+    }
+
+    /// Module that tells which listed pairs are spared their repulsion.
+    fn exclusions(&self) -> &'static str {
+        "common/exclusions_off"
+    }
+
+    fn list_buffers(&mut self) {
+        let particle = if self.predicted() { 48 } else { 32 };
+        let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
+        self.buffer("sorted", "particles in order of cells, while the list is made", particle * particles);
+        self.buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
+        self.buffer("counts", "particles in each cell", 4 * cells);
+        self.buffer("ranks", "place of each particle in its cell", 4 * particles);
+        self.buffer("came_from", "where each particle was stored before", 4 * particles);
+        self.buffer("anchors", "where each particle was when the list was made", 16 * particles);
+        let pairs = self.list_capacity() * particles;
+        self.buffer("neighbours", "pairs of each particle", 4 * (pairs + particles));
+        if self.force.remembers() {
+            self.buffer("neighbours_next", "the same, while the list is made", 4 * (pairs + particles));
+            self.buffer("memories", "what the bath of each pair remembers", 8 * pairs);
+            self.buffer("memories_next", "the same, while the list is made", 8 * pairs);
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! The plan of a scene whose couplings add their impulses up: listed pairs with or without memory, bonds, angles, tethers,
+//! baths on coordinates, coloured noise.
+//!
+//! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
+//! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
+
+mod coloured_noise;
+mod list;
+mod motion;
+mod pairs;
+mod tethers;
+
+use super::{Buffer, Contents, Grid, Kernel, Layout, Listed, Options, Plan, Quanta, Sampler, pair};
+use crate::model::{BathStep, Model, PairForce};
+use crate::noise::{self, stream};
+use crate::scene::{Distribution, Generator, Integrator, Output};
+
+/// Sums of a report without baths that remember, in the order of `shaders/common/totals.wgsl`; those of baths follow.
+const OBSERVABLES: u64 = 9;
+/// Energy, square and number of the baths that remember.
+const BATH_OBSERVABLES: u64 = 3;
+/// Rows of samples kept on the device between two readbacks.
+const SAMPLE_ROWS: u64 = 1024;
+
+/// Makes the plan of a model.
+pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: Options) -> Plan {
+    let particles = model.particle_count();
+    let free = PairForce::none(&model.units, model.species.len());
+    let force = model.pair_force.as_ref().unwrap_or(&free);
+    let grid = Grid::new(&model.units, force.cutoff + force.skin, particles);
+    let plan = empty_plan(model, &grid, options);
+    let mut builder = Builder { model, force, grid, particles, options, equilibration, plan, report_groups: 0 };
+    builder.constants();
+    builder.buffers();
+    builder.list();
+    builder.pairs();
+    builder.tethers();
+    builder.motion(output);
+    builder.observables(output);
+    builder.plan
+}
+
+fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
+    let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
+    let listed = model
+        .pair_force
+        .as_ref()
+        .map(|force| Listed { capacity: list::capacity(model, force, options) as usize, memory: force.remembers() });
+    let layout = Layout::Coupled {
+        dimension: model.units.dimension,
+        predicted,
+        listed,
+        position_baths: model.position_bath.as_ref().is_some_and(|bath| bath.memory),
+        bond_baths: model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.bonds.len()),
+        holds: model.coloured_noise.is_some(),
+        tethers: model.tether.is_some(),
+    };
+    Plan {
+        particles: model.particle_count(),
+        units: model.units,
+        cells: grid.cells,
+        layout,
+        quanta: quanta(model),
+        seed_key: noise::seed_key(model.seed, stream::PAIR),
+        time_step: model.time_step,
+        suggested_step: 0.25 * model.time_step,
+        kernels: Vec::new(),
+        constants: Vec::new(),
+        buffers: Vec::new(),
+        prepare: Vec::new(),
+        sort: Vec::new(),
+        before_report: Vec::new(),
+        report: Vec::new(),
+        advance: Vec::new(),
+        finish_report: Vec::new(),
+        samplers: Vec::new(),
+        reported: Some("reported"),
+        operations_per_particle: 0.0,
+    }
+}
+
+/// Units of the sums: those of pairs, and for the square of a bath that of the stiffest.
+fn quanta(model: &Model) -> Quanta {
+    let mut quanta = pair::quanta(model);
+    let temperature = quanta.energy * 2_f64.powi(32);
+    let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
+    if largest > 0.0 {
+        quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
+    }
+    quanta
+}
+
+/// The baths that remember.
+fn baths(model: &Model) -> Vec<BathStep> {
+    let mut steps = Vec::new();
+    if let Some(force) = model.pair_force.as_ref().filter(|force| force.remembers()) {
+        let count = model.species.len();
+        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
+        steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
+    }
+    if let Some(bath) = model.position_bath.as_ref().filter(|bath| bath.memory) {
+        steps.extend(&bath.steps);
+    }
+    if let Some(bonds) = &model.bonds {
+        steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
+    }
+    steps
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    force: &'a PairForce,
+    grid: Grid,
+    particles: u64,
+    options: Options,
+    equilibration: u64,
+    plan: Plan,
+    /// Rows of partial sums that the kernels of the report fill so far.
+    report_groups: u64,
+}
+
+impl Builder<'_> {
+    fn constants(&mut self) {
+        let (model, units, quanta) = (self.model, self.model.units, self.plan.quanta);
+        let half = 0.5 * model.time_step;
+        let to_force = units.momentum / half;
+        let cutoff = self.force.cutoff;
+        let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
+        // Nothing but a pair force tells how far a particle may go in a step, but it must not go round the box.
+        let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
+        let reach = if model.pair_force.is_some() { cutoff } else { 0.4 * shortest };
+        let mass = self.common_mass();
+        let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
+        self.plan.constants = vec![
+            ("UNIT_X", unit(0)),
+            ("UNIT_Y", unit(1)),
+            ("UNIT_Z", unit(2)),
+            ("PARTICLES", self.particles as f64),
+            ("WORKGROUP", self.options.workgroup() as f64),
+            ("QUANTITIES", self.quantities() as f64),
+            ("SPECIES", model.species.len() as f64),
+            ("CUTOFF", cutoff),
+            ("WEIGHT_ROOT_EXPONENT", 0.5 * self.force.weight_exponent),
+            ("DISPLACEMENT_LIMIT", reach),
+            ("PAIR_ENERGY", to_force * cutoff / (2.0 * quanta.pair_energy)),
+            ("PAIR_VIRIAL", to_force / quanta.pair_energy),
+            ("GRADIENT", to_force * to_force / quanta.force_squared),
+            ("LAPLACIAN", 2.0 * to_force / quanta.curvature),
+            ("DRIFT", model.time_step * units.momentum / mass),
+            ("KINETIC", units.momentum * units.momentum / (2.0 * mass * quanta.energy)),
+            ("INVERSE_MASS", 1.0 / mass),
+            ("FRICTION_PER_LENGTH", mass / (model.time_step * units.momentum)),
+            ("BATH_SQUARE", inverse(quanta.bath_squared)),
+        ];
+        if self.single() {
+            let [repulsion, friction, noise] = self.pair_impulses(0, 0);
+            self.plan.constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
+        }
+        if let Integrator::GrootWarren { lambda } = model.integrator {
+            self.plan.constants.push(("PREDICTION", 2.0 * lambda - 1.0));
+        }
+    }
+
+    /// The mass in the constants: that of the only species, or 1 where masses are in a table.
+    fn common_mass(&self) -> f64 {
+        if self.single() { self.model.species.first().map_or(1.0, |species| species.mass) } else { 1.0 }
+    }
+
+    /// Whether coefficients are constants: one species, which can move.
+    fn single(&self) -> bool {
+        self.model.species.len() <= 1 && !self.model.has_fixed_particles()
+    }
+
+    /// Inverse masses; none of what is held.
+    fn inverse_mass(&self, species: usize) -> f64 {
+        let species = &self.model.species[species];
+        if species.fixed { 0.0 } else { 1.0 / species.mass }
+    }
+
+    /// Impulse of half a step by a unit force, in momentum units.
+    fn impulse(&self) -> f64 {
+        0.5 * self.model.time_step / self.model.units.momentum
+    }
+
+    fn quantities(&self) -> u64 {
+        OBSERVABLES + if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES }
+    }
+
+    /// Workgroups with a lane for each of some things.
+    fn groups(&self, things: u64) -> u64 {
+        things.div_ceil(self.options.workgroup()).max(1)
+    }
+
+    fn predicted(&self) -> bool {
+        matches!(self.plan.layout, Layout::Coupled { predicted: true, .. })
+    }
+
+    /// Modules of the vector space and of the stored particle.
+    fn space(&self) -> Vec<&'static str> {
+        let mut modules = vec![match self.model.units.dimension {
+            1 => "common/space1",
+            2 => "common/space2",
+            _ => "common/space3",
+        }];
+        modules.push(if self.predicted() { "common/particle_predicted" } else { "common/particle" });
+        modules.extend(["common/control", "common/dispatch"]);
+        modules
+    }
+
+    fn cells(&self) -> &'static str {
+        if self.model.units.dimension == 3 { "common/grid3" } else { "common/grid2" }
+    }
+
+    fn coefficients(&self) -> &'static str {
+        if self.single() { "common/coefficients_single" } else { "common/coefficients_table" }
+    }
+
+    fn kicks(&self) -> &'static str {
+        if self.model.units.dimension == 3 { "common/kicks3" } else { "common/kicks2" }
+    }
+
+    fn forces(&self) -> &'static str {
+        if self.model.units.dimension == 3 { "common/forces3" } else { "common/forces2" }
+    }
+
+    /// Modules that draw the random words of a key and counters.
+    fn words(&self) -> &'static [&'static str] {
+        match self.model.generator {
+            Generator::Pcg4d => &["common/words_pcg4d"],
+            Generator::Threefry2x32 => &["common/words_threefry"],
+        }
+    }
+
+    /// Modules of the noise of a pair.
+    fn pair_noise(&self) -> Vec<&'static str> {
+        // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
+        let gaussian = self.force.remembers() || self.model.distribution == Distribution::Gaussian;
+        let mut modules = vec![if gaussian { "common/noise_gaussian" } else { "common/noise_uniform" }];
+        modules.extend(self.words());
+        if self.model.generator == Generator::Threefry2x32 {
+            modules.push("common/threefry");
+        }
+        modules
+    }
+
+    /// Adds a kernel of the space with further modules.
+    fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
+        let modules = [&self.space()[..], modules].concat();
+        self.bare_kernel(name, modules, workgroups)
+    }
+
+    fn bare_kernel(&mut self, name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> usize {
+        self.plan.kernels.push(Kernel {
+            name,
+            modules,
+            workgroups: workgroups.max(1) as u32,
+            demand: None,
+            constants: Vec::new(),
+            renamed: Vec::new(),
+        });
+        self.plan.kernels.len() - 1
+    }
+
+    /// Adds a kernel of the report, which leaves its sums in rows of its own.
+    fn report_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) {
+        let modules = [modules, &["common/sum64", "common/reduce", "common/totals"]].concat();
+        let kernel = self.kernel(name, &modules, workgroups);
+        self.plan.kernels[kernel].constants.push(("FIRST_GROUP", self.report_groups as f64));
+        self.report_groups += u64::from(self.plan.kernels[kernel].workgroups);
+        self.plan.report.push(kernel);
+    }
+
+    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        self.buffer_of(name, purpose, bytes, Contents::Zeros);
+    }
+
+    fn buffer_of(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
+        let bytes = bytes.max(64).next_multiple_of(16);
+        self.plan.buffers.push(Buffer { name, purpose, bytes, contents });
+    }
+
+    fn buffers(&mut self) {
+        let particle = if self.predicted() { 48 } else { 32 };
+        self.buffer("control", "clock, key of the step's random words, failures", 64);
+        self.buffer("particles", "particles, in the order of the last list", particle * self.particles);
+        self.buffer("kicks", "impulses of half a step", 16 * self.particles);
+        self.buffer("reported", "particles of the last report by number", 32 * self.particles);
+        if !self.single() {
+            let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
+            let purpose = "coefficients of each pair of species, then of each species";
+            self.buffer_of("coefficients", purpose, bytes.len() as u64, Contents::Bytes(bytes));
+        }
+    }
+
+    /// Kernels that take what the report has left, and the sampler of the observables.
+    fn observables(&mut self, output: &Output) {
+        let quantities = self.quantities();
+        let record = self.bare_kernel(
+            "record_observables",
+            vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
+            1,
+        );
+        self.plan.kernels[record].constants =
+            vec![("QUANTITIES", quantities as f64), ("GROUPS", self.report_groups as f64)];
+        self.plan.samplers.push(Sampler {
+            name: "observables",
+            first: 0,
+            every: output.energies.every,
+            kernels: vec![record],
+            samples: "samples",
+            quantities: quantities as usize,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * self.report_groups);
+        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + quantities)));
+        self.plan.finish_report.clone_from(&self.plan.advance);
+    }
+}

@@ -1,0 +1,124 @@
+//! Pairs from the list: repulsion, friction and noise with or without memory.
+
+use super::Builder;
+use crate::model::BathStep;
+use crate::scene::{Bath, Integrator};
+
+impl Builder<'_> {
+    pub(super) fn pairs(&mut self) {
+        if self.model.pair_force.is_none() {
+            return;
+        }
+        self.pair_constants();
+        let groups = self.groups(self.particles);
+        let memory = self.force.remembers() && self.force.has_friction();
+        let modules = self.pair_modules();
+        let (mut unseen, mut seen) = (vec!["common/pairs_unseen"], vec!["common/pairs_seen", self.forces()]);
+        if memory {
+            unseen.push("common/memory_kept");
+            seen.push("common/memory_seen");
+        }
+        let advance = self.kernel("pairs", &[&modules[..], &unseen].concat(), groups);
+        self.plan.advance.push(advance);
+        self.report_kernel("report_pairs", &[&modules[..], &seen].concat(), groups);
+        let density = self.particles as f64 / self.model.units.volume();
+        let (listed, met) = match self.model.units.dimension {
+            1 => (density * (self.force.cutoff + self.force.skin), density * self.force.cutoff),
+            2 => (
+                1.57 * density * (self.force.cutoff + self.force.skin).powi(2),
+                1.57 * density * self.force.cutoff.powi(2),
+            ),
+            _ => (
+                2.09 * density * (self.force.cutoff + self.force.skin).powi(3),
+                2.09 * density * self.force.cutoff.powi(3),
+            ),
+        };
+        self.plan.operations_per_particle += 12.0 * listed + if memory { 160.0 } else { 75.0 } * met;
+    }
+
+    /// Modules of the pair force.
+    fn pair_modules(&self) -> Vec<&'static str> {
+        let force = self.force;
+        let mut modules = vec![self.kicks(), "common/contact", "common/neighbour_words", self.coefficients()];
+        modules.push(if self.spares() { "common/repulsion_spared" } else { "common/repulsion_always" });
+        modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
+        modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
+        let thermal = force.has_friction() && force.temperature > 0.0;
+        if force.remembers() && force.has_friction() {
+            modules.push("common/pair_memory");
+            modules.push(if thermal { "common/bath_noise_on" } else { "common/bath_noise_off" });
+        } else {
+            modules.push("common/pair_white");
+            if force.has_friction() {
+                modules.push("common/drift");
+                modules.push(match self.model.integrator {
+                    Integrator::GrootWarren { .. } => "common/friction_velocity",
+                    _ => "common/friction_discrete_gradient",
+                });
+            } else {
+                modules.push("common/friction_off");
+            }
+            modules.push(if thermal { "common/random_on" } else { "common/random_off" });
+        }
+        if thermal {
+            modules.extend(self.pair_noise());
+        }
+        modules.push("kernels/pairs");
+        modules
+    }
+
+    /// Whether some listed pairs are spared their repulsion.
+    fn spares(&self) -> bool {
+        self.model.bonds.as_ref().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
+            && self.force.largest_repulsion() > 0.0
+    }
+
+    fn pair_constants(&mut self) {
+        let Bath::Memory { rate, scheme, .. } = self.force.bath else { return };
+        // All pairs of species have the rate in common, and with it all but the size of their baths.
+        let step = BathStep::with_memory(scheme, 1.0, rate, self.model.time_step);
+        let persistence = step.persistence;
+        self.plan.constants.extend([
+            ("PERSISTENCE", persistence),
+            ("LOSS", 1.0 - persistence),
+            ("DECAY", persistence.abs().ln().max(-100.0)),
+            ("SPREAD", (1.0 - persistence * persistence).max(0.0).sqrt()),
+            ("BATH_IMPULSE", self.impulse()),
+            ("BATH_ENERGY", 0.5 * step.response() / self.plan.quanta.pair_energy),
+        ]);
+    }
+
+    /// What a kernel needs of a pair of species: impulse of half a step by the repulsion at contact, and without memory the
+    /// impulses of friction (per unit velocity; of one species, momentum) and noise, with memory the response of the bath to
+    /// its coupling function and its deviation at rest.
+    pub(super) fn pair_impulses(&self, a: usize, b: usize) -> [f64; 3] {
+        if self.model.species.is_empty() {
+            return [0.0; 3];
+        }
+        let repulsion = self.force.repulsion(a, b) * self.impulse();
+        let step = self.force.bath_step(a, b, self.model.time_step);
+        if self.force.remembers() {
+            return [repulsion, step.response(), step.deviation(self.force.temperature)];
+        }
+        let friction = 0.5 * self.model.time_step * self.force.friction(a, b) / self.common_mass();
+        [repulsion, friction, step.noise(self.force.temperature) * self.impulse()]
+    }
+
+    /// The table of coefficients where there are several species: for every pair of species what [`Self::pair_impulses`]
+    /// gives and the inverse mass of the second, then for every species the position bath.
+    pub(super) fn coefficient_table(&self) -> Vec<f32> {
+        let count = self.model.species.len();
+        let mut table = Vec::with_capacity(4 * count * (count + 1));
+        for a in 0..count {
+            for b in 0..count {
+                table.extend(self.pair_impulses(a, b).map(|value| value as f32));
+                table.push(self.inverse_mass(b) as f32);
+            }
+        }
+        for species in 0..count {
+            table.extend(self.position_coefficients(species).map(|value| value as f32));
+            table.push(0.0);
+        }
+        table
+    }
+}

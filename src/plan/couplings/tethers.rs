@@ -1,0 +1,23 @@
+//! Springs from every particle to where it started.
+
+use super::Builder;
+
+impl Builder<'_> {
+    pub(super) fn tethers(&mut self) {
+        let Some(stiffness) = self.model.tether else { return };
+        let groups = self.groups(self.particles);
+        let quanta = self.plan.quanta;
+        self.plan.constants.extend([
+            ("TETHER", stiffness * self.impulse()),
+            ("TETHER_ENERGY", 0.5 * stiffness / quanta.pair_energy),
+            ("TETHER_LAPLACIAN", stiffness * self.model.units.dimension as f64 / quanta.curvature),
+        ]);
+        let modules = [self.kicks(), "common/contact", "kernels/tethers"];
+        let advance = self.kernel("tethers", &[&modules[..], &["common/tethers_unseen"]].concat(), groups);
+        self.plan.advance.push(advance);
+        let seen = [self.forces(), "common/tethers_seen"];
+        self.report_kernel("report_tethers", &[&modules[..], &seen].concat(), groups);
+        self.buffer("tethers", "where each particle is tied to, by number", 16 * self.particles);
+        self.plan.operations_per_particle += 15.0;
+    }
+}
