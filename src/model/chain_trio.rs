@@ -145,6 +145,12 @@ impl ChainTrios {
         [species(0, mass, beads), species(1, self.pulse.frictionless().mass, clusters), species(2, mass, 12)]
     }
 
+    /// The species of every particle.
+    pub(crate) fn species_of_particles(&self) -> Vec<u32> {
+        let all = self.species();
+        all.iter().zip(0_u32..).flat_map(|(species, kind)| vec![kind; species.count as usize]).collect()
+    }
+
     /// Adds a spring between all neighbours, with a dashpot and its noise where the chain has friction.
     pub(super) fn add_bonds(&self, bonds: &mut Bonds, time_step: f64) {
         for strand in self.strands().as_flattened() {
@@ -173,12 +179,10 @@ impl ChainTrios {
 
     /// The particles of all chains at step 0: a pulse at rest, and a draw from equilibrium.
     pub(crate) fn fill(&self, state: &mut State, units: &Units, seed: u64) {
-        let species = self.species();
-        let total = species.iter().map(|species| species.count as usize).sum();
+        let total = self.species().iter().map(|species| species.count as usize).sum();
         state.positions = vec![[0; 3]; total];
         state.momenta = vec![[0; 3]; total];
-        state.species =
-            species.iter().zip(0_u32..).flat_map(|(species, kind)| vec![kind; species.count as usize]).collect();
+        state.species = self.species_of_particles();
         let [pulse, thermal] = self.strands();
         let shape = crate::measure::harmonic_chain::Pulse { amplitude: self.amplitude, width: self.width };
         let beads = shape.displacements(&self.pulse);

@@ -1,7 +1,7 @@
 //! Harmonic chains side by side: what a scene says about them.
 
 use super::error::Problem;
-use super::{Integrator, Interaction, Scene};
+use super::{Interaction, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -101,10 +101,6 @@ pub(super) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str,
     if !scene.particles.is_empty() {
         let accepted = "an empty list: the chains make their own particles";
         problems.push(Problem::new("particles", format!("found {} groups", scene.particles.len()), accepted));
-    }
-    if scene.integrator != (Integrator::CotterReich {}) {
-        let accepted = "`cotter-reich`, or none";
-        problems.push(Problem::new("integrator.type", "found another integrator", accepted));
     }
     let dimension = scene.space.lengths.len();
     if dimension != 1 {

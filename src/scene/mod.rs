@@ -4,6 +4,8 @@
 //! reads it into a [`Scene`] and checks what a schema cannot say. Mistakes are reported all at once.
 
 mod builtin;
+mod chains;
+mod couplings;
 mod error;
 pub(crate) mod harmonic_chain;
 mod load;
@@ -14,6 +16,7 @@ pub mod placement;
 mod semantics;
 mod shallow_water;
 mod shape;
+mod stability;
 pub mod surface;
 mod text;
 mod types;

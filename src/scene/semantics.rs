@@ -19,6 +19,10 @@ pub(super) fn check(scene: &Scene) -> Vec<Problem> {
     check_number_of_particles(scene, &mut problems);
     check_interactions(scene, &mut problems);
     check_durations(scene, &mut problems);
+    // What follows from a model or a start needs a scene that makes sense.
+    if problems.is_empty() {
+        super::couplings::check_motion(scene, &mut problems);
+    }
     problems
 }
 
@@ -128,27 +132,18 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
         match interaction {
-            Interaction::Dpd(dpd) => {
-                if index > 0 {
-                    let found = "a second `dpd` interaction defines the same pairs of species again";
-                    let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
-                    problems.push(Problem::new(&path, found, accepted));
-                }
-                check_pairs(scene, dpd, &path, problems);
-            }
-            Interaction::Langevin(_)
-            | Interaction::ColouredNoise(_)
-            | Interaction::Tether(_)
-            | Interaction::Bonds(_)
-            | Interaction::Angles(_) => {}
-            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
             }
             Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
+            Interaction::Dpd(dpd) => check_pairs(scene, dpd, &path, problems),
+            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
+            _ => {}
         }
+        super::couplings::check_interaction(scene, interaction, &path, problems);
     }
+    super::couplings::check_scene(scene, problems);
     if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
         super::shallow_water::check_absence(scene, problems);
     }

@@ -125,7 +125,8 @@ impl Builder<'_> {
         let arrange = [&sorted[..], &[self.slots(), "kernels/arrange"]].concat();
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
-        let modules = [&sorted[..], &[span, self.exclusions(), "kernels/list"]].concat();
+        let exclusions = self.exclusions();
+        let modules = [&sorted[..], &[span, exclusions, "kernels/list"]].concat();
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {
@@ -143,11 +144,6 @@ impl Builder<'_> {
         }
         kernels.push(self.kernel("settle", &["common/sorted_plain", "kernels/settle"], groups));
         kernels
-    }
-
-    /// Module that tells which listed pairs are spared their repulsion.
-    fn exclusions(&self) -> &'static str {
-        "common/exclusions_off"
     }
 
     fn list_buffers(&mut self) {

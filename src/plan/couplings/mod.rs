@@ -4,6 +4,8 @@
 //! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
+mod angles;
+mod bonds;
 mod coloured_noise;
 mod list;
 mod motion;
@@ -34,6 +36,8 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.buffers();
     builder.list();
     builder.pairs();
+    builder.bonds();
+    builder.angles();
     builder.tethers();
     builder.motion(output);
     builder.observables(output);
