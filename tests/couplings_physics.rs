@@ -16,15 +16,20 @@
 mod support;
 
 use mesoscope::model::Model;
-use mesoscope::noise;
+use mesoscope::plan::Options;
 use mesoscope::reference::{CouplingsReference, Reference};
 use mesoscope::scene::{self, Scene};
-use mesoscope::state::State;
-use support::{Implementation, Measured, deviate, fluid, largest_difference, oscillators, start};
+use mesoscope::state::{PairBath, State};
+use support::{Device, Implementation, Measured, deviate, fluid, largest_difference, oscillators, start};
 
 /// Every implementation of couplings, at the start of a scene from a given state.
 fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
-    vec![Box::new(CouplingsReference::new(Model::new(scene), state.clone()))]
+    let model = Model::new(scene);
+    let mut runs: Vec<Box<dyn Implementation>> = vec![Box::new(CouplingsReference::new(model.clone(), state.clone()))];
+    if model.bonds.is_none() && model.coloured_noise.is_none() {
+        runs.push(Box::new(Device::from_state(scene, state, Options::default())));
+    }
+    runs
 }
 
 const SCHEMES: [&str; 3] = ["cotter-reich", "symmetric", "exponential"];
@@ -206,7 +211,8 @@ fn check_law(
 fn oscillators_reach_the_stationary_law() {
     for scheme in SCHEMES {
         for a in [0.1, 1.0, 10.0] {
-            let (scene, law) = oscillator(scheme, a, 2.0, 1.0, 20_000);
+            let count = if a < 1.0 { 32_000 } else { 20_000 };
+            let (scene, law) = oscillator(scheme, a, 2.0, 1.0, count);
             // From the ends of the tethers, with 2% of any deviation left at most.
             let (_, state) = start(&scene);
             for mut run in runs(&scene, &state) {
@@ -224,12 +230,12 @@ fn oscillators_reach_the_stationary_law() {
 fn oscillators_keep_the_stationary_law() {
     for scheme in SCHEMES {
         for a in [1e-3, 1e3] {
-            let (scene, law) = oscillator(scheme, a, 2.0, 1.0, 60_000);
+            let (scene, law) = oscillator(scheme, a, 2.0, 1.0, 110_000);
             let (model, mut state) = start(&scene);
             settle(&mut state, &model, &law);
             for mut run in runs(&scene, &state) {
                 let what = format!("{scheme} {a}");
-                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [5, 20]);
+                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [3, 25]);
             }
         }
     }
@@ -250,9 +256,15 @@ fn a_free_bath_has_the_discrete_velocity_autocorrelation() {
                 };
                 let first = momenta(&run.reported());
                 let squares: f64 = first.iter().map(|p| p * p).sum();
+                run.step(1);
+                let mut before = momenta(&run.state());
                 for (lag, expected) in expected.iter().enumerate().skip(1) {
                     run.step(1);
-                    let now = momenta(&run.reported());
+                    // A half kick closes a step and opens the next: p(n) is the mean of the half steps around it.
+                    let after = momenta(&run.state());
+                    let now: Vec<f64> =
+                        before.iter().zip(&after).map(|(before, after)| 0.5 * (before + after)).collect();
+                    before = after;
                     let products: f64 = first.iter().zip(&now).map(|(a, b)| a * b).sum();
                     let found = products / squares;
                     // The error of a slope of regression between two Gaussian numbers of equal width.
@@ -341,9 +353,9 @@ fn white_baths_keep_their_temperature() {
 /// Just inside B + W = 4 a cold oscillator stays within bounds, just outside it grows without any.
 #[test]
 fn stability_ends_where_b_and_w_add_up_to_four() {
-    const STEPS: u64 = 3000;
+    const STEPS: u64 = 1500;
     for scheme in SCHEMES {
-        for a in [0.01, 1.0, 30.0] {
+        for a in [0.01, 1.0, 5.0] {
             for spring in [0.5, 2.0] {
                 for (edge, stable) in [(3.96, true), (4.04, false)] {
                     let (warm, _) = oscillator(scheme, a, edge - spring, spring, 4);
@@ -467,13 +479,11 @@ fn coordinates_of_dimers(model: &Model, reported: &State, after: &State) -> Vec<
 
 #[test]
 fn bonds_keep_the_stationary_law_of_their_reduced_mass() {
-    for (scheme, a) in
-        [("cotter-reich", 1e-3), ("cotter-reich", 1.0), ("symmetric", 1.0), ("exponential", 1.0), ("symmetric", 1e3)]
-    {
+    for (scheme, a) in [("cotter-reich", 0.5), ("cotter-reich", 5.0), ("symmetric", 1.0), ("exponential", 1.0)] {
         let (persistence, factor) = family(scheme, a);
         let law = Linear { mass: 0.75, temperature: 1.5, time_step: 0.1, persistence, bath: 2.0, spring: 1.0 };
         let scene = dimers(
-            60_000,
+            40_000,
             &law,
             &format!(
                 r#""potential": {{"type": "harmonic", "stiffness": {}, "length": {LENGTH}}},
@@ -486,8 +496,8 @@ fn bonds_keep_the_stationary_law_of_their_reduced_mass() {
         let (model, mut state) = start(&scene);
         settle_dimers(&mut state, &model, &law);
         for mut run in runs(&scene, &state) {
-            let samples = if a == 1.0 { [8, 10] } else { [8, 20] };
-            check_law(&format!("bond {scheme} {a}"), &scene, run.as_mut(), &law, &coordinates_of_dimers, samples);
+            let what = format!("bond {scheme} {a}");
+            check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_dimers, [12, 8]);
             assert_eq!(run.state().total_momentum(), [0; 3], "{}", run.name());
         }
     }
@@ -574,43 +584,35 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
 #[test]
 fn pairs_with_memory_reach_the_stationary_law() {
     for scheme in SCHEMES {
-        for a in [0.2, 1.0, 5.0] {
+        for a in [0.5, 1.5] {
             let (persistence, factor) = family(scheme, a);
             let law = Linear { mass: 1.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.5 };
             let (scene, state) = touching_pairs(
-                10_000,
+                40_000,
                 &[&format!(
                     r#"interactions.0.bath={{"type":"memory","rate":{},"coupling":{},"scheme":"{scheme}"}}"#,
                     a / law.time_step,
                     law.coupling() / factor
                 )],
             );
-            let model = Model::new(&scene);
+            let response = law.coupling() * (1.0 + persistence) / 2.0;
+            let coordinates = move |model: &Model, reported: &State, after: &State| -> Vec<[f64; 4]> {
+                let count = reported.len() / 2;
+                let pair = |(index, bath): (usize, &PairBath)| {
+                    assert_eq!([bath.first as usize, bath.second as usize], [index, count + index]);
+                    let r = model.units.displacement(reported.positions[index], reported.positions[count + index])[0];
+                    // What is kept is e s - λₑ(1+e)/2 φ.
+                    let kept = f64::from(f32::from_bits(bath.memory));
+                    let s = (kept + response * (r - 4.0)) / persistence;
+                    let momentum = |state: &State| model.units.momentum(state.momenta[index])[0];
+                    [r - 2.0, momentum(reported), s, momentum(after)]
+                };
+                after.pair_baths.iter().enumerate().map(pair).collect()
+            };
             for mut run in runs(&scene, &state) {
                 run.step(60);
-                let count = state.len() / 2;
-                let mut sums = vec![[0.0; 2]; count];
-                let mut bath_squares = Vec::new();
-                for _ in 0..16 {
-                    let observed = run.observe();
-                    let reported = run.reported();
-                    bath_squares.push(observed.bath_square / law.bath_square());
-                    for (index, sum) in sums.iter_mut().enumerate() {
-                        let [first, second] = [index, count + index];
-                        let r = model.units.displacement(reported.positions[first], reported.positions[second])[0];
-                        let p = model.units.momentum(reported.momenta[first])[0];
-                        sum[0] += p * p / law.momentum_square() / 16.0;
-                        sum[1] += (r - 2.0).powi(2) / law.position_square() / 16.0;
-                    }
-                    run.step(8);
-                }
-                let what = format!("pairs {scheme} {a}, {}", run.name());
-                for (moment, name) in ["⟨p²⟩", "⟨q²⟩"].iter().enumerate() {
-                    let numbers: Vec<f64> = sums.iter().map(|sum| sum[moment]).collect();
-                    Measured::of_independent(&numbers).assert(&format!("{what} {name}"), 1.0, 0.0, 0.005);
-                }
-                // Each is a mean over all pairs already, and they are nearly independent of each other.
-                Measured::of_independent(&bath_squares).assert(&format!("{what} ⟨s²⟩"), 1.0, 0.002, 0.006);
+                let what = format!("pairs {scheme} {a}");
+                check_law(&what, &scene, run.as_mut(), &law, &coordinates, [12, 8]);
                 assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
             }
         }
@@ -680,7 +682,8 @@ fn white_pairs_move_as_in_the_reference_of_pairs() {
 }
 
 /// A memory much shorter than the step is none: pairs, bonds and particles then move as under white noise of the same
-/// random words, but for what single precision loses of bath variables.
+/// random words, but for what single precision loses of bath variables. The noise of white pairs has the other sign, so
+/// that pairs have none here.
 #[test]
 fn a_fast_bath_is_white_noise() {
     let scene = |bath: &str| {
@@ -688,16 +691,16 @@ fn a_fast_bath_is_white_noise() {
             r#"{{
             "title": "test", "space": {{"box": [5, 5, 5]}}, "time": {{"step": 0.02, "steps": 1}}, "temperature": 1.0,
             "particles": [{{"species": "A", "count": 300}}], "noise": {{"distribution": "gaussian"}},
-            "interactions": [{{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {bath}}},
-                {{"type": "langevin", "friction": 2, "bath": {bath}}},
-                {{"type": "bonds", "pairs": [[0, 1], [2, 3], [4, 5], [7, 6]], "friction": 3, "bath": {bath}}}]
+            "interactions": [{{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {{{bath}, "temperature": 0}}}},
+                {{"type": "langevin", "friction": 2, "bath": {{{bath}}}}},
+                {{"type": "bonds", "pairs": [[0, 1], [2, 3], [4, 5], [7, 6]], "friction": 3, "bath": {{{bath}}}}}]
         }}"#
         );
         support::scene(&text)
     };
-    let white = scene(r#"{"type":"white"}"#);
+    let white = scene(r#""type":"white""#);
     for scheme in ["cotter-reich", "exponential"] {
-        let fast = scene(&format!(r#"{{"type":"memory","rate":1e11,"scheme":"{scheme}"}}"#));
+        let fast = scene(&format!(r#""type":"memory","rate":1e11,"scheme":"{scheme}""#));
         let (model, state) = start(&fast);
         let mut remembering = CouplingsReference::new(model, state);
         // The first step begins with baths at rest, which white noise has no need of.
@@ -724,8 +727,8 @@ fn a_fluid_with_memory_does_not_know_of_its_list() {
         let mut found = Vec::new();
         for skin in [0.05, 0.6] {
             let scene = fluid(&[
-                "space.box=[4,4,4]",
-                "time.step=0.02",
+                "space.box=[6,6,6]",
+                "time.step=0.01",
                 "interactions.0.repulsion=10",
                 &format!("interactions.0.skin={skin}"),
                 &format!(r#"interactions.0.bath={{"type":"memory","rate":10,"scheme":"{scheme}"}}"#),
@@ -812,7 +815,7 @@ fn coloured_noise_gives_the_impulse_of_its_jumps() {
                         assert!(error < tolerance, "{process} {dimension} {time}, {}: off by {error}", run.name());
                     }
                 }
-                assert!(jumps > if time < 0.01 { 1000 } else { 20 }, "{process} {time}: {jumps} jumps");
+                assert!(jumps > if time < 0.01 { 500 } else { 20 }, "{process} {time}: {jumps} jumps");
             }
         }
     }
@@ -861,5 +864,4 @@ fn the_start_of_coloured_noise_is_stationary() {
         assert!((square - 4.0).abs() < 1e-5, "{process}: {square}");
         assert!(mean.iter().all(|mean| mean.abs() < 4.0 * (2.0_f64 / 1e5).sqrt()), "{process}: {mean:?}");
     }
-    let _ = noise::stream::JUMP;
 }

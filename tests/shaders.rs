@@ -26,6 +26,9 @@ const SAMPLERS: &[&str] = &[
     r#"output.radial_distribution={"every":10,"range":1.1}"#,
     r#"output.diffusion={"every":2,"window":8}"#,
     r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
+        {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
 ];
 
 fn plan_of(scene: &Scene, options: Options) -> Plan {
@@ -400,6 +403,7 @@ fn workgroup_memory_stays_within_the_core_limit() {
                         stride
                             * match module.overrides[*length].name.as_deref() {
                                 Some("BINS") => 4096,
+                                Some("COUNTS") => 1024 + 3,
                                 Some("WORKGROUP") => 256,
                                 other => panic!("how large {other:?} may be is not known"),
                             }

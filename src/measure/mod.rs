@@ -3,6 +3,8 @@
 pub mod circulation;
 pub mod correlation;
 mod field;
+pub mod fit;
+pub mod histogram;
 mod mesh_fields;
 mod observables;
 pub mod statistics;

@@ -18,9 +18,7 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
-use crate::scene::{
-    ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene,
-};
+use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
 
 /// A species of particles.

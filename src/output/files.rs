@@ -32,6 +32,26 @@ pub const DIFFUSION_PLOT: &str = "diffusion.png";
 pub const VISCOSITY: &str = "viscosity.csv";
 /// The plot of the autocorrelation of transverse momentum waves.
 pub const VISCOSITY_PLOT: &str = "viscosity.png";
+/// The normalised velocity autocorrelation.
+pub const VELOCITY_AUTOCORRELATION: &str = "velocity_autocorrelation.csv";
+/// The plot of the normalised velocity autocorrelation.
+pub const VELOCITY_AUTOCORRELATION_PLOT: &str = "velocity_autocorrelation.png";
+/// The normalised force autocorrelation.
+pub const FORCE_AUTOCORRELATION: &str = "force_autocorrelation.csv";
+/// The plot of the normalised force autocorrelation.
+pub const FORCE_AUTOCORRELATION_PLOT: &str = "force_autocorrelation.png";
+/// The histogram of velocities.
+pub const VELOCITY_HISTOGRAM: &str = "velocity_histogram.csv";
+/// The plot of the histogram of velocities.
+pub const VELOCITY_HISTOGRAM_PLOT: &str = "velocity_histogram.png";
+/// The histogram of speeds.
+pub const SPEED_HISTOGRAM: &str = "speed_histogram.csv";
+/// The plot of the histogram of speeds.
+pub const SPEED_HISTOGRAM_PLOT: &str = "speed_histogram.png";
+/// The histogram of accelerations.
+pub const ACCELERATION_HISTOGRAM: &str = "acceleration_histogram.csv";
+/// The plot of the histogram of accelerations.
+pub const ACCELERATION_HISTOGRAM_PLOT: &str = "acceleration_histogram.png";
 
 /// The circulations of material loops.
 pub const CIRCULATION: &str = "circulation.csv";
@@ -42,7 +62,7 @@ pub const CIRCULATION_PLOT: &str = "circulation.png";
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 23] = [
+pub const ALL: [&str; 33] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -56,6 +76,16 @@ pub const ALL: [&str; 23] = [
     DIFFUSION_PLOT,
     VISCOSITY,
     VISCOSITY_PLOT,
+    VELOCITY_AUTOCORRELATION,
+    VELOCITY_AUTOCORRELATION_PLOT,
+    FORCE_AUTOCORRELATION,
+    FORCE_AUTOCORRELATION_PLOT,
+    VELOCITY_HISTOGRAM,
+    VELOCITY_HISTOGRAM_PLOT,
+    SPEED_HISTOGRAM,
+    SPEED_HISTOGRAM_PLOT,
+    ACCELERATION_HISTOGRAM,
+    ACCELERATION_HISTOGRAM_PLOT,
     CIRCULATION,
     CIRCULATION_PLOT,
     "depth.png",

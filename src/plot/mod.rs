@@ -42,7 +42,8 @@ pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use overlay::{Curve, overlay_chart, quantity_label};
 pub use particles::ParticlePicture;
 pub use presets::{
-    EnergyTable, circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+    EnergyTable, autocorrelation_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
+    radial_distribution_chart, shallow_water_chart,
 };
 pub use renderer::Plotter;
 

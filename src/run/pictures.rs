@@ -11,7 +11,8 @@ use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table,
 use crate::plan::Options;
 use crate::plot::{
     Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
-    circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+    autocorrelation_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
+    radial_distribution_chart, shallow_water_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
@@ -62,11 +63,16 @@ pub fn redraw(
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 4] = [
+const ANALYSES: [(&str, &str); 9] = [
     (files::CIRCULATION, files::CIRCULATION_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
     (files::VISCOSITY, files::VISCOSITY_PLOT),
+    (files::VELOCITY_AUTOCORRELATION, files::VELOCITY_AUTOCORRELATION_PLOT),
+    (files::FORCE_AUTOCORRELATION, files::FORCE_AUTOCORRELATION_PLOT),
+    (files::VELOCITY_HISTOGRAM, files::VELOCITY_HISTOGRAM_PLOT),
+    (files::SPEED_HISTOGRAM, files::SPEED_HISTOGRAM_PLOT),
+    (files::ACCELERATION_HISTOGRAM, files::ACCELERATION_HISTOGRAM_PLOT),
 ];
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
@@ -119,6 +125,7 @@ impl<'a> Pictures<'a> {
         }
         let column = |name: &str| table.column(name).unwrap_or_default();
         let title = &self.scene.title;
+        let plot_of = |name: &str| ANALYSES.iter().find(|(table, _)| *table == name).map_or("", |(_, plot)| plot);
         let (plot, chart) = match name {
             files::RADIAL_DISTRIBUTION => (
                 files::RADIAL_DISTRIBUTION_PLOT,
@@ -131,6 +138,15 @@ impl<'a> Pictures<'a> {
             files::CIRCULATION => {
                 let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
                 (files::CIRCULATION_PLOT, circulation_chart(title, &table))
+            }
+            files::VELOCITY_AUTOCORRELATION | files::FORCE_AUTOCORRELATION => {
+                let quantity = if name == files::FORCE_AUTOCORRELATION { "force" } else { "velocity" };
+                let [lags, values, errors, fit] =
+                    ["time", "autocorrelation", "autocorrelation_error", "fit"].map(column);
+                (plot_of(name), autocorrelation_chart(title, quantity, &lags, &values, &errors, &fit))
+            }
+            files::VELOCITY_HISTOGRAM | files::SPEED_HISTOGRAM | files::ACCELERATION_HISTOGRAM => {
+                (plot_of(name), density_chart(title, &table))
             }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
@@ -269,6 +285,27 @@ fn radius(model: &Model) -> f64 {
 /// A time without the noise digits of a product: `0.3`, not `0.30000000000000004`.
 fn rounded(time: f64) -> f64 {
     format!("{time:.12e}").parse().unwrap_or(time)
+}
+
+/// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
+fn density_chart(title: &str, table: &Table) -> Chart {
+    let column = |index: usize| table.rows.iter().map(move |row| row.get(index).copied().unwrap_or(f64::NAN));
+    let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
+    let centres: Vec<f64> = column(0).collect();
+    // A single bin does not tell its width, but its density does.
+    let width = match centres.as_slice() {
+        [first, .., last] => (last - first) / (centres.len() - 1) as f64,
+        _ => 1.0 / column(1).sum::<f64>(),
+    };
+    let first = centres.first().map_or(0.0, |first| first - 0.5 * width);
+    let edges: Vec<f64> = (0..=centres.len()).map(|edge| first + edge as f64 * width).collect();
+    let compared: Vec<[f64; 2]> = centres.iter().zip(column(3)).map(|(centre, density)| [*centre, density]).collect();
+    let densities: Vec<f64> = column(1).collect();
+    let label = match name(3) {
+        "maxwell" => "Maxwell's density",
+        _ => "Gaussian of the same variance",
+    };
+    histogram_chart(title, name(0), &edges, &densities, (label, &compared))
 }
 
 /// Autocorrelations of the transverse waves; on a logarithmic axis a viscous decay is a straight line.

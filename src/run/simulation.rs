@@ -175,11 +175,12 @@ impl Task {
         }
         observer(Event::Finishing);
         let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
-        if start.state.step > 0 && run.analyses.restarts_windows() {
+        if start.state.step > 0 {
             let step = start.state.step;
-            warnings.push(format!(
-                "went on from a checkpoint at step {step}: a window of `output.diffusion` open there is left out"
-            ));
+            let warning = |name: String| {
+                format!("went on from a checkpoint at step {step}: a window of `{name}` open there is left out")
+            };
+            warnings.extend(run.analyses.restarts_windows().into_iter().map(warning));
         }
         if self.model.conserves_momentum() && run.momentum != self.momentum {
             warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());

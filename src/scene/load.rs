@@ -93,9 +93,12 @@ fn default_integrator(document: &mut Value) {
         Some("langevin" | "coloured-noise" | "tether" | "bonds" | "angles") => true,
         _ => false,
     };
+    let line = document["space"]["box"].as_array().is_some_and(|edges| edges.len() == 1);
+    let mut groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default().iter();
+    let held = groups.any(|group| group["fixed"] == true);
     let integrator = if interactions.iter().any(|interaction| interaction["type"] == "shallow-water") {
         "gyro"
-    } else if interactions.iter().any(coupled) {
+    } else if line || held || interactions.iter().any(coupled) {
         "cotter-reich"
     } else {
         return;

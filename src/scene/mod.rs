@@ -4,7 +4,9 @@
 //! reads it into a [`Scene`] and checks what a schema cannot say. Mistakes are reported all at once.
 
 mod builtin;
+mod chains;
 mod coloured_noise;
+mod couplings;
 mod error;
 mod load;
 mod nearest;
@@ -14,6 +16,7 @@ pub mod placement;
 mod semantics;
 mod shallow_water;
 mod shape;
+mod stability;
 pub mod surface;
 mod text;
 mod types;

@@ -30,6 +30,10 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
             _ => {}
         }
     }
+    if model.is_coupled() {
+        warnings.extend(super::stability::warn(scene, &model));
+        warn_of_loose_chains(scene, &mut warnings);
+    }
     match &model.shallow_water {
         Some(water) => warn_of_waves(scene, water, &mut warnings),
         None => warn_of_momentum(scene, &mut warnings),
@@ -54,15 +58,33 @@ fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {
 fn friction_rate(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
     let dimension = scene.space.lengths.len();
     let exponent = force.weight_exponent;
-    let weight = if dimension == 2 {
-        2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0))
-    } else {
-        8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0))
+    let weight = match dimension {
+        1 => 2.0 * force.cutoff / (exponent + 1.0),
+        2 => 2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
+        _ => 8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
     };
     let volume = scene.space.volume();
     let density = |other: usize| species[other].count as f64 / volume;
     let sum: f64 = (0..species.len()).map(|other| force.friction(index, other) * density(other)).sum();
     sum * weight / (dimension as f64 * species[index].mass)
+}
+
+/// Chains that no bond holds together are nothing but a way to place particles.
+fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let bonded = |species: &String| {
+        scene.interactions.iter().any(|interaction| match interaction {
+            Interaction::Bonds(bonds) => {
+                !bonds.pairs.is_empty() || bonds.species.as_ref().is_none_or(|names| names.contains(species))
+            }
+            _ => false,
+        })
+    };
+    for (index, group) in scene.particles.iter().enumerate() {
+        if group.chain.is_some() && !bonded(&group.species) {
+            let message = "no interaction `bonds` holds these chains together: they will fall apart".to_owned();
+            warn(warnings, format!("particles[{index}].chain"), message);
+        }
+    }
 }
 
 fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
@@ -87,7 +109,11 @@ fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warni
 /// their force constants a/rc alone, which makes it an upper estimate.
 fn frequency(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
     let dimension = scene.space.lengths.len();
-    let sphere = if dimension == 2 { PI * force.cutoff.powi(2) } else { 4.0 / 3.0 * PI * force.cutoff.powi(3) };
+    let sphere = match dimension {
+        1 => 2.0 * force.cutoff,
+        2 => PI * force.cutoff.powi(2),
+        _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
+    };
     let volume = scene.space.volume();
     let stiffness: f64 = (0..species.len())
         .map(|other| force.repulsion(index, other).abs() * species[other].count as f64 / volume)

@@ -159,7 +159,9 @@ impl CouplingsReference {
         let mut total_virial = 0.0;
 
         if let Some(force) = &model.pair_force {
-            (baths.pair_baths, baths.anchors) = pair_list::renew(model, force, state);
+            if force.remembers() {
+                (baths.pair_baths, baths.anchors) = pair_list::renew(model, force, state);
+            }
             total_virial += pairs::kick(model, force, state, &motion, &mut baths.pair_baths, &mut kick, &mut bath_sums);
         }
         if let Some(bonds) = &model.bonds {

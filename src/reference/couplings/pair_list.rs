@@ -20,39 +20,28 @@ pub(super) fn renew(model: &Model, force: &PairForce, state: &State) -> (Vec<Pai
     if listed && !state.positions.iter().zip(&state.anchors).any(is_far) {
         return (state.pair_baths.clone(), state.anchors.clone());
     }
-    let mut baths = Vec::new();
-    if force.remembers() {
-        let key = noise::step_key(model.seed, stream::PAIR_START, state.step);
-        let pairs = find_pairs(&model.units, &state.positions, force.cutoff + force.skin);
-        let mut numbers: Vec<[u32; 2]> = pairs.iter().map(|pair| [pair.first as u32, pair.second as u32]).collect();
-        numbers.sort_unstable();
-        let mut known = state.pair_baths.iter().peekable();
-        baths.extend(numbers.into_iter().map(|[first, second]| {
-            while known.next_if(|bath| [bath.first, bath.second] < [first, second]).is_some() {}
-            match known.next_if(|bath| [bath.first, bath.second] == [first, second]) {
-                Some(bath) => *bath,
-                None => fresh(model, force, state, key, [first, second]),
-            }
-        }));
-    }
-    (baths, state.positions.clone())
+    let key = noise::step_key(model.seed, stream::PAIR_START, state.step);
+    let excluded = super::pairs::excluded_pairs(model);
+    let pairs = find_pairs(&model.units, &state.positions, force.cutoff + force.skin);
+    let mut numbers: Vec<[u32; 2]> = pairs.iter().map(|pair| [pair.first as u32, pair.second as u32]).collect();
+    numbers.sort_unstable();
+    let mut known = state.pair_baths.iter().peekable();
+    let listed = numbers.into_iter().map(|numbers| {
+        while known.next_if(|bath| [bath.first, bath.second] < numbers).is_some() {}
+        let bath = match known.next_if(|bath| [bath.first, bath.second] == numbers) {
+            Some(bath) => *bath,
+            None => fresh(model, force, state, key, numbers),
+        };
+        PairBath { spared: excluded.binary_search(&numbers).is_ok().into(), ..bath }
+    });
+    (listed.collect(), state.positions.clone())
 }
 
-/// A bath that was at rest one step ago, when the pair was out of reach: s = √(kTλₑ) ζ, h = 0.
+/// A bath that was at rest one step ago, when the pair was out of reach: s = √(kTλₑ) ζ and h = 0.
 fn fresh(model: &Model, force: &PairForce, state: &State, key: [u32; 2], [first, second]: [u32; 2]) -> PairBath {
     let step = super::pairs::bath_step(model, force, state, first as usize, second as usize);
-    let value = at_rest(model, force, &step, key, [first, second]);
+    let value =
+        step.deviation(force.temperature) * noise::gaussian(noise::words(model.generator, key, [first, second]));
     let memory = (step.persistence * value) as f32;
-    PairBath { first, second, memory: memory.to_bits(), stamp: (state.step as u32).wrapping_sub(1) }
-}
-
-/// √(kTλₑ) ζ under the key of a step of the stream of starts.
-pub(super) fn at_rest(
-    model: &Model,
-    force: &PairForce,
-    step: &crate::model::BathStep,
-    key: [u32; 2],
-    numbers: [u32; 2],
-) -> f64 {
-    (force.temperature * step.coupling).sqrt() * noise::gaussian(noise::words(model.generator, key, numbers))
+    PairBath { first, second, memory: memory.to_bits(), stamp: (state.step as u32).wrapping_sub(1), spared: 0 }
 }

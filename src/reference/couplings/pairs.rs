@@ -5,7 +5,6 @@
 
 use super::bath::{self, BathSums};
 use super::motion::Motion;
-use super::pair_list;
 use crate::model::{BathStep, Model, PairForce};
 use crate::noise::{self, stream};
 use crate::reference::cotter_reich::coupling;
@@ -33,56 +32,48 @@ pub(super) fn kick(
         pairs::exchange(kick, pair, impulse, model.units.momentum);
         virial += pair.distance * magnitude;
     };
-    let excluded = excluded_pairs(model);
-    let repulsion = |pair: &Pair, forces: &Forces| {
-        let spared = excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
-        if spared { 0.0 } else { forces.conservative }
-    };
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
     if !force.remembers() {
+        let excluded = excluded_pairs(model);
         for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
             let forces = Forces::between(model, &state.species, &pair);
-            let mut magnitude = repulsion(&pair, &forces);
+            let spared = excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
+            let mut magnitude = if spared { 0.0 } else { forces.conservative };
             if forces.friction > 0.0 {
                 let step = bath_step(model, force, state, pair.first, pair.second);
                 let change = motion.approach(&pair).map_or_else(
                     || phi(force, pair.distance) - phi(force, motion.distance_before(&pair)),
                     |approach| forces.weight * approach,
                 );
-                let noise = pairs::noise(model, key, &pair);
+                // The noise of a pair pushes it apart, as in every other scheme; that of its bath would pull.
+                let noise = -pairs::noise(model, key, &pair);
                 magnitude -= forces.weight * bath::advanced(&step, force.temperature, 0.0, change, noise);
             }
             add(&pair, magnitude);
         }
         return virial;
     }
-    let start = noise::step_key(model.seed, stream::PAIR_START, state.step);
     for memory in baths {
         let (first, second) = (memory.first as usize, memory.second as usize);
         let separation = model.units.displacement(state.positions[first], state.positions[second]);
         let distance = pairs::dot(separation, separation).sqrt();
-        let pair = Pair { first, second, separation, distance };
-        let touching = distance < force.cutoff;
-        if !touching && state.step > 0 {
+        if distance >= force.cutoff {
             continue;
         }
+        let pair = Pair { first, second, separation, distance };
         let step = bath_step(model, force, state, first, second);
-        let numbers = [memory.first, memory.second];
-        let value = if state.step == 0 {
-            pair_list::at_rest(model, force, &step, start, numbers)
-        } else {
-            let gaussian = noise::gaussian(noise::words(model.generator, key, numbers));
-            let steps = (state.step as u32).wrapping_sub(memory.stamp);
-            let remembered = f64::from(f32::from_bits(memory.memory));
-            bath::recalled(&step, force.temperature, remembered, steps, phi(force, distance), gaussian)
-        };
+        let gaussian = noise::gaussian(noise::words(model.generator, key, [memory.first, memory.second]));
+        let steps = (state.step as u32).wrapping_sub(memory.stamp);
+        let remembered = f64::from(f32::from_bits(memory.memory));
+        // At step 0 the pair has always been where it is, and its bath is at rest.
+        let change = if state.step == 0 { 0.0 } else { phi(force, distance) };
+        let value = bath::recalled(&step, force.temperature, remembered, steps, change, gaussian);
         let kept = step.persistence * value - step.response() * phi(force, distance);
         (memory.memory, memory.stamp) = ((kept as f32).to_bits(), state.step as u32);
-        if touching {
-            let forces = Forces::between(model, &state.species, &pair);
-            add(&pair, repulsion(&pair, &forces) - forces.weight * value);
-            bath_sums.add(&step, value);
-        }
+        let forces = Forces::between(model, &state.species, &pair);
+        let repulsion = if memory.spared == 1 { 0.0 } else { forces.conservative };
+        add(&pair, repulsion - forces.weight * value);
+        bath_sums.add(&step, value);
     }
     virial
 }
