@@ -318,7 +318,7 @@ fn dimers_spread_as_the_scheme_says() {
         let dimers = 4096.0;
         let spread: Vec<f64> = series.iter().map(|row| 2.0 * row.potential_energy / stiffness / dimers).collect();
         let expected = (4.0 - b) / (4.0 - b - w) / stiffness;
-        let heat: Vec<f64> = series.iter().map(|row| row.kinetic_temperature()).collect();
+        let heat: Vec<f64> = series.iter().map(mesoscope::measure::Observables::kinetic_temperature).collect();
         // A mean square of 4096 independent numbers has an error of 2 %, and 150 samples make it tenfold smaller.
         Measured::of(&spread).assert(&format!("q² with {bath}"), expected, 0.0, 0.005 * expected);
         // Of the two momenta of a dimer the common one stays as it was drawn: an error of √(1/8192) for it alone.

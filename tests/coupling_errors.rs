@@ -223,10 +223,6 @@ fn baths() {
         ],
         &["interactions[0].pairs[0].friction: found 3; accepted: no friction beside interactions[0].bath.coupling"],
     );
-    refused(
-        &[r#"interactions.2={"type":"coloured-noise","strength":1,"time":0.05,"process":"literal"}"#],
-        &["interactions[2].process: found `literal` in 3 dimensions; accepted: two dimensions"],
-    );
 }
 
 #[test]

@@ -6,8 +6,8 @@ use super::error::Problem;
 use super::nearest::nearest;
 use super::placement;
 use super::{
-    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, ColouredNoiseInteraction, DpdInteraction,
-    Integrator, Interaction, LangevinInteraction, NoiseProcess, ParticleGroup, Placement, Scene, stability,
+    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
+    LangevinInteraction, ParticleGroup, Placement, Scene, stability,
 };
 use crate::model::Model;
 
@@ -23,10 +23,12 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
             check_range(scene, dpd, path, problems);
         }
         Interaction::Langevin(langevin) => check_langevin(scene, langevin, path, problems),
-        Interaction::ColouredNoise(noise) => check_coloured_noise(scene, noise, path, problems),
         Interaction::Bonds(bonds) => check_bonds(scene, bonds, path, problems),
         Interaction::Angles(angles) => check_angles(scene, angles, path, problems),
-        Interaction::Tether(_) | Interaction::HarmonicChain(_) | Interaction::ShallowWater(_) => {}
+        Interaction::ColouredNoise(_)
+        | Interaction::Tether(_)
+        | Interaction::HarmonicChain(_)
+        | Interaction::ShallowWater(_) => {}
     }
 }
 
@@ -273,14 +275,6 @@ fn check_langevin(scene: &Scene, langevin: &LangevinInteraction, path: &str, pro
         frictions.push((format!("{path}.friction"), entry.friction));
     }
     check_bath(&langevin.bath, frictions, path, problems);
-}
-
-fn check_coloured_noise(scene: &Scene, noise: &ColouredNoiseInteraction, path: &str, problems: &mut Vec<Problem>) {
-    if noise.process == NoiseProcess::Literal && scene.space.lengths.len() != 2 {
-        let found = format!("found `literal` in {} dimensions", scene.space.lengths.len());
-        let accepted = "two dimensions, as the paper prints it; or `kangaroo`, `kangaroo-exponential`, `short`";
-        problems.push(Problem::new(format!("{path}.process"), found, accepted));
-    }
 }
 
 /// A name has to be that of the species of some group.

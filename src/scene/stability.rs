@@ -317,8 +317,9 @@ fn two_digits(value: f64) -> String {
     if !(value.is_finite() && value > 0.0) {
         return "0".to_owned();
     }
+    let value = value * (1.0 - 1e-9);
     let magnitude = 10_f64.powf(value.log10().floor() - 1.0);
-    let rounded = (value / magnitude * (1.0 - 1e-9)).floor() * magnitude;
+    let rounded = (value / magnitude).floor() * magnitude;
     let number: f64 = format!("{rounded:.1e}").parse().unwrap_or(rounded);
     if (1e-3..1e6).contains(&number) { format!("{number}") } else { format!("{number:e}") }
 }
