@@ -4,6 +4,7 @@ pub mod circulation;
 pub mod correlation;
 mod field;
 pub mod fit;
+pub mod harmonic_chain;
 pub mod histogram;
 mod mesh_fields;
 mod observables;

@@ -19,6 +19,7 @@
 //! ```
 
 mod canvas;
+mod chain_charts;
 mod chart;
 mod chart_layout;
 mod color_map;
@@ -35,6 +36,9 @@ mod series_path;
 mod text;
 mod ticks;
 
+pub use chain_charts::{
+    chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
+};
 pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
 pub use color_map::ColorMap;
 pub use error::PlotError;

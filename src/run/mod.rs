@@ -19,6 +19,7 @@
 //! ```
 
 mod analyses;
+mod chain;
 mod circulations;
 mod conservation;
 mod energies;

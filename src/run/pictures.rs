@@ -11,7 +11,8 @@ use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table,
 use crate::plan::Options;
 use crate::plot::{
     Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
-    autocorrelation_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
+    autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart,
+    chain_pulse_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
     radial_distribution_chart, shallow_water_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
@@ -57,13 +58,20 @@ pub fn redraw(
         written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
     } else {
         pictures.snapshot(files::SNAPSHOT, &state, &model)?;
-        written.push(files::SNAPSHOT);
+        if model.units.dimension > 1 {
+            written.push(files::SNAPSHOT);
+        }
     }
     Ok(written)
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 9] = [
+const ANALYSES: [(&str, &str); 14] = [
+    (files::CHAIN_PROFILES, files::CHAIN_PROFILES_PLOT),
+    (files::CHAIN_PULSE, files::CHAIN_PULSE_PLOT),
+    (files::CHAIN_CORRELATION, files::CHAIN_CORRELATION_PLOT),
+    (files::CHAIN_MEMORY, files::CHAIN_MEMORY_PLOT),
+    (files::CHAIN_EQUILIBRIUM, files::CHAIN_EQUILIBRIUM_PLOT),
     (files::CIRCULATION, files::CIRCULATION_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
@@ -125,6 +133,10 @@ impl<'a> Pictures<'a> {
         }
         let column = |name: &str| table.column(name).unwrap_or_default();
         let title = &self.scene.title;
+        if let Some((plot, chart)) = self.chain_chart(name, &table) {
+            self.chart(plot, &chart)?;
+            return Ok(true);
+        }
         let plot_of = |name: &str| ANALYSES.iter().find(|(table, _)| *table == name).map_or("", |(_, plot)| plot);
         let (plot, chart) = match name {
             files::RADIAL_DISTRIBUTION => (
@@ -154,8 +166,27 @@ impl<'a> Pictures<'a> {
         Ok(true)
     }
 
+    /// The plot of a table of harmonic chains, if it is one.
+    fn chain_chart(&self, name: &str, table: &Table) -> Option<(&'static str, Chart)> {
+        let (plot, chart): (_, fn(&str, &str, &EnergyTable) -> Chart) = match name {
+            files::CHAIN_PROFILES => (files::CHAIN_PROFILES_PLOT, chain_profile_chart),
+            files::CHAIN_PULSE => (files::CHAIN_PULSE_PLOT, chain_pulse_chart),
+            files::CHAIN_CORRELATION => (files::CHAIN_CORRELATION_PLOT, chain_correlation_chart),
+            files::CHAIN_MEMORY => (files::CHAIN_MEMORY_PLOT, chain_memory_chart),
+            files::CHAIN_EQUILIBRIUM => (files::CHAIN_EQUILIBRIUM_PLOT, chain_equilibrium_chart),
+            _ => return None,
+        };
+        let subtitle = super::chain::subtitle(name, self.scene);
+        let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
+        Some((plot, chart(&self.scene.title, &subtitle, &table)))
+    }
+
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
+        // Points on a line show nothing.
+        if units.dimension == 1 {
+            return Ok(());
+        }
         let positions: Vec<[f64; 3]> = state.positions.iter().map(|position| units.position(*position)).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
         let speed = |(momentum, species): (&[i32; 3], &u32)| {

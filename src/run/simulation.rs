@@ -1,6 +1,7 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
+use super::chain::{self, Chains};
 use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
 use super::pace::Pace;
@@ -220,6 +221,7 @@ struct Run<'a> {
     schedule: Schedule,
     energies: EnergyRecorder,
     analyses: Analyses,
+    chains: Option<Chains>,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
@@ -261,6 +263,7 @@ impl<'a> Run<'a> {
             schedule,
             energies,
             analyses: Analyses::new(scene, model, plan, &start.sections),
+            chains: chains_of(scene, model, &start.sections),
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
@@ -312,6 +315,9 @@ impl<'a> Run<'a> {
             }
             let mut sections = self.analyses.sections();
             sections.push((CONFIGURATION.to_owned(), self.energies.section()));
+            if let Some(chains) = &self.chains {
+                sections.push((chain::SECTION.to_owned(), chains.section()));
+            }
             checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
             self.saved_step = step;
             self.momentum = state.total_momentum();
@@ -323,9 +329,13 @@ impl<'a> Run<'a> {
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
+        let sample = self.schedule.chain(step);
         let last = step == self.scene.time.steps;
-        if number.is_some() || frame || last {
+        if number.is_some() || frame || sample || last {
             let state = engine.reported()?;
+            if let (true, Some(chains)) = (sample, &mut self.chains) {
+                chains.add(&state);
+            }
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
@@ -387,6 +397,9 @@ impl<'a> Run<'a> {
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
         self.analyses.conclude(self.directory, &mut summary)?;
+        if let Some(chains) = &self.chains {
+            summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
+        }
         summary.conserved_exactly = conserved(self.model);
         summary.not_conserved = not_conserved(self.model);
         // Numbers first: they are worth more than pictures if the disk is full.
@@ -396,6 +409,16 @@ impl<'a> Run<'a> {
         let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }
+}
+
+/// The samples of harmonic chains, from the start or from a checkpoint.
+fn chains_of(scene: &Scene, model: &Model, sections: &[(String, Vec<u8>)]) -> Option<Chains> {
+    let every = scene.output.chain.as_ref()?.every;
+    let mut chains = Chains::new(model.chains.clone()?, model.units, model.time_step, every);
+    if let Some((_, section)) = sections.iter().find(|(name, _)| name == chain::SECTION) {
+        chains.restore(section);
+    }
+    Some(chains)
 }
 
 /// The smoothed depth on the nodes of the mesh, right after a report.

@@ -31,6 +31,7 @@ pub fn builtin() -> &'static [Builtin] {
         "jet-instability",
         "edpd-fluid",
         "langevin-gas",
-        "gle-oscillator"
+        "gle-oscillator",
+        "harmonic-chain"
     ]
 }

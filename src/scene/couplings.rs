@@ -25,7 +25,10 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
         Interaction::Langevin(langevin) => check_langevin(scene, langevin, path, problems),
         Interaction::Bonds(bonds) => check_bonds(scene, bonds, path, problems),
         Interaction::Angles(angles) => check_angles(scene, angles, path, problems),
-        Interaction::ColouredNoise(_) | Interaction::Tether(_) | Interaction::ShallowWater(_) => {}
+        Interaction::ColouredNoise(_)
+        | Interaction::Tether(_)
+        | Interaction::HarmonicChain(_)
+        | Interaction::ShallowWater(_) => {}
     }
 }
 
@@ -86,7 +89,10 @@ fn check_numbers(scene: &Scene, problems: &mut Vec<Problem>) {
             "ties the same particles again",
             "one `tether` interaction; two springs to the same place are one of their summed stiffness",
         )),
-        Interaction::Bonds(_) | Interaction::Angles(_) | Interaction::ShallowWater(_) => None,
+        Interaction::Bonds(_)
+        | Interaction::Angles(_)
+        | Interaction::HarmonicChain(_)
+        | Interaction::ShallowWater(_) => None,
     };
     let mut seen = HashSet::new();
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -182,6 +188,7 @@ fn reason(scene: &Scene) -> String {
             Interaction::Tether(_) => "tethers",
             Interaction::Bonds(_) => "bonds",
             Interaction::Angles(_) => "angles",
+            Interaction::HarmonicChain(_) => "harmonic chains",
         };
         return format!("{what} in interactions[{index}]");
     }
@@ -199,6 +206,7 @@ fn check_groot_warren(scene: &Scene, problems: &mut Vec<Problem>) {
             Interaction::Bonds(bonds) if bonds.friction > 0.0 || matches!(bonds.bath, Bath::Memory { .. }) => {
                 "a bath on every bond"
             }
+            Interaction::HarmonicChain(_) => "chains with baths on their springs",
             _ => continue,
         };
         let found = format!("found `groot-warren` and {found} in interactions[{index}]");

@@ -8,6 +8,7 @@ mod chains;
 mod coloured_noise;
 mod couplings;
 mod error;
+pub(crate) mod harmonic_chain;
 mod load;
 mod nearest;
 mod overrides;
@@ -24,6 +25,7 @@ mod warnings;
 
 pub use builtin::{Builtin, builtin};
 pub use error::{Problem, SceneError, Warning};
+pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
 pub use load::{load, parse, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
@@ -56,7 +58,11 @@ impl Interaction {
             Self::Dpd(dpd) => dpd.bath.temperature(scene),
             Self::Langevin(langevin) => langevin.bath.temperature(scene),
             Self::Bonds(bonds) => bonds.bath.temperature(scene),
-            Self::ColouredNoise(_) | Self::Tether(_) | Self::Angles(_) | Self::ShallowWater(_) => scene,
+            Self::ColouredNoise(_)
+            | Self::Tether(_)
+            | Self::Angles(_)
+            | Self::HarmonicChain(_)
+            | Self::ShallowWater(_) => scene,
         }
     }
 }

@@ -32,7 +32,9 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    if let Some(water) = &model.shallow_water {
+    if let Some(chains) = &model.chains {
+        chains.fill(&mut state, &model.units, model.seed);
+    } else if let Some(water) = &model.shallow_water {
         set_mean_depth(&mut state.masses[..water.carriers as usize], water);
         draw_thermal_velocities(&mut state, &thermal, model, water);
         draw_bath(&mut state, model, water);

@@ -141,6 +141,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
             }
             Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
             Interaction::Dpd(dpd) => check_pairs(scene, dpd, &path, problems),
+            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
             _ => {}
         }
         super::couplings::check_interaction(scene, interaction, &path, problems);
@@ -148,6 +149,9 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     super::couplings::check_scene(scene, problems);
     if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
         super::shallow_water::check_absence(scene, problems);
+    }
+    if super::harmonic_chain::harmonic_chain(scene).is_none() {
+        super::harmonic_chain::check_absence(scene, problems);
     }
     let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {

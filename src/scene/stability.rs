@@ -8,7 +8,7 @@
 
 use super::error::{Problem, Warning};
 use super::{Bath, BondPotential, Integrator, Interaction, Scene};
-use crate::model::{BathStep, Bonds, Model};
+use crate::model::{BathStep, BondKind, Bonds, Model};
 use std::f64::consts::PI;
 
 /// B + W beyond which nothing is stable.
@@ -135,7 +135,7 @@ fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
             Some(BondPotential::Harmonic { stiffness, length: 0.0 }) => [stiffness, 0.0],
             _ => [0.0; 2],
         };
-        let all = stiffnesses(scene, step);
+        let all = stiffnesses(bonds);
         strains.extend(of_network(scene, model, bonds, step, &|kind| if line { all[kind] } else { isotropic(kind) }));
     }
     strains
@@ -145,7 +145,7 @@ fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
 fn possible(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
     let mut strains = Vec::new();
     if let Some(bonds) = &model.bonds {
-        let all = stiffnesses(scene, step);
+        let all = stiffnesses(bonds);
         strains.extend(of_network(scene, model, bonds, step, &|kind| all[kind]));
     }
     strains
@@ -216,29 +216,32 @@ fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
 }
 
 /// K and λₑ of each kind of bonds; K at rest, the least of a bond that is finitely extensible.
-fn stiffnesses(scene: &Scene, step: f64) -> Vec<[f64; 2]> {
-    let bonds = scene.interactions.iter().filter_map(|interaction| match interaction {
-        Interaction::Bonds(bonds) => Some(bonds),
-        _ => None,
-    });
-    bonds
-        .map(|bonds| {
-            let spring = match bonds.potential {
-                Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
-                None => 0.0,
-            };
-            [spring, BathStep::of(&bonds.bath, bonds.friction, step).coupling]
-        })
-        .collect()
+fn stiffnesses(bonds: &Bonds) -> Vec<[f64; 2]> {
+    let kind = |kind: &BondKind| {
+        let spring = match kind.potential {
+            Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
+            None => 0.0,
+        };
+        [spring, kind.bath.map_or(0.0, |step| step.coupling)]
+    };
+    bonds.kinds.iter().map(kind).collect()
 }
 
-fn places(scene: &Scene) -> Vec<usize> {
+/// The interaction that each kind of bonds comes from.
+fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
+    let of_chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    if let Some(place) = scene.interactions.iter().position(of_chains) {
+        return vec![place; bonds.kinds.len()];
+    }
     let is_bonds = |index: &usize| matches!(scene.interactions[*index], Interaction::Bonds(_));
     (0..scene.interactions.len()).filter(is_bonds).collect()
 }
 
 /// The species of every particle.
 fn species_of_particles(scene: &Scene, model: &Model) -> Vec<u32> {
+    if let Some(chains) = &model.chains {
+        return chains.species_of_particles();
+    }
     let mut all = Vec::new();
     for group in &scene.particles {
         let index = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
@@ -250,7 +253,7 @@ fn species_of_particles(scene: &Scene, model: &Model) -> Vec<u32> {
 /// Every bond by itself, on the reduced mass of its ends.
 fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
     let species = species_of_particles(scene, model);
-    let (stiffnesses, places) = (stiffnesses(scene, step), places(scene));
+    let (stiffnesses, places) = (stiffnesses(bonds), places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
     for bond in &bonds.bonds {
         let inverse: f64 = bond.ends.iter().map(|end| inverse_mass(model, species[*end as usize] as usize)).sum();
@@ -305,7 +308,7 @@ fn of_network(
         }
     }
     let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
-    let place = *places(scene).first()?;
+    let place = *places(scene, bonds).first()?;
     Some(Strain { sum, bath, place, what: "all bonds together".to_owned() })
 }
 

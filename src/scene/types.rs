@@ -298,6 +298,8 @@ pub enum Interaction {
     Bonds(BondsInteraction),
     /// Stiffness of chains: V = k(1 + cos θ) for each angle θ between bonds, least where the chain is straight.
     Angles(AnglesInteraction),
+    /// Harmonic chains of beads and of clusters side by side, with their particles; the only interaction of a scene.
+    HarmonicChain(super::HarmonicChainInteraction),
     /// Rotating shallow water by the Hamiltonian particle-mesh method, with a heat bath on the mesh if asked for.
     ShallowWater(ShallowWaterInteraction),
 }
@@ -720,6 +722,9 @@ pub struct Output {
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<Viscosity>,
+    /// Tables and plots of harmonic chains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<super::ChainOutput>,
     /// Normalised autocorrelations of velocities and forces, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub autocorrelations: Vec<Autocorrelation>,
