@@ -13,6 +13,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, mod
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
 use mesoscope::scene::Scene;
+use mesoscope::state::Hold;
 use support::{INTEGRATORS, PREDICTED, fluid, water};
 
 /// WebGPU's core limits.
@@ -25,6 +26,9 @@ const SAMPLERS: &[&str] = &[
     r#"output.radial_distribution={"every":10,"range":1.1}"#,
     r#"output.diffusion={"every":2,"window":8}"#,
     r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
+        {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
 ];
 
 fn plan_of(scene: &Scene, options: Options) -> Plan {
@@ -81,6 +85,7 @@ fn plans() -> &'static [(String, Plan)] {
         }
         plans.extend(water_plans());
         plans.extend(coupled_plans());
+        plans.extend(noise_plans());
         plans
     })
 }
@@ -134,6 +139,30 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                             Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
                         plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
                     }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same of coloured noise, by itself and beside another bath that draws random numbers in the same kernel.
+fn noise_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for process in ["kangaroo", "kangaroo-exponential", "short", "literal"] {
+        for space in ["space.box=[900]", "space.box=[9,7]", "space.box=[9,7,8]"] {
+            if process == "literal" && space != "space.box=[9,7]" {
+                continue;
+            }
+            for generator in ["pcg4d", "threefry2x32-20"] {
+                for others in ["", r#",{"type":"langevin","friction":1}"#, r#",{"type":"dpd","friction":4.5}"#] {
+                    let noise = format!(r#"{{"type":"coloured-noise","strength":2,"time":0.1,"process":"{process}"}}"#);
+                    let interactions = format!("interactions=[{noise}{others}]");
+                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                    let integrator = r#"integrator={"type":"cotter-reich"}"#;
+                    let changes =
+                        [r#"particles=[{"species":"A","count":200}]"#, &interactions, space, &generator, integrator];
+                    plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
                 }
             }
         }
@@ -374,6 +403,7 @@ fn workgroup_memory_stays_within_the_core_limit() {
                         stride
                             * match module.overrides[*length].name.as_deref() {
                                 Some("BINS") => 4096,
+                                Some("COUNTS") => 1024 + 3,
                                 Some("WORKGROUP") => 256,
                                 other => panic!("how large {other:?} may be is not known"),
                             }
@@ -459,6 +489,19 @@ fn host_structs_lie_as_in_the_shaders() {
                 // Coupled scenes add a row for the species by themselves.
                 let rows = if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
                 assert_eq!(bytes("coefficients"), Some(rows * 2 * 16));
+            }
+            if declared("Hold") {
+                let members = [
+                    ("force", offset_of!(Hold, force)),
+                    ("fraction", offset_of!(Hold, fraction)),
+                    ("halves", offset_of!(Hold, halves)),
+                    ("jump", offset_of!(Hold, jump)),
+                    ("", size_of::<Hold>()),
+                ];
+                for (member, expected) in members {
+                    assert_eq!(offset(shader, "Hold", member) as usize, expected, "Hold.{member}");
+                }
+                assert_eq!(bytes("holds"), Some((24 * plan.particles).max(64)));
             }
             if declared("Tracker") {
                 let stride = u64::from(offset(shader, "Tracker", ""));

@@ -8,7 +8,7 @@ struct Control {
     elapsed: u32,                // sorts since the state was uploaded
     failures: atomic<u32>,       // FAILURE_ bits
     failure_elapsed: atomic<u32>,// `elapsed` when the first of them was raised
-    failure_place: atomic<u32>,  // the first mesh node with a failure
+    failure_place: atomic<u32>,  // the first mesh node or bond with a failure
     demand: atomic<u32>,        // 1 when the neighbours of particles have to be listed again
 }
 @group(0) @binding(0) var<storage, read_write> control: Control;
@@ -19,6 +19,7 @@ const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutof
 const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than there is room for copies, or in a bin
 const FAILURE_CROWDING: u32 = 16u; // more mass around a mesh node than its integers hold
 const FAILURE_DEPTH: u32 = 32u;    // no depth left at a mesh node
+const FAILURE_BOND: u32 = 64u;     // a bond longer than its potential allows
 
 // What fails in later steps than the first failure is its consequence, and not to be told.
 fn no_failure_before() -> bool { return atomicLoad(&control.failure_elapsed) >= control.elapsed; }

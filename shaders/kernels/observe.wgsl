@@ -25,7 +25,9 @@ fn observe(slot: u32) {
     kicks[slot] = vec4<i32>(0);
     var momentum = steps_of(me.momentum) + control.closing * (kick + closing_of_hold(id));
     momentum = select(momentum, Steps(0), is_fixed(species));
-    note_force(id, kick + closing_of_hold(id));
+    begin_force();
+    add_force(momentum_word(kick + closing_of_hold(id), 0));
+    store_force(id);
     let p = Vector(momentum);
     total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
     let word = momentum_word(momentum, species);

@@ -5,6 +5,7 @@ struct Sums { kick: Steps, pairs: PairSums }
 
 fn pass_begin(me: Particle) -> Sums {
     prepare_noise();
+    begin_force();
     return Sums(Steps(0), no_pairs());
 }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
@@ -26,6 +27,8 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let momentum = steps_of(me.momentum) + control.closing * sums.kick;
     observe_motion(species_of(me), momentum, sums.pairs.virial);
     observe_configuration(sums.pairs);
+    add_force(momentum_word(sums.kick, 0));
+    store_force(me.position.w);
     // By id, for whoever wants the particles of the report.
     particles[me.position.w] = advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0));
 }

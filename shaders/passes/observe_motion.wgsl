@@ -3,6 +3,7 @@ struct Sums { impulse: Steps, virial: Sum64 }
 
 fn pass_begin(me: Particle) -> Sums {
     prepare_noise();
+    begin_force();
     return Sums(Steps(0), Sum64(0u));
 }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
@@ -14,12 +15,18 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let push = repulsion_impulse(c, contact.w);
     // Before the first step there is no relaxation to report.
     let pull = f32(control.closing) * relaxation_impulse(c, contact, root, me, other);
-    (*sums).impulse += Steps(round(pull * contact.direction));
+    let relaxation = Steps(round(pull * contact.direction));
+    (*sums).impulse += relaxation;
+    // The whole step: two half kicks and the relaxation between them.
+    add_force(momentum_word(2 * Steps(round(push * contact.direction)) + relaxation, 0));
     // The two half kicks make one whole, as does the impulse of the relaxation.
     let virial = (push + 0.5 * pull) * contact.distance * PAIR_VIRIAL;
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(virial));
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    observe_motion(species_of(me), steps_of(me.momentum) + sums.impulse, sums.virial);
+    let momentum = steps_of(me.momentum) + sums.impulse;
+    observe_motion(species_of(me), momentum, sums.virial);
+    store_momentum(me.position.w, momentum_word(momentum, species_of(me)));
+    store_force(me.position.w);
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, 5u); }

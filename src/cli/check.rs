@@ -8,8 +8,8 @@ use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
 use mesoscope::scene::{
-    self, BathRate, BathScheme, FieldQuantity, Integrator, Interaction, LaplacianSymbol, MeshBath, Scene,
-    SmoothingSolver,
+    self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, FieldQuantity, Integrator, Interaction,
+    LaplacianSymbol, MeshBath, Scene, SmoothingSolver,
 };
 
 use super::table::{aligned, bytes, grouped};
@@ -337,6 +337,43 @@ fn outputs(scene: &Scene, model: &Model) -> String {
     if let Some(trajectory) = &output.trajectory {
         rows.push(("trajectory".to_owned(), format!("a frame {}", interval(0, trajectory.every))));
     }
+    rows.extend(analyses(scene));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
     format!("\nFiles\n{}", aligned(&rows, "  "))
+}
+
+/// Files of the analyses, which are written at the end.
+fn analyses(scene: &Scene) -> Vec<(String, String)> {
+    let output = &scene.output;
+    let windows = |every: u64, window: u64| format!("windows of {} samples, {}", grouped(window), since(scene, every));
+    let mut rows = Vec::new();
+    if let Some(asked) = &output.radial_distribution {
+        rows.push(("radial_distribution", since(scene, asked.every)));
+    }
+    if let Some(asked) = &output.diffusion {
+        rows.push(("diffusion", windows(asked.every, asked.window)));
+    }
+    if let Some(asked) = &output.viscosity {
+        rows.push(("viscosity", since(scene, asked.every)));
+    }
+    for asked in &output.autocorrelations {
+        let name = match asked.quantity {
+            CorrelatedQuantity::Velocity => "velocity_autocorrelation",
+            CorrelatedQuantity::Force => "force_autocorrelation",
+        };
+        rows.push((name, windows(asked.every, asked.window)));
+    }
+    for asked in &output.histograms {
+        let name = match asked.quantity {
+            CountedQuantity::Velocity => "velocity_histogram",
+            CountedQuantity::Speed => "speed_histogram",
+            CountedQuantity::Acceleration => "acceleration_histogram",
+        };
+        rows.push((name, format!("{} bins, {}", grouped(asked.bins.into()), since(scene, asked.every))));
+    }
+    rows.into_iter().map(|(stem, when)| (format!("{stem}.csv, {stem}.png"), when)).collect()
+}
+
+fn since(scene: &Scene, every: u64) -> String {
+    format!("sampled {}", interval(scene.time.equilibration, every))
 }

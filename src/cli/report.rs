@@ -227,7 +227,14 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         let noun = if water { "pictures and arrays of each field" } else { "snapshots" };
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
-    format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
+    let momentum = if water { String::new() } else { momentum_note(&summary.not_conserved) };
+    format!("{}{note}{momentum}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
+}
+
+/// Why momentum is not conserved, if it is not: particles that exchange it in pairs lead one to expect it.
+fn momentum_note(not_conserved: &[String]) -> String {
+    let reasons = not_conserved.iter().find_map(|entry| entry.strip_prefix("total momentum: "));
+    reasons.map_or_else(String::new, |reasons| format!("  total momentum is not conserved: {reasons}\n"))
 }
 
 /// The mean of a column with its error.

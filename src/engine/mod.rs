@@ -37,7 +37,7 @@ pub struct Control {
     pub failures: u32,
     /// `elapsed` at the first failure.
     pub failure_elapsed: u32,
-    /// The first mesh node with a failure.
+    /// The first mesh node or bond with a failure.
     pub failure_place: u32,
     /// 1 when the neighbours of particles have to be listed again.
     pub demand: u32,
@@ -418,6 +418,9 @@ impl<'a> Engine<'a> {
                 format!("over a hundred times the mean mass, more than its integers hold, is around {place}")
             }
             bits if bits & 32 != 0 => format!("the depth at {}, is negative", self.node(control.failure_place)),
+            bits if bits & 64 != 0 => {
+                format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
+            }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()

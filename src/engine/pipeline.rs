@@ -39,10 +39,12 @@ pub(super) fn stage(
     buffers: &HashMap<&'static str, wgpu::Buffer>,
 ) -> Result<Stage, GpuError> {
     let linked = gpu::link(kernel.name, &kernel.modules)?;
+    // What a kernel sets for itself goes before what holds for all.
+    let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
     let constants: Vec<(&str, f64)> = kernel
         .constants
         .iter()
-        .chain(&plan.constants)
+        .chain(plan.constants.iter().filter(|(name, _)| !own(name)))
         .filter(|(name, _)| linked.overrides.iter().any(|known| known == name))
         .copied()
         .collect();

@@ -20,6 +20,12 @@ impl WindowedAverage {
         Self { lags: lags.max(1), samples: Vec::new() }
     }
 
+    /// The average of windows of `lags` samples (at least one) that were taken one after the other.
+    #[must_use]
+    pub fn of(lags: usize, samples: &[f64]) -> Self {
+        Self { lags: lags.max(1), samples: samples.to_vec() }
+    }
+
     /// Adds the sample at the next lag of the window; a full window is followed by a new one.
     pub fn push(&mut self, sample: f64) {
         self.samples.push(sample);
@@ -45,6 +51,21 @@ impl WindowedAverage {
             .filter_map(|lag| statistics::independent(&column(lag)))
             .map(|(mean, standard_error)| LagAverage { mean, standard_error })
             .collect()
+    }
+
+    /// The mean at each lag over the mean at lag 0. The error is that of the ratio to first order, in which the part that
+    /// both share drops out: at lag 0 it is zero.
+    #[must_use]
+    pub fn normalised(&self) -> Vec<LagAverage> {
+        let average = self.average();
+        let Some(first) = average.first().map(|first| first.mean) else { return average };
+        let at = |(lag, average): (usize, &LagAverage)| {
+            let mean = average.mean / first;
+            let deviations: Vec<f64> = self.windows().map(|window| (window[lag] - mean * window[0]) / first).collect();
+            let standard_error = statistics::independent(&deviations).and_then(|(_, error)| error);
+            LagAverage { mean, standard_error }
+        };
+        average.iter().enumerate().map(at).collect()
     }
 }
 
@@ -373,7 +394,7 @@ fn decay_rate(autocorrelation: &[f64], from: usize, weights_from: &[f64]) -> Opt
 }
 
 /// The jackknife's standard error from the values with one block left out each.
-fn jackknife_error(replicates: &[f64]) -> Option<f64> {
+pub(super) fn jackknife_error(replicates: &[f64]) -> Option<f64> {
     if replicates.len() < FEWEST_BLOCKS {
         return None;
     }
@@ -412,6 +433,26 @@ mod tests {
 
     fn gaussian(seed: u64, step: u64) -> f64 {
         noise::gaussian(noise::step_key(seed, 99, step))
+    }
+
+    #[test]
+    fn a_normalised_average_knows_what_numerator_and_denominator_share() {
+        let mut average = WindowedAverage::new(2);
+        // Windows of very different power, each of which falls by half.
+        for power in [1.0, 3.0, 8.0] {
+            average.push(power);
+            average.push(0.5 * power);
+        }
+        let exact = |mean| LagAverage { mean, standard_error: Some(0.0) };
+        assert_eq!(average.normalised(), [exact(1.0), exact(0.5)]);
+        average.push(4.0);
+        average.push(4.0);
+        // Ratio 10/16; deviations (y - 10/16 x)/4 of the four windows, (-1, -3, -8, 12)/32, whose mean has the error
+        // √(Σ²/12) = √(218/12)/32.
+        let found = average.normalised();
+        assert_eq!(found[1].mean, 0.625);
+        assert!((found[1].standard_error.unwrap() - (218.0_f64 / 12.0).sqrt() / 32.0).abs() < 1e-15);
+        assert!(WindowedAverage::new(2).normalised().is_empty());
     }
 
     /// A complex Ornstein-Uhlenbeck process: its autocorrelation is exp(-rate t) at every whole t.

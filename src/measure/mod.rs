@@ -3,6 +3,9 @@
 pub mod circulation;
 pub mod correlation;
 mod field;
+pub mod fit;
+pub mod harmonic_chain;
+pub mod histogram;
 mod mesh_fields;
 mod observables;
 pub mod statistics;

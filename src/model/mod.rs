@@ -3,8 +3,10 @@
 mod angles;
 mod bath;
 mod bonds;
+mod chain_trio;
 mod coloured_noise;
 mod dpd;
+mod harmonic_chain;
 mod position;
 mod shallow_water;
 mod topology;
@@ -12,13 +14,15 @@ mod topology;
 pub use angles::{Angle, Angles};
 pub use bath::BathStep;
 pub use bonds::{Bond, BondKind, Bonds};
+pub use chain_trio::{ChainTrios, Likeness, Strand};
 pub use coloured_noise::{ColouredNoise, Jump};
 pub use dpd::PairForce;
+pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 
-use crate::scene::{Distribution, Generator, Integrator, Interaction, Scene};
+use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
 
 /// A species of particles.
@@ -65,6 +69,8 @@ pub struct Model {
     pub bonds: Option<Bonds>,
     /// Angles between bonds, if they are stiff.
     pub angles: Option<Angles>,
+    /// Harmonic chains, if the scene is of them; their springs are among the bonds.
+    pub chains: Option<ChainTrios>,
     /// Shallow water on a mesh, if the scene has it; the momenta of its particles are per unit of mass.
     pub shallow_water: Option<ShallowWater>,
 }
@@ -86,6 +92,7 @@ impl Model {
         let (mut pair_force, mut shallow_water) = (None, None);
         let (mut position_bath, mut coloured_noise, mut tether) = (None, None, None);
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
+        let mut chains = None;
         for interaction in &scene.interactions {
             match interaction {
                 Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, &species, scene.temperature)),
@@ -96,6 +103,12 @@ impl Model {
                 Interaction::Tether(spring) => tether = Some(spring.stiffness),
                 Interaction::Bonds(interaction) => bonds.add(interaction, scene),
                 Interaction::Angles(interaction) => angles.add(interaction, scene),
+                Interaction::HarmonicChain(interaction) => {
+                    let trios = ChainTrios::new(interaction, scene);
+                    species.extend(trios.species());
+                    trios.add_bonds(&mut bonds, scene.time.step);
+                    chains = Some(trios);
+                }
                 Interaction::ShallowWater(water) => shallow_water = Some(ShallowWater::new(water, scene)),
             }
         }
@@ -108,7 +121,7 @@ impl Model {
         }
         let momentum = match &shallow_water {
             Some(water) => velocity_unit(scene, water),
-            None => momentum_unit(scene, &species, pair_force.as_ref()),
+            None => momentum_unit(scene, &species, pair_force.as_ref(), chains.as_ref()),
         };
         Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
@@ -125,6 +138,7 @@ impl Model {
             tether,
             bonds: (!bonds.bonds.is_empty()).then_some(bonds),
             angles: (!angles.angles.is_empty()).then_some(angles),
+            chains,
             shallow_water,
         }
     }
@@ -230,17 +244,28 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
-/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, or, in a scene without heat,
-/// that of its fastest listed particle or of a particle that has rolled down the repulsion.
-fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>) -> f64 {
+/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, that of its fastest listed
+/// particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a particle that has
+/// rolled down the repulsion.
+fn momentum_unit(
+    scene: &Scene,
+    species: &[Species],
+    pair_force: Option<&PairForce>,
+    chains: Option<&ChainTrios>,
+) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
     let hottest = baths.fold(scene.temperature, f64::max);
-    let mut scale = (heaviest * hottest).sqrt();
+    let mut scale = (heaviest * hottest).sqrt().max(chains.map_or(0.0, ChainTrios::momentum_scale));
     for group in &scene.particles {
         if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);
+        }
+    }
+    for interaction in &scene.interactions {
+        if let Interaction::ColouredNoise(noise) = interaction {
+            scale = scale.max(noise_momentum(noise, scene.time.step));
         }
     }
     if scale == 0.0
@@ -252,4 +277,11 @@ fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairFor
         scale = 1.0;
     }
     (scale.log2().ceil() - 24.0).exp2()
+}
+
+/// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
+/// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
+fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
+    let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
+    noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
 }

@@ -32,17 +32,58 @@ pub const DIFFUSION_PLOT: &str = "diffusion.png";
 pub const VISCOSITY: &str = "viscosity.csv";
 /// The plot of the autocorrelation of transverse momentum waves.
 pub const VISCOSITY_PLOT: &str = "viscosity.png";
+/// The normalised velocity autocorrelation.
+pub const VELOCITY_AUTOCORRELATION: &str = "velocity_autocorrelation.csv";
+/// The plot of the normalised velocity autocorrelation.
+pub const VELOCITY_AUTOCORRELATION_PLOT: &str = "velocity_autocorrelation.png";
+/// The normalised force autocorrelation.
+pub const FORCE_AUTOCORRELATION: &str = "force_autocorrelation.csv";
+/// The plot of the normalised force autocorrelation.
+pub const FORCE_AUTOCORRELATION_PLOT: &str = "force_autocorrelation.png";
+/// The histogram of velocities.
+pub const VELOCITY_HISTOGRAM: &str = "velocity_histogram.csv";
+/// The plot of the histogram of velocities.
+pub const VELOCITY_HISTOGRAM_PLOT: &str = "velocity_histogram.png";
+/// The histogram of speeds.
+pub const SPEED_HISTOGRAM: &str = "speed_histogram.csv";
+/// The plot of the histogram of speeds.
+pub const SPEED_HISTOGRAM_PLOT: &str = "speed_histogram.png";
+/// The histogram of accelerations.
+pub const ACCELERATION_HISTOGRAM: &str = "acceleration_histogram.csv";
+/// The plot of the histogram of accelerations.
+pub const ACCELERATION_HISTOGRAM_PLOT: &str = "acceleration_histogram.png";
 
 /// The circulations of material loops.
 pub const CIRCULATION: &str = "circulation.csv";
 /// The plot of the circulations of material loops.
 pub const CIRCULATION_PLOT: &str = "circulation.png";
 
+/// The table of pulses of harmonic chains at a few times.
+pub const CHAIN_PROFILES: &str = "chain_profiles.csv";
+/// The plot of pulses of harmonic chains at a few times.
+pub const CHAIN_PROFILES_PLOT: &str = "chain_profiles.png";
+/// The table of peak, variance and energy of the pulses of harmonic chains.
+pub const CHAIN_PULSE: &str = "chain_pulse.csv";
+/// The plot of peak, variance and energy of the pulses of harmonic chains.
+pub const CHAIN_PULSE_PLOT: &str = "chain_pulse.png";
+/// The table of the momentum autocorrelation of the clusters of harmonic chains.
+pub const CHAIN_CORRELATION: &str = "chain_correlation.csv";
+/// The plot of the momentum autocorrelation of the clusters of harmonic chains.
+pub const CHAIN_CORRELATION_PLOT: &str = "chain_correlation.png";
+/// The table of the running integral of the exact memory of clusters of a harmonic chain.
+pub const CHAIN_MEMORY: &str = "chain_memory.csv";
+/// The plot of the running integral of the exact memory of clusters of a harmonic chain.
+pub const CHAIN_MEMORY_PLOT: &str = "chain_memory.png";
+/// The table of the variances of the clusters of harmonic chains in equilibrium.
+pub const CHAIN_EQUILIBRIUM: &str = "chain_equilibrium.csv";
+/// The plot of the variances of the clusters of harmonic chains in equilibrium.
+pub const CHAIN_EQUILIBRIUM_PLOT: &str = "chain_equilibrium.png";
+
 /// What the names of pictures and arrays of fields on the mesh begin with.
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 23] = [
+pub const ALL: [&str; 43] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -56,8 +97,28 @@ pub const ALL: [&str; 23] = [
     DIFFUSION_PLOT,
     VISCOSITY,
     VISCOSITY_PLOT,
+    VELOCITY_AUTOCORRELATION,
+    VELOCITY_AUTOCORRELATION_PLOT,
+    FORCE_AUTOCORRELATION,
+    FORCE_AUTOCORRELATION_PLOT,
+    VELOCITY_HISTOGRAM,
+    VELOCITY_HISTOGRAM_PLOT,
+    SPEED_HISTOGRAM,
+    SPEED_HISTOGRAM_PLOT,
+    ACCELERATION_HISTOGRAM,
+    ACCELERATION_HISTOGRAM_PLOT,
     CIRCULATION,
     CIRCULATION_PLOT,
+    CHAIN_PROFILES,
+    CHAIN_PROFILES_PLOT,
+    CHAIN_PULSE,
+    CHAIN_PULSE_PLOT,
+    CHAIN_CORRELATION,
+    CHAIN_CORRELATION_PLOT,
+    CHAIN_MEMORY,
+    CHAIN_MEMORY_PLOT,
+    CHAIN_EQUILIBRIUM,
+    CHAIN_EQUILIBRIUM_PLOT,
     "depth.png",
     "depth.npy",
     "potential_vorticity.png",

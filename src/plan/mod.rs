@@ -1,5 +1,6 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
+pub(crate) mod analyses;
 mod couplings;
 mod grid;
 mod layout;
@@ -205,6 +206,8 @@ pub struct Plan {
     pub seed_key: [u32; 2],
     /// Time step.
     pub time_step: f64,
+    /// The force of one unit in the buffer of forces that a report leaves by id; zero where no analysis asks for them.
+    pub force_unit: f64,
     /// A time step worth trying where this one turns out to be unstable.
     pub suggested_step: f64,
     /// All kernels.

@@ -1,16 +1,15 @@
 //! The plan of a scene whose particles interact in pairs.
 
+use super::analyses::{self, Reported, SAMPLE_ROWS};
 use super::{Buffer, Contents, Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
-use crate::scene::{Diffusion, Distribution, Generator, Integrator, Output, RadialDistribution, Viscosity};
+use crate::scene::{Distribution, Generator, Integrator, Output, RadialDistribution};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
 /// virial of the conservative force, squared force, curvature.
 const OBSERVABLES: usize = 9;
-/// Rows of samples kept on the device between two readbacks.
-const SAMPLE_ROWS: u64 = 1024;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
@@ -46,6 +45,7 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
         quanta: quanta(model),
         seed_key: noise::seed_key(model.seed, noise::stream::PAIR),
         time_step: model.time_step,
+        force_unit: 0.0,
         suggested_step: 0.25 * model.time_step,
         kernels: Vec::new(),
         constants: Vec::new(),
@@ -88,17 +88,6 @@ pub(super) fn quanta(model: &Model) -> Quanta {
         velocity_squared: energy / lightest,
         bath_squared: 0.0,
     }
-}
-
-/// What distinguishes one sampler of particles from another.
-struct ParticleSampler {
-    name: &'static str,
-    module: &'static str,
-    constants: Vec<(&'static str, f64)>,
-    sums: &'static str,
-    samples: &'static str,
-    quantities: usize,
-    every: u64,
 }
 
 /// What a traversal does with the hits of the prefilter.
@@ -364,7 +353,13 @@ impl Builder<'_> {
     }
 
     fn integration(&mut self, output: &Output) {
-        let groups = if self.splits() { self.split_step() } else { self.leapfrog_step() };
+        let forces = self.forces(output);
+        let groups = if self.splits() {
+            let momenta = self.momenta(output);
+            self.split_step(forces, momenta)
+        } else {
+            self.leapfrog_step(forces)
+        };
         let record = self.kernel(Kernel {
             name: "record_observables",
             modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
@@ -394,14 +389,14 @@ impl Builder<'_> {
     }
 
     /// One pass a step. Returns the number of workgroups of the report.
-    fn leapfrog_step(&mut self) -> u32 {
+    fn leapfrog_step(&mut self, forces: &'static str) -> u32 {
         let pass = ["common/advance", "passes/leapfrog"];
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
         let report = self.traversal(
             "report",
             self.portable(),
             Masks::Unkept,
-            &["common/sum64", "common/reduce", "common/observation", "passes/observe_leapfrog"],
+            &["common/sum64", "common/reduce", "common/observation", forces, "passes/observe_leapfrog"],
         );
         self.plan.advance = vec![advance];
         self.plan.report = vec![report];
@@ -411,7 +406,7 @@ impl Builder<'_> {
 
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
-    fn split_step(&mut self) -> u32 {
+    fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
         let observe = ["common/sum64", "common/reduce", "common/observation"];
         let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
@@ -424,7 +419,7 @@ impl Builder<'_> {
             "report_motion",
             Traversal::Rows,
             Masks::Unkept,
-            &[&observe[..], &["passes/observe_motion"]].concat(),
+            &[&observe[..], &[forces, momenta, "passes/observe_motion"]].concat(),
         );
         let configuration = self.traversal(
             "report_configuration",
@@ -432,7 +427,7 @@ impl Builder<'_> {
             Masks::Unkept,
             &[&observe[..], &["passes/observe_configuration"]].concat(),
         );
-        let coefficients = if self.single() { "common/coefficients_single" } else { "common/coefficients_table" };
+        let coefficients = self.coefficients();
         let rest = self.simple(
             "drift_rest",
             &["common/drift_halves", coefficients, "kernels/drift_rest"],
@@ -465,12 +460,45 @@ impl Builder<'_> {
         if let Some(asked) = &output.radial_distribution {
             self.radial_distribution(asked);
         }
-        if let Some(asked) = &output.diffusion {
-            self.diffusion(asked);
+        let reported = Reported {
+            model: self.model,
+            equilibration: self.equilibration,
+            workgroup: self.workgroup_size(),
+            space: space(&self.model.units, self.predicted()),
+            coefficients: self.coefficients(),
+            particles: "particles",
+            // The particles of a split step's report are half a drift later, and have been kicked for it.
+            momenta: self.splits().then_some("reported_momenta"),
+            forces: "reported_forces",
+            force_unit: self.plan.force_unit,
+        };
+        analyses::add(&mut self.plan, &reported, output);
+    }
+
+    /// The module of coefficients.
+    fn coefficients(&self) -> &'static str {
+        if self.single() { "common/coefficients_single" } else { "common/coefficients_table" }
+    }
+
+    /// The module that keeps the momenta of a split step's report, or does not.
+    fn momenta(&mut self, output: &Output) -> &'static str {
+        if !analyses::needs_velocities(output) {
+            return "common/momentum_off";
         }
-        if let Some(asked) = &output.viscosity {
-            self.viscosity(asked);
+        self.buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
+        "common/momentum_on"
+    }
+
+    /// The module that keeps the forces of a report, or does not.
+    fn forces(&mut self, output: &Output) -> &'static str {
+        if !analyses::needs_forces(output) {
+            return "common/force_off";
         }
+        // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
+        let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
+        self.plan.force_unit = self.model.units.momentum / time;
+        self.buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
+        "common/force_on"
     }
 
     fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
@@ -529,76 +557,6 @@ impl Builder<'_> {
             capacity,
             // Where a report moves the particles on, distances are counted there too.
             needs_report: self.splits(),
-        });
-    }
-
-    /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
-    fn particle_sampler(&mut self, sampler: ParticleSampler) {
-        let groups = self.particles.div_ceil(self.workgroup_size()).max(1);
-        let mut modules = space(&self.model.units, self.predicted());
-        modules.extend(["common/sum64", "common/reduce"]);
-        modules.push(if self.single() { "common/coefficients_single" } else { "common/coefficients_table" });
-        modules.push(sampler.module);
-        let sums = self.kernel(Kernel {
-            name: sampler.name,
-            modules,
-            workgroups: groups as u32,
-            demand: None,
-            constants: sampler.constants,
-            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
-        });
-        let record = self.kernel(Kernel {
-            name: "record_sample",
-            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
-            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
-        });
-        self.buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
-        let row = 8 * (1 + sampler.quantities as u64);
-        self.buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
-        self.plan.samplers.push(Sampler {
-            name: sampler.name,
-            first: self.equilibration,
-            every: sampler.every,
-            kernels: vec![sums, record],
-            samples: sampler.samples,
-            quantities: sampler.quantities,
-            capacity: SAMPLE_ROWS,
-            needs_report: true,
-        });
-    }
-
-    fn diffusion(&mut self, asked: &Diffusion) {
-        let units = self.model.units;
-        let quanta = self.plan.quanta;
-        self.buffer("trackers", "each particle's way since the window began", 64 * self.particles);
-        self.particle_sampler(ParticleSampler {
-            name: "diffusion",
-            module: "kernels/track",
-            constants: vec![
-                ("WINDOW", asked.window as f64),
-                ("DISPLACEMENT", 1.0 / quanta.length_squared),
-                ("VELOCITY", units.momentum * units.momentum / quanta.velocity_squared),
-            ],
-            sums: "diffusion_sums",
-            samples: "diffusion_samples",
-            quantities: 2,
-            every: asked.every,
-        });
-    }
-
-    fn viscosity(&mut self, asked: &Viscosity) {
-        let dimension = self.grid.dimension;
-        self.particle_sampler(ParticleSampler {
-            name: "viscosity",
-            module: "kernels/transverse_modes",
-            constants: Vec::new(),
-            sums: "mode_sums",
-            samples: "mode_samples",
-            quantities: 2 * dimension * (dimension - 1),
-            every: asked.every,
         });
     }
 

@@ -88,6 +88,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
         quanta: quanta(model, water),
         seed_key: noise::seed_key(model.seed, noise::stream::MESH),
         time_step: model.time_step,
+        force_unit: 0.0,
         suggested_step: water
             .advisable_step([model.units.lengths[0], model.units.lengths[1]], model.time_step)
             .min(0.25 * model.time_step),

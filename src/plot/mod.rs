@@ -19,6 +19,7 @@
 //! ```
 
 mod canvas;
+mod chain_charts;
 mod chart;
 mod chart_layout;
 mod color_map;
@@ -35,6 +36,9 @@ mod series_path;
 mod text;
 mod ticks;
 
+pub use chain_charts::{
+    chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
+};
 pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
 pub use color_map::ColorMap;
 pub use error::PlotError;
@@ -42,7 +46,8 @@ pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use overlay::{Curve, overlay_chart, quantity_label};
 pub use particles::ParticlePicture;
 pub use presets::{
-    EnergyTable, circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+    EnergyTable, autocorrelation_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
+    radial_distribution_chart, shallow_water_chart,
 };
 pub use renderer::Plotter;
 

@@ -1,6 +1,6 @@
 //! The charts a run writes, made from its tables.
 
-use super::chart::{Axis, Chart, Panel, Series};
+use super::chart::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
 use super::ticks::{grouped, short_number};
 
 /// The table of energies: one row per sample.
@@ -158,8 +158,74 @@ pub fn correlation_chart(title: &str, lags: &[f64], displacement: &[f64], autoco
     chart
 }
 
+/// A normalised autocorrelation of a `quantity` over the lag, with its errors and the curve fitted to it, of which an
+/// empty list leaves the curve out.
+#[must_use]
+pub fn autocorrelation_chart(
+    title: &str,
+    quantity: &str,
+    lags: &[f64],
+    values: &[f64],
+    errors: &[f64],
+    fit: &[f64],
+) -> Chart {
+    let points = |values: &[f64]| lags.iter().zip(values).map(|(lag, value)| [*lag, *value]).collect::<Vec<_>>();
+    let mut panel = Panel::new("Lag (time units)", &format!("Normalised {quantity} autocorrelation"));
+    let name = if fit.is_empty() { "autocorrelation" } else { "measured" };
+    let few = lags.len() <= MOST_MARKERS;
+    let measured = if few {
+        Series::markers(name, points(values))
+    } else {
+        Series { style: SeriesStyle::Band, ..Series::line(name, points(values)) }
+    };
+    let known = errors.iter().any(|error| error.is_finite());
+    panel.series.push(if known { measured.with_errors(errors.to_vec()) } else { measured });
+    if !fit.is_empty() {
+        // Over separate points; under a line, which it would hide.
+        let ink = SeriesInk::Ink { pattern: usize::from(!few) };
+        panel.series.insert(usize::from(!few), Series::line("fit", points(fit)).with_ink(ink));
+    }
+    panel = panel.with_reference("zero", 0.0);
+    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
+}
+
+/// With more points than this, markers and their error bars would run into each other.
+const MOST_MARKERS: usize = 60;
+
+/// A histogram as a probability density of a `quantity`, in steps from `edges[k]` to `edges[k + 1]`, with a density to
+/// compare it with, given by name as points.
+#[must_use]
+pub fn histogram_chart(
+    title: &str,
+    quantity: &str,
+    edges: &[f64],
+    densities: &[f64],
+    (name, compared): (&str, &[[f64; 2]]),
+) -> Chart {
+    let unit = if quantity == "acceleration" { "length units per time unit²" } else { "length units per time unit" };
+    let mut panel = Panel::new(&format!("{} ({unit})", capitalised(quantity)), "Probability density");
+    let steps = edges.windows(2).zip(densities).flat_map(|(edge, density)| edge.iter().map(|x| [*x, *density]));
+    panel.series.push(Series::line("histogram", steps.collect()));
+    panel.series.push(Series::line(name, compared.to_vec()).with_ink(SeriesInk::Ink { pattern: 1 }));
+    let heights = densities.iter().copied().chain(compared.iter().map(|point| point[1]));
+    let highest = heights.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    if highest > 0.0 {
+        panel.y.range = Some([0.0, 1.08 * highest]);
+    }
+    if let (Some(first), Some(last)) = (edges.first(), edges.last()) {
+        panel.x.range = Some([*first, *last]);
+    }
+    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
+}
+
+fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::panic)]
     use super::*;
 
     fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
@@ -199,5 +265,28 @@ mod tests {
         let chart = correlation_chart("a run", &[0.0, 1.0], &[0.0, 2.0], &[3.0, 0.1]);
         assert_eq!(chart.panels[0].series[0].points, [[1.0, 2.0]]);
         assert_eq!(chart.panels[1].series[0].points.len(), 2);
+    }
+
+    #[test]
+    fn a_fit_is_a_line_over_points_with_errors() {
+        let chart = autocorrelation_chart("a run", "velocity", &[0.0, 1.0], &[1.0, 0.5], &[0.0, 0.1], &[1.0, 0.6]);
+        let [fit, measured] = &chart.panels[0].series[..] else { panic!("two series") };
+        assert_eq!((fit.style, fit.points[1], &fit.errors), (SeriesStyle::Line, [1.0, 0.6], &None));
+        assert_eq!((measured.style, measured.points[1]), (SeriesStyle::Markers, [1.0, 0.5]));
+        assert_eq!(measured.errors, Some(vec![0.0, 0.1]));
+        let lone = autocorrelation_chart("a run", "force", &[0.0, 1.0], &[1.0, 0.5], &[f64::NAN; 2], &[]);
+        assert_eq!((lone.panels[0].series.len(), &lone.panels[0].series[0].errors), (1, &None));
+        let long = autocorrelation_chart("a run", "force", &[0.0; 100], &[1.0; 100], &[0.1; 100], &[]);
+        assert_eq!(long.panels[0].series[0].style, SeriesStyle::Band);
+    }
+
+    #[test]
+    fn a_histogram_is_drawn_in_steps_from_edge_to_edge() {
+        let compared: (&str, &[[f64; 2]]) = ("gaussian", &[[0.0, 0.6]]);
+        let chart = histogram_chart("a run", "velocity", &[-1.0, 0.0, 1.0], &[0.25, 0.75], compared);
+        let panel = &chart.panels[0];
+        assert_eq!(panel.series[0].points, [[-1.0, 0.25], [0.0, 0.25], [0.0, 0.75], [1.0, 0.75]]);
+        assert_eq!((panel.x.range, panel.series[1].points.len()), (Some([-1.0, 1.0]), 1));
+        assert!(panel.x.label.starts_with("Velocity"));
     }
 }

@@ -19,7 +19,9 @@
 //! ```
 
 mod analyses;
+mod chain;
 mod circulations;
+mod conservation;
 mod energies;
 mod error;
 mod pace;

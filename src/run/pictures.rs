@@ -11,7 +11,9 @@ use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table,
 use crate::plan::Options;
 use crate::plot::{
     Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
-    circulation_chart, correlation_chart, energies_chart, radial_distribution_chart, shallow_water_chart,
+    autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart,
+    chain_pulse_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
+    radial_distribution_chart, shallow_water_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
@@ -56,17 +58,29 @@ pub fn redraw(
         written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
     } else {
         pictures.snapshot(files::SNAPSHOT, &state, &model)?;
-        written.push(files::SNAPSHOT);
+        if model.units.dimension > 1 {
+            written.push(files::SNAPSHOT);
+        }
     }
     Ok(written)
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 4] = [
+const ANALYSES: [(&str, &str); 14] = [
+    (files::CHAIN_PROFILES, files::CHAIN_PROFILES_PLOT),
+    (files::CHAIN_PULSE, files::CHAIN_PULSE_PLOT),
+    (files::CHAIN_CORRELATION, files::CHAIN_CORRELATION_PLOT),
+    (files::CHAIN_MEMORY, files::CHAIN_MEMORY_PLOT),
+    (files::CHAIN_EQUILIBRIUM, files::CHAIN_EQUILIBRIUM_PLOT),
     (files::CIRCULATION, files::CIRCULATION_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
     (files::VISCOSITY, files::VISCOSITY_PLOT),
+    (files::VELOCITY_AUTOCORRELATION, files::VELOCITY_AUTOCORRELATION_PLOT),
+    (files::FORCE_AUTOCORRELATION, files::FORCE_AUTOCORRELATION_PLOT),
+    (files::VELOCITY_HISTOGRAM, files::VELOCITY_HISTOGRAM_PLOT),
+    (files::SPEED_HISTOGRAM, files::SPEED_HISTOGRAM_PLOT),
+    (files::ACCELERATION_HISTOGRAM, files::ACCELERATION_HISTOGRAM_PLOT),
 ];
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
@@ -119,6 +133,11 @@ impl<'a> Pictures<'a> {
         }
         let column = |name: &str| table.column(name).unwrap_or_default();
         let title = &self.scene.title;
+        if let Some((plot, chart)) = self.chain_chart(name, &table) {
+            self.chart(plot, &chart)?;
+            return Ok(true);
+        }
+        let plot_of = |name: &str| ANALYSES.iter().find(|(table, _)| *table == name).map_or("", |(_, plot)| plot);
         let (plot, chart) = match name {
             files::RADIAL_DISTRIBUTION => (
                 files::RADIAL_DISTRIBUTION_PLOT,
@@ -132,14 +151,42 @@ impl<'a> Pictures<'a> {
                 let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
                 (files::CIRCULATION_PLOT, circulation_chart(title, &table))
             }
+            files::VELOCITY_AUTOCORRELATION | files::FORCE_AUTOCORRELATION => {
+                let quantity = if name == files::FORCE_AUTOCORRELATION { "force" } else { "velocity" };
+                let [lags, values, errors, fit] =
+                    ["time", "autocorrelation", "autocorrelation_error", "fit"].map(column);
+                (plot_of(name), autocorrelation_chart(title, quantity, &lags, &values, &errors, &fit))
+            }
+            files::VELOCITY_HISTOGRAM | files::SPEED_HISTOGRAM | files::ACCELERATION_HISTOGRAM => {
+                (plot_of(name), density_chart(title, &table))
+            }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
         self.chart(plot, &chart)?;
         Ok(true)
     }
 
+    /// The plot of a table of harmonic chains, if it is one.
+    fn chain_chart(&self, name: &str, table: &Table) -> Option<(&'static str, Chart)> {
+        let (plot, chart): (_, fn(&str, &str, &EnergyTable) -> Chart) = match name {
+            files::CHAIN_PROFILES => (files::CHAIN_PROFILES_PLOT, chain_profile_chart),
+            files::CHAIN_PULSE => (files::CHAIN_PULSE_PLOT, chain_pulse_chart),
+            files::CHAIN_CORRELATION => (files::CHAIN_CORRELATION_PLOT, chain_correlation_chart),
+            files::CHAIN_MEMORY => (files::CHAIN_MEMORY_PLOT, chain_memory_chart),
+            files::CHAIN_EQUILIBRIUM => (files::CHAIN_EQUILIBRIUM_PLOT, chain_equilibrium_chart),
+            _ => return None,
+        };
+        let subtitle = super::chain::subtitle(name, self.scene);
+        let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
+        Some((plot, chart(&self.scene.title, &subtitle, &table)))
+    }
+
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
+        // Points on a line show nothing.
+        if units.dimension == 1 {
+            return Ok(());
+        }
         let positions: Vec<[f64; 3]> = state.positions.iter().map(|position| units.position(*position)).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
         let speed = |(momentum, species): (&[i32; 3], &u32)| {
@@ -269,6 +316,27 @@ fn radius(model: &Model) -> f64 {
 /// A time without the noise digits of a product: `0.3`, not `0.30000000000000004`.
 fn rounded(time: f64) -> f64 {
     format!("{time:.12e}").parse().unwrap_or(time)
+}
+
+/// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
+fn density_chart(title: &str, table: &Table) -> Chart {
+    let column = |index: usize| table.rows.iter().map(move |row| row.get(index).copied().unwrap_or(f64::NAN));
+    let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
+    let centres: Vec<f64> = column(0).collect();
+    // A single bin does not tell its width, but its density does.
+    let width = match centres.as_slice() {
+        [first, .., last] => (last - first) / (centres.len() - 1) as f64,
+        _ => 1.0 / column(1).sum::<f64>(),
+    };
+    let first = centres.first().map_or(0.0, |first| first - 0.5 * width);
+    let edges: Vec<f64> = (0..=centres.len()).map(|edge| first + edge as f64 * width).collect();
+    let compared: Vec<[f64; 2]> = centres.iter().zip(column(3)).map(|(centre, density)| [*centre, density]).collect();
+    let densities: Vec<f64> = column(1).collect();
+    let label = match name(3) {
+        "maxwell" => "Maxwell's density",
+        _ => "Gaussian of the same variance",
+    };
+    histogram_chart(title, name(0), &edges, &densities, (label, &compared))
 }
 
 /// Autocorrelations of the transverse waves; on a logarithmic axis a viscous decay is a straight line.

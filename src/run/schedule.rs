@@ -9,6 +9,7 @@ pub(super) struct Schedule {
     checkpoint: u64,
     snapshot: Option<u64>,
     frame: Option<u64>,
+    chain: Option<u64>,
 }
 
 impl Schedule {
@@ -23,13 +24,15 @@ impl Schedule {
             checkpoint: output.checkpoint.every.max(1),
             snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
+            chain: output.chain.as_ref().map(|chain| chain.every.max(1)),
         }
     }
 
     /// The first event after a step.
     pub(super) fn next(&self, step: u64) -> u64 {
         let after = |every: u64| (step / every + 1).saturating_mul(every);
-        [Some(self.checkpoint), self.snapshot, self.frame].into_iter().flatten().map(after).fold(self.last, u64::min)
+        let events = [Some(self.checkpoint), self.snapshot, self.frame, self.chain];
+        events.into_iter().flatten().map(after).fold(self.last, u64::min)
     }
 
     /// Whether to save a checkpoint; the start and the end always are.
@@ -47,6 +50,11 @@ impl Schedule {
         self.snapshot.map_or(0, |every| step.div_ceil(every))
     }
 
+    /// Whether to take a sample of harmonic chains.
+    pub(super) fn chain(&self, step: u64) -> bool {
+        self.chain.is_some_and(|every| step.is_multiple_of(every))
+    }
+
     /// Whether to add a frame to the trajectory.
     pub(super) fn frame(&self, step: u64) -> bool {
         self.frame.is_some_and(|every| step.is_multiple_of(every))
@@ -57,7 +65,7 @@ impl Schedule {
 mod tests {
     use super::*;
 
-    const SCHEDULE: Schedule = Schedule { last: 100, checkpoint: 40, snapshot: Some(30), frame: None };
+    const SCHEDULE: Schedule = Schedule { last: 100, checkpoint: 40, snapshot: Some(30), frame: None, chain: None };
 
     #[test]
     fn events_come_in_order_and_end_with_the_run() {

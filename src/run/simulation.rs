@@ -1,6 +1,8 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
+use super::chain::{self, Chains};
+use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
 use super::pace::Pace;
 use super::pictures::Pictures;
@@ -13,7 +15,7 @@ use crate::model::{Model, ShallowWater};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
-use crate::scene::{self, Integrator, Scene, TrajectoryFormat, placement};
+use crate::scene::{self, Scene, TrajectoryFormat, placement};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -174,11 +176,12 @@ impl Task {
         }
         observer(Event::Finishing);
         let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
-        if start.state.step > 0 && run.analyses.restarts_windows() {
+        if start.state.step > 0 {
             let step = start.state.step;
-            warnings.push(format!(
-                "went on from a checkpoint at step {step}: a window of `output.diffusion` open there is left out"
-            ));
+            let warning = |name: String| {
+                format!("went on from a checkpoint at step {step}: a window of `{name}` open there is left out")
+            };
+            warnings.extend(run.analyses.restarts_windows().into_iter().map(warning));
         }
         if self.model.conserves_momentum() && run.momentum != self.momentum {
             warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
@@ -218,6 +221,7 @@ struct Run<'a> {
     schedule: Schedule,
     energies: EnergyRecorder,
     analyses: Analyses,
+    chains: Option<Chains>,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
@@ -259,6 +263,7 @@ impl<'a> Run<'a> {
             schedule,
             energies,
             analyses: Analyses::new(scene, model, plan, &start.sections),
+            chains: chains_of(scene, model, &start.sections),
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
@@ -310,6 +315,9 @@ impl<'a> Run<'a> {
             }
             let mut sections = self.analyses.sections();
             sections.push((CONFIGURATION.to_owned(), self.energies.section()));
+            if let Some(chains) = &self.chains {
+                sections.push((chain::SECTION.to_owned(), chains.section()));
+            }
             checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
             self.saved_step = step;
             self.momentum = state.total_momentum();
@@ -321,9 +329,13 @@ impl<'a> Run<'a> {
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
+        let sample = self.schedule.chain(step);
         let last = step == self.scene.time.steps;
-        if number.is_some() || frame || last {
+        if number.is_some() || frame || sample || last {
             let state = engine.reported()?;
+            if let (true, Some(chains)) = (sample, &mut self.chains) {
+                chains.add(&state);
+            }
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
@@ -385,8 +397,11 @@ impl<'a> Run<'a> {
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
         self.analyses.conclude(self.directory, &mut summary)?;
-        summary.conserved_exactly = conserved(self.model).map(str::to_owned).to_vec();
-        summary.not_conserved = not_conserved(self.model).into_iter().map(str::to_owned).collect();
+        if let Some(chains) = &self.chains {
+            summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
+        }
+        summary.conserved_exactly = conserved(self.model);
+        summary.not_conserved = not_conserved(self.model);
         // Numbers first: they are worth more than pictures if the disk is full.
         summary.save(&self.directory.file(files::SUMMARY))?;
         self.pictures.energies(&self.energies.table(), self.model)?;
@@ -394,6 +409,16 @@ impl<'a> Run<'a> {
         let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }
+}
+
+/// The samples of harmonic chains, from the start or from a checkpoint.
+fn chains_of(scene: &Scene, model: &Model, sections: &[(String, Vec<u8>)]) -> Option<Chains> {
+    let every = scene.output.chain.as_ref()?.every;
+    let mut chains = Chains::new(model.chains.clone()?, model.units, model.time_step, every);
+    if let Some((_, section)) = sections.iter().find(|(name, _)| name == chain::SECTION) {
+        chains.restore(section);
+    }
+    Some(chains)
 }
 
 /// The smoothed depth on the nodes of the mesh, right after a report.
@@ -410,32 +435,4 @@ fn trajectory_name(format: TrajectoryFormat) -> &'static str {
         TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
         TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
     }
-}
-
-fn conserved(model: &Model) -> [&'static str; 2] {
-    match (&model.shallow_water, &model.integrator) {
-        (None, _) => ["mass", "total momentum, to the last bit"],
-        (Some(_), Integrator::Rotate {}) => ["mass", "mass on the mesh, to the last bit"],
-        (Some(_), _) => ["mass on the mesh, to the last bit", "the circulation of material loops, to rounding"],
-    }
-}
-
-fn not_conserved(model: &Model) -> Vec<&'static str> {
-    let thermal = model.temperature > 0.0;
-    let Some(water) = &model.shallow_water else {
-        let frictional = model.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0);
-        return vec![if !frictional {
-            "total energy: only as well as the time step integrates the forces"
-        } else if thermal {
-            "total energy: exchanged with the heat bath"
-        } else {
-            "total energy: taken away by friction"
-        }];
-    };
-    let energy = if water.bath.is_some() {
-        "total energy: exchanged with the bath on the mesh, which also slows a uniform flow down"
-    } else {
-        "total energy: only as well as the time step integrates the forces"
-    };
-    vec![energy, "total momentum: the mesh is fixed in space, and a rotation turns it"]
 }

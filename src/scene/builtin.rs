@@ -24,12 +24,14 @@ pub fn builtin() -> &'static [Builtin] {
         "dpd-fluid-2d",
         "binary-mixture",
         "ideal-dissipative-gas",
+        "coloured-noise",
         "shallow-water",
         "shallow-water-memory",
         "shallow-water-equilibrium",
         "jet-instability",
         "edpd-fluid",
         "langevin-gas",
-        "gle-oscillator"
+        "gle-oscillator",
+        "harmonic-chain"
     ]
 }

@@ -90,12 +90,15 @@ fn default_integrator(document: &mut Value) {
     let interactions = document["interactions"].as_array().map(Vec::as_slice).unwrap_or_default();
     let coupled = |interaction: &Value| match interaction["type"].as_str() {
         Some("dpd") => interaction["bath"]["type"] == "memory",
-        Some("langevin" | "coloured-noise" | "tether" | "bonds" | "angles") => true,
+        Some("langevin" | "coloured-noise" | "tether" | "bonds" | "angles" | "harmonic-chain") => true,
         _ => false,
     };
+    let line = document["space"]["box"].as_array().is_some_and(|edges| edges.len() == 1);
+    let mut groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default().iter();
+    let held = groups.any(|group| group["fixed"] == true);
     let integrator = if interactions.iter().any(|interaction| interaction["type"] == "shallow-water") {
         "gyro"
-    } else if interactions.iter().any(coupled) {
+    } else if line || held || interactions.iter().any(coupled) {
         "cotter-reich"
     } else {
         return;

@@ -4,7 +4,11 @@
 //! reads it into a [`Scene`] and checks what a schema cannot say. Mistakes are reported all at once.
 
 mod builtin;
+mod chains;
+mod coloured_noise;
+mod couplings;
 mod error;
+pub(crate) mod harmonic_chain;
 mod load;
 mod nearest;
 mod overrides;
@@ -13,6 +17,7 @@ pub mod placement;
 mod semantics;
 mod shallow_water;
 mod shape;
+mod stability;
 pub mod surface;
 mod text;
 mod types;
@@ -20,6 +25,7 @@ mod warnings;
 
 pub use builtin::{Builtin, builtin};
 pub use error::{Problem, SceneError, Warning};
+pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
 pub use load::{load, parse, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
@@ -52,7 +58,11 @@ impl Interaction {
             Self::Dpd(dpd) => dpd.bath.temperature(scene),
             Self::Langevin(langevin) => langevin.bath.temperature(scene),
             Self::Bonds(bonds) => bonds.bath.temperature(scene),
-            Self::ColouredNoise(_) | Self::Tether(_) | Self::Angles(_) | Self::ShallowWater(_) => scene,
+            Self::ColouredNoise(_)
+            | Self::Tether(_)
+            | Self::Angles(_)
+            | Self::HarmonicChain(_)
+            | Self::ShallowWater(_) => scene,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Where the particles of a scene start, and how fast.
 
+use super::chains;
 use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
 use crate::model::{Model, ShallowWater};
 use crate::noise::{self, stream};
@@ -31,7 +32,9 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    if let Some(water) = &model.shallow_water {
+    if let Some(chains) = &model.chains {
+        chains.fill(&mut state, &model.units, model.seed);
+    } else if let Some(water) = &model.shallow_water {
         set_mean_depth(&mut state.masses[..water.carriers as usize], water);
         draw_thermal_velocities(&mut state, &thermal, model, water);
         draw_bath(&mut state, model, water);
@@ -141,14 +144,12 @@ fn draw_bath(state: &mut State, model: &Model, water: &ShallowWater) {
 fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, shift: f64) {
     let dimension = model.units.dimension;
     let first = state.len();
+    if let (Some(chain), Placement::Random | Placement::Lattice) = (&group.chain, &group.placement) {
+        return chains::place(state, group, chain, count, model, shift);
+    }
     match &group.placement {
         Placement::Random => {
-            let key = noise::step_key(model.seed, stream::POSITION, 0);
-            state.positions.extend((first..first + count).map(|id| {
-                let [x, y] = noise::words(Generator::Threefry2x32, key, [id as u32, 0]);
-                let [z, _] = noise::words(Generator::Threefry2x32, key, [id as u32, 1]);
-                if dimension == 3 { [x, y, z] } else { [x, y, 0] }
-            }));
+            state.positions.extend((first..first + count).map(|id| random_position(id, model)));
         }
         Placement::Lattice => {
             let sites = lattice_sites(count as u64, &model.units.lengths[..dimension]);
@@ -182,8 +183,17 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
     }
 }
 
+/// A random place in the box.
+pub(super) fn random_position(id: usize, model: &Model) -> [u32; 3] {
+    let key = noise::step_key(model.seed, stream::POSITION, 0);
+    let [x, y] = noise::words(Generator::Threefry2x32, key, [id as u32, 0]);
+    let [z, _] = noise::words(Generator::Threefry2x32, key, [id as u32, 1]);
+    let words = [x, y, z];
+    std::array::from_fn(|axis| if axis < model.units.dimension { words[axis] } else { 0 })
+}
+
 /// The numbers of lattice sites along each axis: the axis with the widest spacing is refined until all fit.
-fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
+pub(super) fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
     let mut sites = [1_u64; 3];
     while sites.iter().map(|sites| u128::from(*sites)).product::<u128>() < u128::from(count) {
         let mut widest = 0;

@@ -4,7 +4,9 @@ use std::collections::HashMap;
 
 use super::error::Problem;
 use super::nearest::nearest;
-use super::{DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities};
+use super::{
+    CorrelatedQuantity, CountedQuantity, DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities,
+};
 
 /// Bytes of device memory that a run needs for each particle, as an upper bound.
 pub const BYTES_PER_PARTICLE: u64 = 100;
@@ -19,6 +21,10 @@ pub(super) fn check(scene: &Scene) -> Vec<Problem> {
     check_number_of_particles(scene, &mut problems);
     check_interactions(scene, &mut problems);
     check_durations(scene, &mut problems);
+    // What follows from a model or a start needs a scene that makes sense.
+    if problems.is_empty() {
+        super::couplings::check_motion(scene, &mut problems);
+    }
     problems
 }
 
@@ -128,28 +134,24 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
         match interaction {
-            Interaction::Dpd(dpd) => {
-                if index > 0 {
-                    let found = "a second `dpd` interaction defines the same pairs of species again";
-                    let accepted = "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`";
-                    problems.push(Problem::new(&path, found, accepted));
-                }
-                check_pairs(scene, dpd, &path, problems);
-            }
-            Interaction::Langevin(_)
-            | Interaction::ColouredNoise(_)
-            | Interaction::Tether(_)
-            | Interaction::Bonds(_)
-            | Interaction::Angles(_) => {}
+            Interaction::ColouredNoise(noise) => super::coloured_noise::check(scene, noise, &path, problems),
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
             }
             Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
+            Interaction::Dpd(dpd) => check_pairs(scene, dpd, &path, problems),
+            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
+            _ => {}
         }
+        super::couplings::check_interaction(scene, interaction, &path, problems);
     }
+    super::couplings::check_scene(scene, problems);
     if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
         super::shallow_water::check_absence(scene, problems);
+    }
+    if super::harmonic_chain::harmonic_chain(scene).is_none() {
+        super::harmonic_chain::check_absence(scene, problems);
     }
     let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
@@ -198,31 +200,77 @@ fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
         let accepted = format!("at most {}, the number of steps", time.steps);
         problems.push(Problem::new("time.equilibration", format!("found {}", time.equilibration), accepted));
     }
-    let measured = time.steps.saturating_sub(time.equilibration);
+    check_windows(scene, problems);
+    check_analyses(scene, problems);
     let output = &scene.output;
-    let windows = [
-        ("diffusion", output.diffusion.as_ref().map(|diffusion| (diffusion.every, diffusion.window))),
-        ("viscosity", output.viscosity.as_ref().map(|viscosity| (viscosity.every, viscosity.window))),
-    ];
-    for (name, asked) in windows {
-        let Some((every, window)) = asked else { continue };
-        let needed = u128::from(every) * u128::from(window);
-        if needed > u128::from(measured) {
-            let found = format!("found {window} samples of {every} steps, {needed} steps in all");
-            let most = measured / every.max(1);
-            let accepted = format!(
-                "at most {most} samples within the {measured} steps after equilibration; or let time.steps be at least {}",
-                needed + u128::from(time.equilibration)
-            );
-            problems.push(Problem::new(format!("output.{name}.window"), found, accepted));
-        }
-    }
     if let Some(radial) = &output.radial_distribution {
         let half = scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0;
         if radial.range > half {
             let accepted = format!("at most {half}, half the shortest box edge");
             let found = format!("found {}", radial.range);
             problems.push(Problem::new("output.radial_distribution.range", found, accepted));
+        }
+    }
+}
+
+/// A window that the run ends before gives no result.
+fn check_windows(scene: &Scene, problems: &mut Vec<Problem>) {
+    let measured = scene.time.steps.saturating_sub(scene.time.equilibration);
+    let output = &scene.output;
+    let diffusion = output.diffusion.iter().map(|asked| ("diffusion".to_owned(), asked.every, asked.window));
+    let viscosity = output.viscosity.iter().map(|asked| ("viscosity".to_owned(), asked.every, asked.window));
+    let autocorrelations = output.autocorrelations.iter().enumerate();
+    let autocorrelations =
+        autocorrelations.map(|(index, asked)| (format!("autocorrelations[{index}]"), asked.every, asked.window));
+    for (name, every, window) in diffusion.chain(viscosity).chain(autocorrelations) {
+        let needed = u128::from(every) * u128::from(window);
+        if needed > u128::from(measured) {
+            let found = format!("found {window} samples of {every} steps, {needed} steps in all");
+            let most = measured / every.max(1);
+            let accepted = format!(
+                "at most {most} samples within the {measured} steps after equilibration; or let time.steps be at least {}",
+                needed + u128::from(scene.time.equilibration)
+            );
+            problems.push(Problem::new(format!("output.{name}.window"), found, accepted));
+        }
+    }
+}
+
+/// Every quantity has one table and one plot; only velocities have a frame, and only components an axis.
+fn check_analyses(scene: &Scene, problems: &mut Vec<Problem>) {
+    let output = &scene.output;
+    let mut refuse = |path: String, found: String, accepted: &str| problems.push(Problem::new(path, found, accepted));
+    let once = "every quantity at most once";
+    let velocities = "no `frame`: only velocities depend on one";
+    for (index, asked) in output.autocorrelations.iter().enumerate() {
+        let path = format!("output.autocorrelations[{index}]");
+        let name = asked.quantity.name();
+        if output.autocorrelations[..index].iter().any(|earlier| earlier.quantity == asked.quantity) {
+            refuse(format!("{path}.quantity"), format!("found \"{name}\" again"), once);
+        }
+        if asked.frame.is_some() && asked.quantity == CorrelatedQuantity::Force {
+            refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
+        }
+    }
+    for (index, asked) in output.histograms.iter().enumerate() {
+        let path = format!("output.histograms[{index}]");
+        let name = asked.quantity.name();
+        if output.histograms[..index].iter().any(|earlier| earlier.quantity == asked.quantity) {
+            refuse(format!("{path}.quantity"), format!("found \"{name}\" again"), once);
+        }
+        if asked.frame.is_some() && asked.quantity == CountedQuantity::Acceleration {
+            refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
+        }
+        let Some(axis) = asked.axis else { continue };
+        if asked.quantity == CountedQuantity::Speed {
+            refuse(
+                format!("{path}.axis"),
+                "found for the quantity \"speed\"".to_owned(),
+                "no `axis`: a speed has none",
+            );
+        } else if axis as usize >= scene.space.lengths.len() {
+            let name = ["x", "y", "z"][axis as usize];
+            refuse(format!("{path}.axis"), format!("found \"{name}\""), "an axis of the box");
         }
     }
 }

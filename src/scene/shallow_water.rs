@@ -107,6 +107,8 @@ fn check_output(scene: &Scene, problems: &mut Vec<Problem>) {
         ("radial_distribution", output.radial_distribution.is_some()),
         ("diffusion", output.diffusion.is_some()),
         ("viscosity", output.viscosity.is_some()),
+        ("autocorrelations", !output.autocorrelations.is_empty()),
+        ("histograms", !output.histograms.is_empty()),
     ];
     for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
         let path = format!("output.{name}");

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::error::Warning;
-use super::{Interaction, Scene, Velocities};
+use super::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
 use crate::model::{CLEAN_SHARE, Model, PairForce, ShallowWater, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
@@ -21,10 +21,18 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn_of_friction(scene, &model.species, force, &mut warnings);
         warn_of_stiffness(scene, &model.species, force, &mut warnings);
     }
-    for interaction in &scene.interactions {
-        if let Interaction::Dpd(dpd) = interaction {
-            warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings);
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        match interaction {
+            Interaction::Dpd(dpd) => warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings),
+            Interaction::ColouredNoise(noise) => {
+                warn_of_noise(noise, &model, &format!("interactions[{index}]"), &mut warnings);
+            }
+            _ => {}
         }
+    }
+    if model.is_coupled() {
+        warnings.extend(super::stability::warn(scene, &model));
+        warn_of_loose_chains(scene, &mut warnings);
     }
     match &model.shallow_water {
         Some(water) => warn_of_waves(scene, water, &mut warnings),
@@ -50,15 +58,33 @@ fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {
 fn friction_rate(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
     let dimension = scene.space.lengths.len();
     let exponent = force.weight_exponent;
-    let weight = if dimension == 2 {
-        2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0))
-    } else {
-        8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0))
+    let weight = match dimension {
+        1 => 2.0 * force.cutoff / (exponent + 1.0),
+        2 => 2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
+        _ => 8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
     };
     let volume = scene.space.volume();
     let density = |other: usize| species[other].count as f64 / volume;
     let sum: f64 = (0..species.len()).map(|other| force.friction(index, other) * density(other)).sum();
     sum * weight / (dimension as f64 * species[index].mass)
+}
+
+/// Chains that no bond holds together are nothing but a way to place particles.
+fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let bonded = |species: &String| {
+        scene.interactions.iter().any(|interaction| match interaction {
+            Interaction::Bonds(bonds) => {
+                !bonds.pairs.is_empty() || bonds.species.as_ref().is_none_or(|names| names.contains(species))
+            }
+            _ => false,
+        })
+    };
+    for (index, group) in scene.particles.iter().enumerate() {
+        if group.chain.is_some() && !bonded(&group.species) {
+            let message = "no interaction `bonds` holds these chains together: they will fall apart".to_owned();
+            warn(warnings, format!("particles[{index}].chain"), message);
+        }
+    }
 }
 
 fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
@@ -83,7 +109,11 @@ fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warni
 /// their force constants a/rc alone, which makes it an upper estimate.
 fn frequency(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
     let dimension = scene.space.lengths.len();
-    let sphere = if dimension == 2 { PI * force.cutoff.powi(2) } else { 4.0 / 3.0 * PI * force.cutoff.powi(3) };
+    let sphere = match dimension {
+        1 => 2.0 * force.cutoff,
+        2 => PI * force.cutoff.powi(2),
+        _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
+    };
     let volume = scene.space.volume();
     let stiffness: f64 = (0..species.len())
         .map(|other| force.repulsion(index, other).abs() * species[other].count as f64 / volume)
@@ -124,6 +154,27 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
                  up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable"
             ),
         );
+    }
+}
+
+/// Impulses of fewer units of momentum are rounded by more than a thousandth.
+const COARSE_IMPULSE: f64 = 500.0;
+
+fn warn_of_noise(noise: &ColouredNoiseInteraction, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
+    if noise.process == NoiseProcess::Literal {
+        let message = "the process as it is printed has a mean force that is not zero and that grows with age: it has no \
+                       stationary state, and drives the centre of mass; `kangaroo` keeps its holding times without that";
+        warn(warnings, format!("{path}.process"), message.to_owned());
+    }
+    let impulse = 0.5 * noise.strength.sqrt() * model.time_step;
+    let units = impulse / model.units.momentum;
+    if noise.strength > 0.0 && units < COARSE_IMPULSE {
+        let message = format!(
+            "the noise changes a momentum by {impulse:.1e} in half a step, {units:.1} of the units of {:.1e} that momenta \
+             are counted in: rounding distorts it; a larger `time.step` or a lower `temperature` resolves it better",
+            model.units.momentum
+        );
+        warn(warnings, format!("{path}.strength"), message);
     }
 }
 

@@ -1,10 +1,53 @@
 //! A random force on every particle that is constant for random times.
 
 use super::Builder;
+use crate::noise::{self, stream};
+use crate::scene::NoiseProcess;
+
+/// Largest time that a constant takes, in half steps: above it every force outlasts any run.
+const LONGEST_TIME: f64 = 1e30;
 
 impl Builder<'_> {
-    /// Modules of the random force.
+    /// Modules of the random force; with one, `pair_words` has to be defined.
     pub(super) fn hold_modules(&self) -> Vec<&'static str> {
-        vec!["common/holds_off"]
+        let Some(noise) = &self.model.coloured_noise else { return vec!["common/holds_off"] };
+        let direction = match self.model.units.dimension {
+            1 => "common/direction1",
+            2 => "common/direction2",
+            _ => "common/direction3",
+        };
+        let jump = match noise.process {
+            NoiseProcess::Kangaroo => "common/jump_kangaroo",
+            NoiseProcess::KangarooExponential => "common/jump_kangaroo_exponential",
+            NoiseProcess::Short => "common/jump_short",
+            NoiseProcess::Literal => "common/jump_literal",
+        };
+        vec!["common/holds_on", "common/jump_words", direction, jump]
+    }
+
+    /// Constants and state of the random force.
+    pub(super) fn coloured_noise(&mut self) {
+        let Some(noise) = &self.model.coloured_noise else { return };
+        let half_step = 0.5 * self.model.time_step;
+        let key = noise::seed_key(self.model.seed, stream::JUMP);
+        self.plan.constants.extend([
+            ("HOLD_IMPULSE", self.impulse()),
+            ("HOLD_FORCE", noise.strength.sqrt()),
+            ("HOLD_TIME", (noise.time / half_step).min(LONGEST_TIME)),
+            ("JUMP_STREAM_X", f64::from(key[0])),
+            ("JUMP_STREAM_Y", f64::from(key[1])),
+        ]);
+        if noise.process == NoiseProcess::Literal {
+            self.plan.constants.push(("HOLD_TURNS", 1.0 / (std::f64::consts::TAU * noise.time.sqrt())));
+        }
+        // Words and jumps of the particles whose force ends in a step are few unless forces are short.
+        let jumps = self.model.time_step / noise.time;
+        let bytes = size_of::<crate::state::Hold>() as u64;
+        self.buffer(
+            "holds",
+            "random force of each particle and the time left of it, by number",
+            bytes * self.particles,
+        );
+        self.plan.operations_per_particle += 30.0 + 120.0 * jumps;
     }
 }

@@ -84,10 +84,6 @@ impl Builder<'_> {
             f64::from(if cells >= 3 { 3 } else { 1 })
         };
         self.plan.constants.extend([
-            ("CELLS_X", f64::from(self.grid.cells[0])),
-            ("CELLS_Y", f64::from(self.grid.cells[1])),
-            ("CELLS_Z", f64::from(self.grid.cells[2])),
-            ("CELLS", self.grid.count() as f64),
             ("SPAN_X", span(0)),
             ("SPAN_Y", span(1)),
             ("SPAN_Z", span(2)),
@@ -101,31 +97,37 @@ impl Builder<'_> {
         capacity(self.model, self.force, self.options)
     }
 
-    /// The kernels that order the particles and list their neighbours.
-    fn rebuild(&mut self) -> Vec<usize> {
+    /// The kernels that count the particles into cells and find where each cell begins.
+    pub(super) fn binning(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
         let rows = self.grid.rows();
         let mut kernels = vec![self.kernel("bin", &[self.cells(), "kernels/bin"], groups)];
+        let scan = [self.cells(), "common/cells_plain", "common/row_scan"];
         if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let modules =
-                [self.cells(), "common/cells_plain", "common/row_scan", "common/workgroup_scan", "common/same_step"];
-            kernels.push(self.kernel("scan", &[&modules[..], &["kernels/scan"]].concat(), 1));
+            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
+            kernels.push(self.kernel("scan", &all, 1));
         } else {
-            let scan = [self.cells(), "common/cells_plain", "common/row_scan"];
             let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
             kernels.push(self.kernel("scan_blocks", &blocks, rows.div_ceil(256)));
             let tops = [self.cells(), "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
             kernels.push(self.kernel("scan_tops", &tops, 1));
             let groups = self.groups(rows);
             kernels.push(self.kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
-            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
+        kernels
+    }
+
+    /// The kernels that order the particles and list their neighbours.
+    fn rebuild(&mut self) -> Vec<usize> {
+        let groups = self.groups(self.particles);
+        let mut kernels = self.binning();
         let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let arrange = [&sorted[..], &[self.slots(), "kernels/arrange"]].concat();
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
-        let modules = [&sorted[..], &[span, self.exclusions(), "kernels/list"]].concat();
+        let exclusions = self.exclusions();
+        let modules = [&sorted[..], &[span, exclusions, "kernels/list"]].concat();
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {
@@ -145,18 +147,22 @@ impl Builder<'_> {
         kernels
     }
 
-    /// Module that tells which listed pairs are spared their repulsion.
-    fn exclusions(&self) -> &'static str {
-        "common/exclusions_off"
-    }
-
-    fn list_buffers(&mut self) {
+    /// Buffers of particles in order of cells.
+    pub(super) fn ordering_buffers(&mut self) {
         let particle = if self.predicted() { 48 } else { 32 };
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
         self.buffer("sorted", "particles in order of cells, while the list is made", particle * particles);
         self.buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
         self.buffer("counts", "particles in each cell", 4 * cells);
         self.buffer("ranks", "place of each particle in its cell", 4 * particles);
+        if rows > SINGLE_SCAN_ROWS || self.options.many_level_scan {
+            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        }
+    }
+
+    fn list_buffers(&mut self) {
+        self.ordering_buffers();
+        let particles = self.particles;
         self.buffer("came_from", "where each particle was stored before", 4 * particles);
         self.buffer("anchors", "where each particle was when the list was made", 16 * particles);
         let pairs = self.list_capacity() * particles;

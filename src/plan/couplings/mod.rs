@@ -4,6 +4,9 @@
 //! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
+mod analyses;
+mod angles;
+mod bonds;
 mod coloured_noise;
 mod list;
 mod motion;
@@ -34,9 +37,13 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.buffers();
     builder.list();
     builder.pairs();
+    builder.bonds();
+    builder.angles();
     builder.tethers();
+    builder.coloured_noise();
     builder.motion(output);
     builder.observables(output);
+    builder.analyses(output);
     builder.plan
 }
 
@@ -75,6 +82,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         finish_report: Vec::new(),
         samplers: Vec::new(),
         reported: Some("reported"),
+        force_unit: 0.0,
         operations_per_particle: 0.0,
     }
 }
@@ -135,6 +143,10 @@ impl Builder<'_> {
             ("UNIT_X", unit(0)),
             ("UNIT_Y", unit(1)),
             ("UNIT_Z", unit(2)),
+            ("CELLS_X", f64::from(self.grid.cells[0])),
+            ("CELLS_Y", f64::from(self.grid.cells[1])),
+            ("CELLS_Z", f64::from(self.grid.cells[2])),
+            ("CELLS", self.grid.count() as f64),
             ("PARTICLES", self.particles as f64),
             ("WORKGROUP", self.options.workgroup() as f64),
             ("QUANTITIES", self.quantities() as f64),
@@ -197,14 +209,19 @@ impl Builder<'_> {
 
     /// Modules of the vector space and of the stored particle.
     fn space(&self) -> Vec<&'static str> {
-        let mut modules = vec![match self.model.units.dimension {
-            1 => "common/space1",
-            2 => "common/space2",
-            _ => "common/space3",
-        }];
+        let mut modules = vec![self.dimensions()];
         modules.push(if self.predicted() { "common/particle_predicted" } else { "common/particle" });
         modules.extend(["common/control", "common/dispatch"]);
         modules
+    }
+
+    /// The module of vectors.
+    fn dimensions(&self) -> &'static str {
+        match self.model.units.dimension {
+            1 => "common/space1",
+            2 => "common/space2",
+            _ => "common/space3",
+        }
     }
 
     fn cells(&self) -> &'static str {

@@ -5,7 +5,7 @@ use crate::noise::{self, stream};
 use crate::scene::{Generator, Output};
 
 impl Builder<'_> {
-    pub(super) fn motion(&mut self, _output: &Output) {
+    pub(super) fn motion(&mut self, output: &Output) {
         let groups = self.groups(self.particles);
         self.position_constants();
         let mut modules = vec![self.coefficients(), "common/drift"];
@@ -26,7 +26,8 @@ impl Builder<'_> {
         self.plan.advance.push(advance);
         let memory = self.model.position_bath.as_ref().is_some_and(|bath| bath.memory);
         let seen = if memory { "common/position_seen" } else { "common/position_unseen" };
-        let report = [&modules[..], &[seen, "common/force_unseen", "kernels/observe"]].concat();
+        let forces = self.reported_forces(output);
+        let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
         if self.has_potential() {
             self.buffer("forces", "impulses of half a step by conservative forces, at a report", 16 * self.particles);

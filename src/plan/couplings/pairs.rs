@@ -68,7 +68,7 @@ impl Builder<'_> {
     }
 
     /// Whether some listed pairs are spared their repulsion.
-    fn spares(&self) -> bool {
+    pub(super) fn spares(&self) -> bool {
         self.model.bonds.as_ref().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
             && self.force.largest_repulsion() > 0.0
     }

@@ -1,2 +1,0 @@
-// Nobody asks for the force on each particle.
-fn note_force(id: u32, kick: Steps) {}

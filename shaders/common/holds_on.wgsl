@@ -1,0 +1,75 @@
+// A random force on every particle that is constant for random times: its impulses are integrals
+// over all jumps, wherever within a step they come. The law of the jumps is a module of its own.
+override HOLD_IMPULSE: f32; // impulse of half a step per force
+
+// Time is counted in half steps; `halves` whole ones and a `fraction` are left of the force.
+struct Hold {
+    force: array<f32, 3>,
+    fraction: f32,
+    halves: u32,
+    jump: u32, // jumps so far
+}
+@group(0) @binding(36) var<storage, read_write> holds: array<Hold>;
+
+struct Jump { force: Vector, time: f32 }
+struct Held { closing: Steps, opening: Steps }
+
+// Ends a loop whatever its data; a scene may ask for 256 jumps at most on average.
+const MOST_JUMPS: u32 = 2048u;
+// The longest time that is kept, just below 2^32 half steps: no run lasts so long.
+const LONGEST_HOLD: f32 = 4294967040.0;
+const BELOW_ONE: f32 = 0.99999994;
+
+// The impulse of one half step, which takes the process to its end.
+fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
+    var force = force_of((*hold).force);
+    var fraction = (*hold).fraction;
+    var halves = (*hold).halves;
+    var jump = (*hold).jump;
+    var integral = Vector(0.0);
+    var rest = 1.0;
+    for (var jumps = 0u; halves == 0u && fraction < rest && jumps < MOST_JUMPS; jumps += 1u) {
+        integral += fraction * force;
+        rest -= fraction;
+        let next = jump_of(id, jump);
+        let time = clamp(next.time, 0.0, LONGEST_HOLD);
+        force = next.force;
+        halves = u32(time);
+        fraction = time - floor(time);
+        jump += 1u;
+    }
+    let impulse = Steps(round(HOLD_IMPULSE * (integral + rest * force)));
+    let borrows = fraction < rest;
+    *hold = Hold(
+        words_of_force(force),
+        // A loop that ran out of jumps leaves nothing: the next half step begins with one.
+        select(fraction - rest, select(0.0, min(fraction + (1.0 - rest), BELOW_ONE), halves > 0u), borrows),
+        select(halves, max(halves, 1u) - 1u, borrows),
+        jump,
+    );
+    return impulse;
+}
+
+// Both half steps around this step: they end at it and begin with it.
+fn advance_hold(id: u32) -> Held {
+    var hold = holds[id];
+    let jump = hold.jump;
+    var closing = Steps(0);
+    // Stored momenta of step 0 are full-step ones, and its process begins with it.
+    for (var pending = control.closing; pending != 0; pending = 0) { closing = cross_half_step(id, &hold); }
+    let opening = cross_half_step(id, &hold);
+    holds[id].fraction = hold.fraction;
+    holds[id].halves = hold.halves;
+    // Most forces outlast a step.
+    for (var pending = hold.jump != jump; pending; pending = false) {
+        holds[id].force = hold.force;
+        holds[id].jump = hold.jump;
+    }
+    return Held(closing, opening);
+}
+// The half step that ends at this step alone, for a report: nothing is stored. At step 0 it is the one that begins with it,
+// which tells the force; the momentum is complete without it.
+fn closing_of_hold(id: u32) -> Steps {
+    var hold = holds[id];
+    return cross_half_step(id, &hold);
+}

@@ -1,0 +1,25 @@
+// The products of each particle's vector with what it was when the window began.
+override PARTICLES: u32;
+override WINDOW: u32;  // samples in a window
+override PRODUCT: f32; // a product of two sampled vectors over its quantum
+const QUANTITIES: u32 = 1u;
+@group(0) @binding(8) var<storage, read_write> origins: array<vec4<f32>>;
+@group(0) @binding(10) var<storage, read_write> samples: array<vec2<u32>>; // rows in the batch and in all, then the rows
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let id = group * WORKGROUP + lane;
+    var product = Sum64(0u);
+    if (id < PARTICLES) {
+        let now = sampled(id);
+        var then = origins[id].xyz;
+        if (samples[0].y % WINDOW == 0u) {
+            then = now;
+            origins[id] = vec4<f32>(now, 0.0);
+        }
+        product = sum64_of_signed(dot(now, then) * PRODUCT);
+    }
+    reduce_quantity(group, lane, 0u, product);
+}

@@ -1,0 +1,17 @@
+// Puts every particle into its cell for whoever wants to see it among its neighbours, and clears the counts.
+override PARTICLES: u32;
+override CELLS: u32;
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (index < CELLS) { counts[index] = 0u; }
+    if (index >= PARTICLES) { return; }
+    let particle = particles[index];
+    let fraction = fraction_of(particle.position);
+    sorted[cells[cell_index(row_of(fraction), column_of(fraction))] + ranks[index]] = particle;
+}

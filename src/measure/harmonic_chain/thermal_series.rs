@@ -1,0 +1,184 @@
+//! Averages over a chain of clusters in equilibrium.
+
+use crate::measure::statistics::{Estimate, estimate};
+
+/// Displacements and momenta of all clusters of one chain at equal intervals of time.
+///
+/// Every normal mode of a chain without friction keeps its energy, so that the average over any time is not the canonical
+/// one: what counts as independent is clusters that are far apart. Averages over time are taken of each cluster first,
+/// and errors then from blocks of clusters.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ThermalSeries {
+    clusters: usize,
+    /// Sample after sample, the momenta of all clusters.
+    momenta: Vec<f64>,
+    /// For every pair of neighbours, the sum of (X_{μ+1} - X_μ)² over the samples.
+    separations: Vec<f64>,
+    /// Means of P² and of (X_{μ+1} - X_μ)² over the chain, sample after sample.
+    history: Vec<[f64; 2]>,
+}
+
+/// What a series amounts to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThermalEstimates {
+    /// ⟨P²⟩.
+    pub momentum_variance: Option<Estimate>,
+    /// The variance of X_{μ+1} - X_μ.
+    pub separation_variance: Option<Estimate>,
+}
+
+impl ThermalSeries {
+    /// An empty series of a chain of clusters.
+    #[must_use]
+    pub fn new(clusters: usize) -> Self {
+        Self { clusters, separations: vec![0.0; clusters.saturating_sub(1)], ..Self::default() }
+    }
+
+    /// Adds a sample. What does not have one number for each cluster is left out.
+    pub fn push(&mut self, displacements: &[f64], momenta: &[f64]) {
+        if displacements.len() != self.clusters || momenta.len() != self.clusters {
+            return;
+        }
+        self.momenta.extend_from_slice(momenta);
+        let mut separation = 0.0;
+        for (sum, pair) in self.separations.iter_mut().zip(displacements.windows(2)) {
+            let square = (pair[1] - pair[0]) * (pair[1] - pair[0]);
+            *sum += square;
+            separation += square;
+        }
+        let momentum: f64 = momenta.iter().map(|momentum| momentum * momentum).sum();
+        self.history.push([momentum / self.clusters as f64, separation / self.separations.len() as f64]);
+    }
+
+    /// Means over the chain of P² and of (X_{μ+1} - X_μ)², sample after sample.
+    #[must_use]
+    pub fn history(&self) -> &[[f64; 2]] {
+        &self.history
+    }
+
+    /// Averages over time and clusters.
+    #[must_use]
+    pub fn estimates(&self) -> ThermalEstimates {
+        let samples = self.history.len() as f64;
+        let separations: Vec<f64> = self.separations.iter().map(|sum| sum / samples).collect();
+        let products = self.products(0, self.history.len());
+        ThermalEstimates { momentum_variance: estimate(&products), separation_variance: estimate(&separations) }
+    }
+
+    /// ⟨P(0)P(t)⟩ with t = 0, 1, … `lags` - 1 intervals, averaged over clusters and, for each lag alike, over the
+    /// origins from which the largest lag is within the series. Empty if there is none.
+    #[must_use]
+    pub fn momentum_correlation(&self, lags: usize) -> Vec<Estimate> {
+        let Some(origins) = (self.history.len() + 1).checked_sub(lags).filter(|origins| *origins > 0) else {
+            return Vec::new();
+        };
+        (0..lags).filter_map(|lag| estimate(&self.products(lag, origins))).collect()
+    }
+
+    /// For each cluster, the mean of P(0)P(lag) over the first origins.
+    fn products(&self, lag: usize, origins: usize) -> Vec<f64> {
+        let mut products = vec![0.0; self.clusters];
+        let width = self.clusters.max(1);
+        let later = self.momenta.get(lag * width..).unwrap_or_default().chunks_exact(width);
+        for (now, later) in self.momenta.chunks_exact(width).zip(later).take(origins) {
+            for ((product, now), later) in products.iter_mut().zip(now).zip(later) {
+                *product += now * later / origins as f64;
+            }
+        }
+        products
+    }
+
+    /// All numbers of the series, to go on from with [`ThermalSeries::restored`].
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        [&self.momenta, &self.separations, self.history.as_flattened()].concat()
+    }
+
+    /// The series of a chain of clusters that gave these numbers; an empty one if they are not of such a series.
+    #[must_use]
+    pub fn restored(clusters: usize, numbers: &[f64]) -> Self {
+        let empty = Self::new(clusters);
+        let pairs = empty.separations.len();
+        let Some(rest) = numbers.len().checked_sub(pairs).filter(|rest| rest.is_multiple_of(clusters + 2)) else {
+            return empty;
+        };
+        let samples = rest / (clusters + 2);
+        let (momenta, rest) = numbers.split_at(samples * clusters);
+        let (separations, history) = rest.split_at(pairs);
+        Self {
+            clusters,
+            momenta: momenta.to_vec(),
+            separations: separations.to_vec(),
+            history: history.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::measure::harmonic_chain::{NormalModes, equilibrium, thermal_start};
+    use crate::model::{HarmonicChain, SpringChain};
+    use rand::{RngExt, SeedableRng, rngs::StdRng};
+
+    fn gaussian(rng: &mut StdRng) -> f64 {
+        let uniform = 1.0 - rng.random::<f64>();
+        (-2.0 * uniform.ln()).sqrt() * (std::f64::consts::TAU * rng.random::<f64>()).cos()
+    }
+
+    #[test]
+    fn averages_by_hand() {
+        let mut series = ThermalSeries::new(2);
+        series.push(&[0.0, 1.0], &[1.0, 2.0]);
+        series.push(&[0.0, 3.0], &[3.0, -1.0]);
+        series.push(&[0.0], &[3.0]);
+        assert_eq!(series.history(), [[2.5, 1.0], [5.0, 9.0]]);
+        let estimates = series.estimates();
+        assert_eq!(estimates.momentum_variance.unwrap().mean, 3.75);
+        assert_eq!(estimates.separation_variance.unwrap().mean, 5.0);
+        let correlation: Vec<f64> = series.momentum_correlation(2).iter().map(|lag| lag.mean).collect();
+        assert_eq!(correlation, [2.5, 0.5]);
+        assert!(series.momentum_correlation(3).is_empty());
+        assert_eq!(ThermalSeries::restored(2, &series.numbers()), series);
+        assert_eq!(ThermalSeries::restored(3, &series.numbers()), ThermalSeries::new(3));
+        assert!(ThermalSeries::new(0).estimates().momentum_variance.is_none());
+    }
+
+    /// A frictionless chain, moved exactly: variances and correlations within 4 standard errors of the exact ones, and
+    /// the errors as large as they have to be. The energies of about N' modes are all that counts, so the error of ⟨P²⟩
+    /// is near √(1/N') however long the series is.
+    #[test]
+    fn errors_come_from_clusters_and_not_from_time() {
+        let clusters = 512;
+        let layout = HarmonicChain { clusters, cluster_size: 4, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+        let chain: SpringChain = layout.frictionless();
+        let modes = NormalModes::new(chain);
+        let mut rng = StdRng::seed_from_u64(3);
+        let start = thermal_start(&chain, 2.0, || gaussian(&mut rng));
+        let mut series = ThermalSeries::new(clusters);
+        let interval = 0.5 * layout.cluster_time();
+        for sample in 0..40 {
+            let (x, p) = modes.evolved(&start.0, &start.1, interval * f64::from(sample));
+            series.push(&x, &p);
+        }
+        let estimates = series.estimates();
+        let within = |found: Estimate, exact: f64| {
+            let error = found.standard_error.unwrap();
+            assert!((found.mean - exact).abs() < 4.0 * error, "{found:?}, {exact}");
+            error / exact
+        };
+        let exact = equilibrium::momentum_variance(&layout, 2.0);
+        let error = within(estimates.momentum_variance.unwrap(), exact);
+        assert!((0.5..2.0).contains(&(error * (clusters as f64).sqrt())), "{error}");
+        within(estimates.separation_variance.unwrap(), equilibrium::separation_variance(&chain, 2.0));
+        let times: Vec<f64> = (0..8).map(|lag| interval * f64::from(lag)).collect();
+        for (found, expected) in
+            series.momentum_correlation(8).into_iter().zip(modes.momentum_autocorrelation(1, &times))
+        {
+            let error = found.standard_error.unwrap();
+            assert!((found.mean - exact * expected).abs() < 4.0 * error, "{found:?}, {}", exact * expected);
+            assert!(error < 0.1 * exact);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Histograms of a value that many particles have, and the moments that go with them.
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Counts in bins of equal width, with what fell outside.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Histogram {
+    /// The lower edge of the first bin and the upper edge of the last.
+    pub range: [f64; 2],
+    /// The number of values in each bin.
+    pub counts: Vec<f64>,
+    /// The number of values below the range.
+    pub below: f64,
+    /// The number of values above it, or on its upper edge.
+    pub above: f64,
+}
+
+impl Histogram {
+    /// An empty histogram.
+    #[must_use]
+    pub fn new(range: [f64; 2], bins: usize) -> Self {
+        Self { range, counts: vec![0.0; bins], below: 0.0, above: 0.0 }
+    }
+
+    /// Width of a bin.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        (self.range[1] - self.range[0]) / self.counts.len() as f64
+    }
+
+    /// The middle of a bin.
+    #[must_use]
+    pub fn centre(&self, bin: usize) -> f64 {
+        self.range[0] + (bin as f64 + 0.5) * self.width()
+    }
+
+    /// Number of values, those outside the range included.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.counts.iter().sum::<f64>() + self.below + self.above
+    }
+
+    /// The probability density in each bin; over the range it adds up to the part of the values that lie in it. NaN
+    /// where nothing was counted.
+    #[must_use]
+    pub fn density(&self) -> Vec<f64> {
+        let scale = 1.0 / (self.total() * self.width());
+        self.counts.iter().map(|count| count * scale).collect()
+    }
+}
+
+/// Means of powers of a value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PowerMeans {
+    /// Mean.
+    pub first: f64,
+    /// Mean square.
+    pub second: f64,
+    /// Mean fourth power.
+    pub fourth: f64,
+}
+
+impl PowerMeans {
+    /// Standard deviation.
+    #[must_use]
+    pub fn standard_deviation(&self) -> f64 {
+        (self.second - self.first * self.first).max(0.0).sqrt()
+    }
+
+    /// Variance of the square.
+    #[must_use]
+    pub fn variance_of_square(&self) -> f64 {
+        self.fourth - self.second * self.second
+    }
+
+    /// ⟨x⁴⟩/⟨x²⟩² about zero: 3 for a Gaussian around it, less where two peaks stand apart, more with heavy tails.
+    #[must_use]
+    pub fn kurtosis(&self) -> f64 {
+        self.fourth / (self.second * self.second)
+    }
+}
+
+/// The Gaussian density with a mean and a standard deviation.
+#[must_use]
+pub fn gaussian_density(value: f64, mean: f64, standard_deviation: f64) -> f64 {
+    let z = (value - mean) / standard_deviation;
+    (-0.5 * z * z).exp() / ((2.0 * PI).sqrt() * standard_deviation)
+}
+
+/// Maxwell's density of the magnitude of a vector of `dimension` (1 to 3) Gaussian components with this mean square of
+/// the magnitude.
+#[must_use]
+pub fn maxwell_density(speed: f64, mean_square: f64, dimension: usize) -> f64 {
+    let variance = mean_square / dimension as f64;
+    // The surface of the unit sphere over the normalisation of the components.
+    let surface = match dimension {
+        1 => 2.0,
+        2 => 2.0 * PI * speed,
+        _ => 4.0 * PI * speed * speed,
+    };
+    surface * (-0.5 * speed * speed / variance).exp() / (2.0 * PI * variance).powf(0.5 * dimension as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_density_counts_what_is_outside() {
+        let histogram = Histogram { range: [-1.0, 1.0], counts: vec![1.0, 2.0, 4.0, 0.0], below: 1.0, above: 2.0 };
+        assert_eq!((histogram.total(), histogram.width(), histogram.centre(3)), (10.0, 0.5, 0.75));
+        assert_eq!(histogram.density(), [0.2, 0.4, 0.8, 0.0]);
+        assert!(Histogram::new([0.0, 1.0], 2).density().iter().all(|value| value.is_nan()));
+    }
+
+    #[test]
+    fn moments_tell_two_peaks_from_a_gaussian() {
+        // ±1, half each.
+        let peaks = PowerMeans { first: 0.0, second: 1.0, fourth: 1.0 };
+        assert_eq!((peaks.standard_deviation(), peaks.variance_of_square(), peaks.kurtosis()), (1.0, 0.0, 1.0));
+        assert_eq!(PowerMeans { first: 2.0, second: 4.0, fourth: 16.0 }.standard_deviation(), 0.0);
+    }
+
+    /// Normalisation and second moment by the midpoint rule, exact to rounding for these smooth integrands.
+    #[test]
+    fn densities_are_normalised_and_have_their_moments() {
+        let step = 1e-3;
+        let integral = |density: &dyn Fn(f64) -> f64, from: f64, power: i32| -> f64 {
+            (0..30_000).map(|k| from + (f64::from(k) + 0.5) * step).map(|x| x.powi(power) * density(x) * step).sum()
+        };
+        let gaussian = |x: f64| gaussian_density(x, 0.5, 1.3);
+        assert!((integral(&gaussian, -14.5, 0) - 1.0).abs() < 1e-9);
+        assert!((integral(&gaussian, -14.5, 2) - 1.3 * 1.3 - 0.25).abs() < 1e-9);
+        for dimension in 1..=3 {
+            let maxwell = |x: f64| maxwell_density(x, 2.5, dimension);
+            assert!((integral(&maxwell, 0.0, 0) - 1.0).abs() < 1e-6, "{dimension}");
+            assert!((integral(&maxwell, 0.0, 2) - 2.5).abs() < 1e-6, "{dimension}");
+        }
+    }
+}

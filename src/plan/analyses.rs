@@ -1,0 +1,460 @@
+//! Analyses of the particles that a report leaves in the order of their ids, for every path of integration.
+
+use super::{Buffer, Contents, Kernel, Plan, Sampler};
+use crate::model::Model;
+use crate::scene::{
+    Autocorrelation, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
+};
+use std::f64::consts::PI;
+
+/// Rows of samples kept on the device between two readbacks.
+pub(super) const SAMPLE_ROWS: u64 = 1024;
+/// Workgroups that count into one histogram: more of them write more often to the same entries.
+const HISTOGRAM_GROUPS: u64 = 1024;
+/// Entries of a histogram beside its bins: values below, values above, particles far beyond.
+pub(crate) const HISTOGRAM_EXTRA: usize = 3;
+/// Sums of powers after the counts of a histogram.
+pub(crate) const HISTOGRAM_MOMENTS: usize = 5;
+/// Particles further out than this, in ranges, do not enter the sums of powers.
+pub(crate) const HISTOGRAM_FARTHEST: f64 = 8.0;
+/// The default range of a histogram in typical magnitudes.
+const RANGE: f64 = 6.0;
+
+/// What a path of integration leaves after a report.
+pub(super) struct Reported<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The first step sampled.
+    pub equilibration: u64,
+    /// Lanes of a workgroup.
+    pub workgroup: u64,
+    /// Modules of the vector space and of the stored particle.
+    pub space: Vec<&'static str>,
+    /// The module that knows the masses: `inverse_mass_of`.
+    pub coefficients: &'static str,
+    /// The buffer of particles by id.
+    pub particles: &'static str,
+    /// The buffer of momenta by id, where velocities are not to be taken from the particles; there only if
+    /// [`needs_velocities`].
+    pub momenta: Option<&'static str>,
+    /// The buffer of forces by id, in integer units; there only if [`needs_forces`].
+    pub forces: &'static str,
+    /// The force that one unit in that buffer stands for.
+    pub force_unit: f64,
+}
+
+/// Whether an analysis asks for the forces of a report.
+pub(super) fn needs_forces(output: &Output) -> bool {
+    output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Force)
+        || output.histograms.iter().any(|asked| asked.quantity == CountedQuantity::Acceleration)
+}
+
+/// Whether an analysis asks for the velocities of a report.
+pub(super) fn needs_velocities(output: &Output) -> bool {
+    output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Velocity)
+        || output.histograms.iter().any(|asked| asked.quantity != CountedQuantity::Acceleration)
+}
+
+/// Adds everything a scene asks for about reported particles to a plan.
+pub(super) fn add(plan: &mut Plan, reported: &Reported<'_>, output: &Output) {
+    let mut builder = Builder { plan, reported, centre: None };
+    if let Some(asked) = &output.diffusion {
+        builder.diffusion(asked);
+    }
+    if let Some(asked) = &output.viscosity {
+        builder.viscosity(asked);
+    }
+    for asked in &output.autocorrelations {
+        builder.autocorrelation(asked);
+    }
+    for asked in &output.histograms {
+        builder.histogram(asked);
+    }
+}
+
+/// The sampler of an autocorrelation.
+pub(crate) fn autocorrelation_name(quantity: CorrelatedQuantity) -> &'static str {
+    match quantity {
+        CorrelatedQuantity::Velocity => "velocity_autocorrelation",
+        CorrelatedQuantity::Force => "force_autocorrelation",
+    }
+}
+
+/// The sampler of a histogram.
+pub(crate) fn histogram_name(quantity: CountedQuantity) -> &'static str {
+    match quantity {
+        CountedQuantity::Velocity => "velocity_histogram",
+        CountedQuantity::Speed => "speed_histogram",
+        CountedQuantity::Acceleration => "acceleration_histogram",
+    }
+}
+
+/// The value of one unit in which products of forces are summed, over the square of the unit of forces: sums of all
+/// particles have room for forces that give each sixteen times its natural momentum in a step.
+fn force_product_quantum(particles: u64) -> f64 {
+    ((particles.max(1) as f64).log2().ceil() - 6.0).max(0.0).exp2()
+}
+
+/// The value of one unit of the sums of an autocorrelation.
+pub(crate) fn correlation_quantum(plan: &Plan, quantity: CorrelatedQuantity) -> f64 {
+    match quantity {
+        CorrelatedQuantity::Velocity => plan.quanta.velocity_squared,
+        CorrelatedQuantity::Force => plan.force_unit.powi(2) * force_product_quantum(plan.particles),
+    }
+}
+
+/// The value of one unit of the powers that a histogram sums, in powers of its range.
+pub(crate) fn moment_quantum(particles: u64) -> f64 {
+    let largest = HISTOGRAM_FARTHEST.powi(4).log2();
+    let values = (3.0 * particles.max(1) as f64).log2().ceil();
+    (-(62.0 - largest - values).min(40.0)).exp2()
+}
+
+/// The largest magnitude that a histogram counts.
+pub(crate) fn histogram_range(model: &Model, asked: &Histogram) -> f64 {
+    let scale = || match asked.quantity {
+        CountedQuantity::Velocity | CountedQuantity::Speed => velocity_scale(model),
+        CountedQuantity::Acceleration => acceleration_scale(model),
+    };
+    asked.range.unwrap_or_else(|| RANGE * scale())
+}
+
+/// The mass of the lightest species that has particles.
+fn lightest(model: &Model) -> f64 {
+    let present = model.species.iter().filter(|species| species.count > 0);
+    let lightest = present.map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    if lightest.is_finite() { lightest } else { 1.0 }
+}
+
+/// A typical component of the velocity of the lightest species: thermal, or that of the unit of momentum.
+fn velocity_scale(model: &Model) -> f64 {
+    let mass = lightest(model);
+    if model.temperature > 0.0 {
+        (model.temperature / mass).sqrt()
+    } else {
+        model.units.momentum * 2_f64.powi(24) / mass
+    }
+}
+
+/// A typical component of the acceleration, the largest of all species: √(kT/m) √(ω² + min(2Γ/dt, 4/dt²)), where the
+/// repulsion of evenly spread neighbours makes a frequency ω, ω² = Σ aρV(rc)/(d rc m), and their friction a rate
+/// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
+/// of the strongest contact.
+fn acceleration_scale(model: &Model) -> f64 {
+    let Some(force) = &model.pair_force else { return 1.0 };
+    let dimension = model.units.dimension as f64;
+    let (cutoff, exponent) = (force.cutoff, force.weight_exponent);
+    let (sphere, weight) = if model.units.dimension == 2 {
+        (PI * cutoff.powi(2), 2.0 * PI * cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)))
+    } else {
+        let weight = 8.0 * PI * cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0));
+        (4.0 / 3.0 * PI * cutoff.powi(3), weight)
+    };
+    let step = model.time_step;
+    let squares = model.species.iter().enumerate().filter(|(_, species)| species.count > 0).map(|(a, species)| {
+        let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
+            let others = model.species.iter().enumerate();
+            others.map(|(b, other)| coefficient(b) * other.count as f64 / model.units.volume()).sum()
+        };
+        let frequency = sum(&|b| force.repulsion(a, b).abs()) * sphere / (dimension * cutoff * species.mass);
+        let rate = sum(&|b| force.friction(a, b)) * weight / (dimension * species.mass);
+        model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))
+    });
+    let square = squares.fold(0.0, f64::max);
+    if square > 0.0 {
+        return square.sqrt();
+    }
+    let contact = force.largest_repulsion() / lightest(model);
+    if contact > 0.0 { contact } else { 1.0 }
+}
+
+/// What distinguishes one sampler of sums from another.
+struct SumSampler {
+    name: &'static str,
+    modules: Vec<&'static str>,
+    constants: Vec<(&'static str, f64)>,
+    renamed: Vec<(&'static str, &'static str)>,
+    before: Vec<usize>,
+    sums: &'static str,
+    samples: &'static str,
+    quantities: usize,
+    every: u64,
+}
+
+struct Builder<'a> {
+    plan: &'a mut Plan,
+    reported: &'a Reported<'a>,
+    /// The kernels that find the centre of mass, once there is a need for them.
+    centre: Option<Vec<usize>>,
+}
+
+impl Builder<'_> {
+    fn kernel(&mut self, kernel: Kernel) -> usize {
+        self.plan.kernels.push(kernel);
+        self.plan.kernels.len() - 1
+    }
+
+    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(64), contents: Contents::Zeros });
+    }
+
+    /// Workgroups with a lane for every particle.
+    fn groups(&self) -> u64 {
+        self.plan.particles.div_ceil(self.reported.workgroup).max(1)
+    }
+
+    /// The modules that read a particle, and these.
+    fn modules(&self, more: &[&'static str]) -> Vec<&'static str> {
+        let mut modules = self.reported.space.clone();
+        modules.extend(["common/sum64", self.reported.coefficients]);
+        modules.extend(more);
+        modules
+    }
+
+    /// The module that reads the velocity of a particle.
+    fn velocity(&self) -> &'static str {
+        if self.reported.momenta.is_some() { "common/sampled_momentum" } else { "common/sampled_velocity" }
+    }
+
+    /// Where the variables of particles, momenta and forces are found, and these.
+    fn renamed(&self, more: &[(&'static str, &'static str)]) -> Vec<(&'static str, &'static str)> {
+        let here = [("particles", self.reported.particles), ("reported_forces", self.reported.forces)];
+        let momenta = self.reported.momenta.map(|buffer| ("reported_momenta", buffer));
+        here.into_iter()
+            .chain(momenta)
+            .chain(more.iter().copied())
+            .filter(|(variable, buffer)| variable != buffer)
+            .collect()
+    }
+
+    /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
+    fn sums(&mut self, sampler: SumSampler) {
+        let groups = self.groups();
+        let modules = [&["common/reduce"][..], &sampler.modules].concat();
+        let renamed = [&[("partial_sums", sampler.sums), ("samples", sampler.samples)][..], &sampler.renamed].concat();
+        let sums = self.kernel(Kernel {
+            name: sampler.name,
+            modules: self.modules(&modules),
+            workgroups: groups as u32,
+            demand: None,
+            constants: sampler.constants,
+            renamed: self.renamed(&renamed),
+        });
+        let record = self.kernel(Kernel {
+            name: "record_sample",
+            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
+            workgroups: 1,
+            demand: None,
+            constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
+            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
+        });
+        self.buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
+        let row = 8 * (1 + sampler.quantities as u64);
+        self.buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
+        self.plan.samplers.push(Sampler {
+            name: sampler.name,
+            first: self.reported.equilibration,
+            every: sampler.every,
+            kernels: [&sampler.before[..], &[sums, record]].concat(),
+            samples: sampler.samples,
+            quantities: sampler.quantities,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+    }
+
+    fn diffusion(&mut self, asked: &Diffusion) {
+        let unit = self.reported.model.units.momentum;
+        let quanta = self.plan.quanta;
+        self.buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
+        self.sums(SumSampler {
+            name: "diffusion",
+            modules: vec!["kernels/track"],
+            constants: vec![
+                ("WINDOW", asked.window as f64),
+                ("DISPLACEMENT", 1.0 / quanta.length_squared),
+                ("VELOCITY", unit * unit / quanta.velocity_squared),
+            ],
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "diffusion_sums",
+            samples: "diffusion_samples",
+            quantities: 2,
+            every: asked.every,
+        });
+    }
+
+    fn viscosity(&mut self, asked: &Viscosity) {
+        let dimension = self.reported.model.units.dimension;
+        self.sums(SumSampler {
+            name: "viscosity",
+            modules: vec!["kernels/transverse_modes"],
+            constants: Vec::new(),
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "mode_sums",
+            samples: "mode_samples",
+            quantities: 2 * dimension * (dimension - 1),
+            every: asked.every,
+        });
+    }
+
+    /// The module of the frame of velocities, and the kernels that have to run before it can be used.
+    fn frame(&mut self, asked: Option<Frame>) -> (&'static str, Vec<usize>) {
+        let model = self.reported.model;
+        let natural = if model.conserves_momentum() { Frame::Box } else { Frame::CentreOfMass };
+        if asked.unwrap_or(natural) == Frame::Box {
+            return ("common/frame_box", Vec::new());
+        }
+        if let Some(kernels) = &self.centre {
+            return ("common/frame_centre", kernels.clone());
+        }
+        let groups = self.groups();
+        let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
+        let sums = self.kernel(Kernel {
+            name: "sum_momenta",
+            modules: self.modules(&["common/reduce", "kernels/sum_momenta"]),
+            workgroups: groups as u32,
+            demand: None,
+            constants: Vec::new(),
+            renamed: self.renamed(&[("partial_sums", "momentum_sums")]),
+        });
+        let find = self.kernel(Kernel {
+            name: "find_centre",
+            modules: vec!["common/dispatch", "common/sum64", "kernels/find_centre"],
+            workgroups: 1,
+            demand: None,
+            constants: vec![
+                ("GROUPS", groups as f64),
+                ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
+            ],
+            renamed: vec![("partial_sums", "momentum_sums")],
+        });
+        self.buffer("momentum_sums", "sums of each workgroup", 24 * groups);
+        self.buffer("centre", "velocity of the centre of mass", 16);
+        self.centre = Some(vec![sums, find]);
+        ("common/frame_centre", vec![sums, find])
+    }
+
+    fn autocorrelation(&mut self, asked: &Autocorrelation) {
+        let unit = match asked.quantity {
+            CorrelatedQuantity::Velocity => self.reported.model.units.momentum,
+            CorrelatedQuantity::Force => self.reported.force_unit,
+        };
+        let quantum = correlation_quantum(self.plan, asked.quantity);
+        let (modules, before, [origins, sums, samples]) = match asked.quantity {
+            CorrelatedQuantity::Velocity => {
+                let (frame, before) = self.frame(asked.frame);
+                let names = ["velocity_origins", "velocity_products", "velocity_product_samples"];
+                (vec![frame, self.velocity()], before, names)
+            }
+            CorrelatedQuantity::Force => {
+                let names = ["force_origins", "force_products", "force_product_samples"];
+                (vec!["common/sampled_force"], Vec::new(), names)
+            }
+        };
+        self.buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
+        self.sums(SumSampler {
+            name: autocorrelation_name(asked.quantity),
+            modules: [&modules[..], &["common/sum64_signed", "kernels/correlate"]].concat(),
+            constants: vec![("WINDOW", asked.window as f64), ("PRODUCT", unit * unit / quantum)],
+            renamed: vec![("origins", origins)],
+            before,
+            sums,
+            samples,
+            quantities: 1,
+            every: asked.every,
+        });
+    }
+
+    fn histogram(&mut self, asked: &Histogram) {
+        let model = self.reported.model;
+        let (unit, modules, before, [counts, samples]) = match asked.quantity {
+            CountedQuantity::Velocity | CountedQuantity::Speed => {
+                let (frame, before) = self.frame(asked.frame);
+                let names = if asked.quantity == CountedQuantity::Velocity {
+                    ["velocity_counts", "velocity_count_samples"]
+                } else {
+                    ["speed_counts", "speed_count_samples"]
+                };
+                (model.units.momentum, vec![frame, self.velocity()], before, names)
+            }
+            CountedQuantity::Acceleration => {
+                let names = ["acceleration_counts", "acceleration_count_samples"];
+                (self.reported.force_unit, vec!["common/sampled_acceleration"], Vec::new(), names)
+            }
+        };
+        let magnitude = asked.quantity == CountedQuantity::Speed;
+        let range = histogram_range(model, asked);
+        let bins = u64::from(asked.bins);
+        let groups = self.groups().min(HISTOGRAM_GROUPS);
+        let axes = match asked.axis {
+            Some(axis) => [axis as usize, axis as usize + 1],
+            None => [0, model.units.dimension],
+        };
+        let mut constants = vec![
+            ("BINS", bins as f64),
+            ("COUNTS", (bins + HISTOGRAM_EXTRA as u64) as f64),
+            // From minus to plus the range there are twice as many half bins as from zero.
+            ("HALF_BINS", if magnitude { 2.0 } else { 1.0 } * bins as f64 * unit / range),
+            ("HALF_BELOW", if magnitude { 0.0 } else { bins as f64 }),
+            ("FRACTION", unit / range),
+            ("MOMENT", 1.0 / moment_quantum(self.plan.particles)),
+            ("GROUPS", groups as f64),
+        ];
+        let counted = if magnitude {
+            "common/counted_magnitude"
+        } else {
+            constants.extend([("FIRST_AXIS", axes[0] as f64), ("END_AXIS", axes[1] as f64)]);
+            "common/counted_components"
+        };
+        let modules = [&modules[..], &[counted, "common/sum64_signed", "kernels/histogram"]].concat();
+        let name = histogram_name(asked.quantity);
+        let count = self.kernel(Kernel {
+            name,
+            modules: self.modules(&modules),
+            workgroups: groups as u32,
+            demand: None,
+            constants,
+            renamed: self.renamed(&[("histogram", counts)]),
+        });
+        let entries = bins + (HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS) as u64;
+        let record = self.kernel(Kernel {
+            name: "record_histogram",
+            modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
+            workgroups: 1,
+            demand: None,
+            constants: vec![("BINS", entries as f64)],
+            renamed: vec![("histogram", counts), ("samples", samples)],
+        });
+        // About a mebibyte.
+        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
+        self.buffer(counts, "counts of each bin and sums of powers", 8 * entries);
+        self.buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
+        self.plan.samplers.push(Sampler {
+            name,
+            first: self.reported.equilibration,
+            every: asked.every,
+            kernels: [&before[..], &[count, record]].concat(),
+            samples,
+            quantities: entries as usize,
+            capacity,
+            needs_report: true,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_powers_fit_64_bits_however_many_particles() {
+        for particles in [1, 1000, u64::from(u32::MAX)] {
+            let largest = 3.0 * particles as f64 * HISTOGRAM_FARTHEST.powi(4) / moment_quantum(particles);
+            assert!(largest <= 2_f64.powi(62), "{particles}: {largest}");
+            // And a fourth power at a sixth of the range is still many units.
+            assert!(6_f64.powi(-4) / moment_quantum(particles) > 10.0, "{particles}");
+        }
+    }
+}

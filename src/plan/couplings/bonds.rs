@@ -1,0 +1,147 @@
+//! Bonds: potentials and baths along them, and the pairs that they spare the repulsion.
+
+use super::Builder;
+use crate::model::{BondKind, Bonds};
+use crate::noise::{self, stream};
+use crate::plan::Contents;
+use crate::scene::{BondPotential, Generator};
+
+impl Builder<'_> {
+    pub(super) fn bonds(&mut self) {
+        let Some(bonds) = &self.model.bonds else { return };
+        let count = bonds.bonds.len() as u64;
+        let groups = self.groups(count);
+        let (species, kinds) = (self.model.species.len(), bonds.kinds.len());
+        let key = noise::seed_key(self.model.seed, stream::BOND);
+        self.plan.constants.extend([
+            ("BONDS", count as f64),
+            ("FIRST_KIND", species as f64),
+            ("FIRST_BOND", (species + 2 * kinds) as f64),
+            ("BOND_STREAM_X", f64::from(key[0])),
+            ("BOND_STREAM_Y", f64::from(key[1])),
+        ]);
+        let mut modules = vec![self.kicks(), "common/contact", "common/bond_kinds"];
+        modules.push(potential_module(bonds));
+        let (mut unseen, mut seen) = (vec!["common/bonds_unseen"], vec!["common/bonds_seen", self.forces()]);
+        if bonds.have_friction() {
+            modules.push("common/bond_motion");
+            self.bath_impulse();
+            modules.extend(self.bond_noise(bonds));
+            if bonds.have_memory() {
+                modules.push("common/bond_bath_memory");
+                unseen.push("common/bond_memory_kept");
+                seen.push("common/bond_memory_seen");
+            } else {
+                modules.push("common/bond_bath_white");
+            }
+        } else {
+            modules.push("common/bond_bath_off");
+        }
+        modules.push("kernels/bonds");
+        let advance = self.kernel("bonds", &[&modules[..], &unseen].concat(), groups);
+        self.plan.advance.push(advance);
+        self.report_kernel("report_bonds", &[&modules[..], &seen].concat(), groups);
+        self.bond_buffers(bonds);
+        let each = if bonds.have_friction() { 150.0 } else { 50.0 };
+        self.plan.operations_per_particle += each * count as f64 / self.particles.max(1) as f64;
+    }
+
+    /// Impulse of half a step per bath, which pairs with memory may have named already.
+    fn bath_impulse(&mut self) {
+        if !self.plan.constants.iter().any(|(name, _)| *name == "BATH_IMPULSE") {
+            let impulse = self.impulse();
+            self.plan.constants.push(("BATH_IMPULSE", impulse));
+        }
+    }
+
+    fn bond_noise(&self, bonds: &Bonds) -> Vec<&'static str> {
+        let noisy = |kind: &BondKind| kind.bath.is_some() && kind.temperature > 0.0;
+        if !bonds.kinds.iter().any(noisy) {
+            return vec!["common/bond_noise_off"];
+        }
+        let words = match self.model.generator {
+            Generator::Pcg4d => "common/words_pcg4d",
+            Generator::Threefry2x32 => "common/words_threefry",
+        };
+        vec!["common/bond_noise_on", "common/gaussian", "common/threefry", words]
+    }
+
+    /// The buffers of bonds; `bonds` as `shaders/common/bond_kinds.wgsl` reads it.
+    fn bond_buffers(&mut self, bonds: &Bonds) {
+        let mut words: Vec<u32> = Vec::with_capacity(4 * bonds.bonds.len());
+        for species in 0..self.model.species.len() {
+            words.extend([self.drift_per_momentum(species).to_bits(), 0, 0, 0]);
+        }
+        for kind in &bonds.kinds {
+            words.extend(self.bond_coefficients(kind).map(f32::to_bits));
+        }
+        for bond in &bonds.bonds {
+            words.extend([bond.ends[0], bond.ends[1], bond.kind, 0]);
+        }
+        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
+        self.buffer_of("bonds", "bonds and what they are like", bytes.len() as u64, Contents::Bytes(bytes));
+        if bonds.have_memory() {
+            self.buffer("bond_baths", "bath of each bond", 4 * bonds.bonds.len() as u64);
+        }
+    }
+
+    /// Displacement of a species in a step per unit of momentum, rounded where the kernel `move` rounds it.
+    fn drift_per_momentum(&self, species: usize) -> f32 {
+        let drift = (self.model.time_step * self.model.units.momentum / self.common_mass()) as f32;
+        if self.single() { drift } else { drift * self.inverse_mass(species) as f32 }
+    }
+
+    fn bond_coefficients(&self, kind: &BondKind) -> [f32; 8] {
+        let (stiffness, length, inverse_extent) = match kind.potential {
+            None => (0.0, 0.0, 0.0),
+            Some(BondPotential::Harmonic { stiffness, length }) => (stiffness, length, 0.0),
+            Some(BondPotential::Fene { stiffness, extent, length }) => (stiffness, length, 1.0 / extent),
+        };
+        let remembers = kind.bath.is_some_and(|bath| bath.remembers());
+        let bath = kind.bath.map_or([1.0, 0.0, 0.0, 0.0], |bath| {
+            let energy = if remembers { 0.5 / bath.continuous_coupling / self.plan.quanta.pair_energy } else { 0.0 };
+            [1.0 - bath.persistence, bath.response(), bath.noise(kind.temperature), energy]
+        });
+        let remembers = f64::from(u8::from(remembers));
+        let [loss, response, noise, energy] = bath;
+        let all = [stiffness * self.impulse(), length, inverse_extent, remembers, loss, response, noise, energy];
+        all.map(|value| value as f32)
+    }
+
+    /// Partners that each particle is to be spared from, in rows of equal length; none where there are none.
+    pub(super) fn exclusions(&mut self) -> &'static str {
+        let Some(bonds) = self.model.bonds.as_ref().filter(|_| self.spares()) else { return "common/exclusions_off" };
+        let mut partners: Vec<Vec<u32>> = vec![Vec::new(); self.particles as usize];
+        for bond in bonds.bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion) {
+            let [a, b] = bond.ends;
+            for (end, partner) in [(a, b), (b, a)] {
+                if !partners[end as usize].contains(&partner) {
+                    partners[end as usize].push(partner);
+                }
+            }
+        }
+        let width = partners.iter().map(Vec::len).max().unwrap_or(0).max(1);
+        let rows = partners.into_iter().enumerate().flat_map(|(id, mut row)| {
+            row.resize(width, id as u32);
+            row
+        });
+        let words: Vec<u32> = rows.collect();
+        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
+        self.plan.constants.push(("EXCLUSIONS", width as f64));
+        let purpose = "partners whose repulsion each particle is spared";
+        self.buffer_of("exclusions", purpose, bytes.len() as u64, Contents::Bytes(bytes));
+        "common/exclusions_on"
+    }
+}
+
+/// The cheapest potential that holds those of all bonds.
+fn potential_module(bonds: &Bonds) -> &'static str {
+    let limited = |kind: &BondKind| matches!(kind.potential, Some(BondPotential::Fene { .. }));
+    if bonds.kinds.iter().any(limited) {
+        "common/bond_fene"
+    } else if bonds.kinds.iter().any(|kind| kind.potential.is_some()) {
+        "common/bond_harmonic"
+    } else {
+        "common/bond_free"
+    }
+}

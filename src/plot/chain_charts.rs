@@ -1,0 +1,206 @@
+//! The charts of harmonic chains, made from the tables of a run.
+
+use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
+use super::presets::EnergyTable;
+use super::ticks::short_number;
+
+/// Columns of the three chains begin with these, which stand for these names.
+const CHAINS: [(&str, &str); 3] =
+    [("micro", "beads"), ("dpd", "DPD clusters"), ("frictionless", "frictionless clusters")];
+
+const REDUCED_TIME: &str = "Reduced time τ = ω_{0}t/n";
+
+/// The numbers of a column; not numbers where there is no such column.
+fn column(table: &EnergyTable, name: &str) -> Vec<f64> {
+    let index = table.columns.iter().position(|column| column == name);
+    let cell = |row: &Vec<f64>| index.and_then(|index| row.get(index)).copied().unwrap_or(f64::NAN);
+    table.rows.iter().map(cell).collect()
+}
+
+fn points(table: &EnergyTable, x: &str, y: &str) -> Vec<[f64; 2]> {
+    column(table, x).into_iter().zip(column(table, y)).map(|(x, y)| [x, y]).collect()
+}
+
+/// Markers of a series are this many at most, so that they stay apart.
+const MOST_MARKERS: usize = 40;
+
+/// Markers of each chain, and what is exact as a line through them.
+fn compared(table: &EnergyTable, quantity: &str) -> Vec<Series> {
+    let every = table.rows.len().div_ceil(MOST_MARKERS).max(1);
+    let measured = CHAINS.iter().map(|(chain, name)| {
+        let points = points(table, "tau", &format!("{chain}_{quantity}"));
+        let mut series = Series::markers(name, points.into_iter().step_by(every).collect());
+        let errors = format!("{chain}_{quantity}_error");
+        if table.columns.contains(&errors) {
+            series = series.with_errors(column(table, &errors).into_iter().step_by(every).collect());
+        }
+        series
+    });
+    let exact = CHAINS.iter().enumerate().map(|(number, (chain, _))| {
+        let name = if number == 0 { "exact" } else { "" };
+        Series::line(name, points(table, "tau", &format!("{chain}_exact_{quantity}")))
+            .with_ink(SeriesInk::Ink { pattern: 0 })
+    });
+    measured.chain(exact).collect()
+}
+
+/// A pulse on its way: displacements of clusters at some reduced times, above each other.
+///
+/// The columns are `tau`, `cluster`, `micro`, `dpd` and `frictionless`.
+#[must_use]
+pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let mut chart = Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: Vec::new() };
+    let taus = column(table, "tau");
+    let (clusters, all): (Vec<f64>, Vec<Vec<[f64; 2]>>) =
+        (column(table, "cluster"), CHAINS.iter().map(|(chain, _)| points(table, "cluster", chain)).collect());
+    let last = clusters.iter().copied().fold(0.0, f64::max);
+    let mut first = 0;
+    for moment in taus.chunk_by(|a, b| a == b) {
+        let range = first..first + moment.len();
+        first = range.end;
+        let mut panel = Panel::new("Cluster", &format!("X at τ = {}", short_number(moment[0])));
+        panel.x.range = Some([0.0, last]);
+        for (points, (_, name)) in all.iter().zip(CHAINS) {
+            panel.series.push(Series::line(name, points[range.clone()].to_vec()));
+        }
+        chart.panels.push(panel);
+    }
+    chart
+}
+
+/// Peak and variance of the halves of a pulse, and the energy of its clusters, over time.
+///
+/// The columns are `tau` and, for each of `micro`, `dpd` and `frictionless`, `…_peak`, `…_variance`, `…_energy` and the same
+/// with `…_exact_` in between.
+#[must_use]
+pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let panel = |quantity: &str, label: &str| {
+        let mut panel = Panel::new(REDUCED_TIME, label);
+        panel.series = compared(table, quantity);
+        panel
+    };
+    let mut panels = vec![
+        panel("peak", "Peak of a half"),
+        panel("variance", "Variance of a half (clusters²)"),
+        panel("energy", "Energy relative to the first"),
+    ];
+    panels[2].y.range = Some([0.0, 1.1]);
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+}
+
+/// The autocorrelation of the momentum of a cluster.
+///
+/// The columns are `tau`, `limit`, and for each of `micro`, `dpd` and `frictionless` its own, `…_correlation`, with
+/// `…_correlation_error` and `…_exact_correlation`.
+#[must_use]
+pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let mut panel = Panel::new(REDUCED_TIME, "Momentum autocorrelation C_{PP}(τ)");
+    panel.series = compared(table, "correlation");
+    let limit = Series::line("large clusters of beads: max(0, 1 − τ)", points(table, "tau", "limit"));
+    panel.series.push(limit.with_ink(SeriesInk::Ink { pattern: 1 }));
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel.with_reference("none", 0.0)] }
+}
+
+/// The running integral of the exact memory kernel, as a friction, with the plateau it has while ω₀t ≪ n.
+///
+/// The columns are `time` and, for each number n of beads in a cluster, `running_friction_n`; `plateau_n` for the line that is
+/// fitted to the largest.
+#[must_use]
+pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let label = "Running integral (n/2) ∫ K as a friction γ*";
+    let mut panel = Panel::new("ω_{0}t", label);
+    panel.x = Axis::log("Time ω_{0}t");
+    let sizes: Vec<&str> = table.columns.iter().filter_map(|name| name.strip_prefix("running_friction_")).collect();
+    for size in &sizes {
+        let line = points(table, "time", &format!("running_friction_{size}"));
+        let line = line.into_iter().filter(|point| point[0] > 0.0).collect();
+        panel.series.push(Series::line(&format!("n = {size}"), line));
+    }
+    for name in table.columns.iter().filter(|name| name.starts_with("plateau_")) {
+        let line = points(table, "time", name).into_iter().filter(|point| point[0] > 0.0).collect();
+        panel.series.push(Series::line("plateau", line).with_ink(SeriesInk::Ink { pattern: 1 }));
+    }
+    let panel = panel.with_reference("γ* = ½", 0.5).with_reference("over all times: 0", 0.0);
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
+}
+
+/// Variances in equilibrium over time, relative to those of springs between clusters.
+///
+/// The columns are `tau`, and for each of `micro`, `dpd` and `frictionless` `…_momentum_variance`,
+/// `…_separation_variance` and `…_exact_separation_variance`.
+#[must_use]
+pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let lines = |quantity: &str| {
+        let line =
+            |(chain, name): &(&str, &str)| Series::line(name, points(table, "tau", &format!("{chain}_{quantity}")));
+        CHAINS.iter().map(line).collect::<Vec<_>>()
+    };
+    let mut momenta = Panel::new(REDUCED_TIME, "⟨P²⟩ / nmkT");
+    momenta.series = lines("momentum_variance");
+    let momenta = momenta.with_reference("exact", 1.0);
+    let mut separations = Panel::new(REDUCED_TIME, "var(X_{μ+1} − X_{μ}) κ/nkT");
+    separations.series = lines("separation_variance");
+    for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {
+        let exact = column(table, &format!("{chain}_exact_separation_variance"));
+        if let Some(value) = exact.first() {
+            separations = separations.with_reference(name, *value);
+        }
+    }
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![momenta, separations] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
+        EnergyTable {
+            columns: columns.iter().map(ToString::to_string).collect(),
+            rows: rows.iter().map(|row| row.to_vec()).collect(),
+        }
+    }
+
+    #[test]
+    fn every_moment_has_a_panel_of_its_own() {
+        let columns = ["tau", "cluster", "micro", "dpd", "frictionless"];
+        let rows: [&[f64]; 4] = [
+            &[0.0, 0.0, 1.0, 2.0, 3.0],
+            &[0.0, 1.0, 4.0, 5.0, 6.0],
+            &[10.0, 0.0, 7.0, 8.0, 9.0],
+            &[10.0, 1.0, 1.5, 2.5, 3.5],
+        ];
+        let chart = chain_profile_chart("t", "s", &table(&columns, &rows));
+        assert_eq!(chart.panels.len(), 2);
+        assert_eq!(chart.panels[1].y.label, "X at τ = 10");
+        assert_eq!(chart.panels[1].series[2].points, [[0.0, 9.0], [1.0, 3.5]]);
+        assert_eq!(chart.panels[0].series[1].points, [[0.0, 2.0], [1.0, 5.0]]);
+    }
+
+    #[test]
+    fn exact_lines_are_named_once_and_errors_belong_to_their_chain() {
+        let columns = ["tau", "limit", "dpd_correlation", "dpd_correlation_error", "dpd_exact_correlation"];
+        let chart = chain_correlation_chart("t", "s", &table(&columns, &[&[0.0, 1.0, 0.9, 0.1, 0.95]]));
+        let series = &chart.panels[0].series;
+        assert_eq!(series.iter().filter(|series| series.name == "exact").count(), 1);
+        assert_eq!(series[4].points, [[0.0, 0.95]]);
+        let dpd = series.iter().find(|series| series.name == "DPD clusters");
+        assert_eq!(dpd.map(|series| (series.points[0], series.errors.clone())), Some(([0.0, 0.9], Some(vec![0.1]))));
+    }
+
+    #[test]
+    fn every_cluster_size_is_a_line_and_time_zero_has_no_logarithm() {
+        let columns = ["time", "running_friction_16", "running_friction_64", "plateau_64"];
+        let chart = chain_memory_chart("t", "s", &table(&columns, &[&[0.0, 0.0, 0.0, 0.5], &[1.0, 0.6, 0.7, 0.48]]));
+        let names: Vec<&str> = chart.panels[0].series.iter().map(|series| series.name.as_str()).collect();
+        assert_eq!(names, ["n = 16", "n = 64", "plateau"]);
+        assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.7]]);
+    }
+
+    #[test]
+    fn exact_variances_are_references() {
+        let columns = ["tau", "micro_exact_separation_variance", "dpd_exact_separation_variance"];
+        let chart = chain_equilibrium_chart("t", "s", &table(&columns, &[&[0.0, 0.67, 0.99]]));
+        let values: Vec<f64> = chart.panels[1].references.iter().map(|reference| reference.value).collect();
+        assert_eq!(values, [0.67, 0.99]);
+    }
+}

@@ -1,0 +1,181 @@
+//! Histograms of velocities, speeds and accelerations.
+
+use super::{Analysis, Conclusion, Setting, bytes};
+use crate::engine::Sample;
+use crate::measure::histogram::{Histogram, PowerMeans, gaussian_density, maxwell_density};
+use crate::output::{Table, files};
+use crate::plan::analyses::{
+    HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_name, histogram_range, moment_quantum,
+};
+use crate::scene::{self, CountedQuantity};
+use serde_json::{Map, Value, json};
+
+/// Counts and sums of powers over all samples.
+pub(super) struct Counts {
+    asked: scene::Histogram,
+    particles: f64,
+    dimension: usize,
+    range: f64,
+    samples: f64,
+    histogram: Histogram,
+    /// Particles so far beyond the range that they are not in the powers.
+    far: f64,
+    /// Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over particles, x and the magnitude r in units of the range.
+    powers: [f64; HISTOGRAM_MOMENTS],
+}
+
+impl Counts {
+    pub(super) fn new(setting: &Setting<'_>, asked: &scene::Histogram) -> Self {
+        let range = histogram_range(setting.model, asked);
+        let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
+        Self {
+            asked: asked.clone(),
+            particles: setting.plan.particles as f64,
+            dimension: setting.model.units.dimension,
+            range,
+            samples: 0.0,
+            histogram: Histogram::new([low, range], asked.bins as usize),
+            far: 0.0,
+            powers: [0.0; HISTOGRAM_MOMENTS],
+        }
+    }
+
+    /// Values of a particle.
+    fn values(&self) -> f64 {
+        let components = self.asked.quantity != CountedQuantity::Speed && self.asked.axis.is_none();
+        if components { self.dimension as f64 } else { 1.0 }
+    }
+
+    /// Means of powers of the value and of the magnitude of the vector, over particles that are not far beyond.
+    fn means(&self) -> [PowerMeans; 2] {
+        let particles = self.samples * self.particles - self.far;
+        let values = particles * self.values();
+        let scale = |power: i32| self.range.powi(power);
+        let [first, second, fourth, square, square_of_square] = self.powers;
+        [
+            PowerMeans {
+                first: first * scale(1) / values,
+                second: second * scale(2) / values,
+                fourth: fourth * scale(4) / values,
+            },
+            PowerMeans {
+                first: f64::NAN,
+                second: square * scale(2) / particles,
+                fourth: square_of_square * scale(4) / particles,
+            },
+        ]
+    }
+}
+
+impl Analysis for Counts {
+    fn name(&self) -> &'static str {
+        histogram_name(self.asked.quantity)
+    }
+
+    fn path(&self) -> String {
+        format!("output.histograms ({})", self.asked.quantity.name())
+    }
+
+    fn add(&mut self, sample: &Sample) {
+        let bins = self.histogram.counts.len();
+        if sample.sums.len() != bins + HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS {
+            return;
+        }
+        let (counts, rest) = sample.sums.split_at(bins);
+        let (extra, powers) = rest.split_at(HISTOGRAM_EXTRA);
+        let quantum = moment_quantum(self.particles as u64);
+        self.samples += 1.0;
+        self.histogram.counts.iter_mut().zip(counts).for_each(|(count, found)| *count += *found as f64);
+        for (count, found) in
+            [&mut self.histogram.below, &mut self.histogram.above, &mut self.far].into_iter().zip(extra)
+        {
+            *count += *found as f64;
+        }
+        self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * quantum);
+    }
+
+    fn section(&self) -> Vec<u8> {
+        let histogram = &self.histogram;
+        let single = [self.samples, histogram.below, histogram.above, self.far].into_iter();
+        bytes(single.chain(self.powers).chain(histogram.counts.iter().copied()))
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        if let Some(([samples, below, above, far], rest)) = numbers.split_first_chunk()
+            && let Some((powers, counts)) = rest.split_first_chunk()
+            && counts.len() == self.histogram.counts.len()
+        {
+            (self.samples, self.far, self.powers) = (*samples, *far, *powers);
+            let range = self.histogram.range;
+            self.histogram = Histogram { range, counts: counts.to_vec(), below: *below, above: *above };
+        }
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let name = self.asked.quantity.name();
+        let [value, magnitude] = self.means();
+        let speed = self.asked.quantity == CountedQuantity::Speed;
+        let histogram = &self.histogram;
+        let densities = histogram.density();
+        let rows = histogram.counts.iter().enumerate().map(|(bin, count)| {
+            let centre = histogram.centre(bin);
+            let compared = if speed {
+                maxwell_density(centre, magnitude.second, self.dimension)
+            } else {
+                gaussian_density(centre, value.first, value.standard_deviation())
+            };
+            vec![centre, densities[bin], *count, compared]
+        });
+        let compared = if speed { "maxwell" } else { "gaussian" };
+        let columns = [name, "density", "count", compared].map(str::to_owned).to_vec();
+        let table = Table { columns, rows: rows.collect() };
+        let total = histogram.total();
+        let outside = (histogram.below + histogram.above) / total;
+        let mut warnings = Vec::new();
+        if outside > 1e-3 {
+            warnings.push(format!(
+                "{:.2} % of the values of the {name} histogram lie beyond its range of {:.4}; give it a larger \
+                 `output.histograms` range",
+                100.0 * outside,
+                self.range
+            ));
+        }
+        if self.far > 0.0 {
+            warnings.push(format!(
+                "{} times a particle was further than {HISTOGRAM_FARTHEST} times the range of the {name} histogram, and is \
+                 not in its moments",
+                self.far
+            ));
+        }
+        let result = if self.samples == 0.0 {
+            Err("no sample was taken after equilibration".to_owned())
+        } else if total == 0.0 {
+            Err("there are no particles".to_owned())
+        } else {
+            let mut result = Map::new();
+            let mut put = |name: &str, value: f64| result.insert(name.to_owned(), json!(value));
+            put("samples", self.samples);
+            put("values", total);
+            put("range", self.range);
+            if !speed {
+                put("below", histogram.below);
+            }
+            put("above", histogram.above);
+            put("mean", value.first);
+            put("standard_deviation", value.standard_deviation());
+            if !speed {
+                // About zero it says nothing of a magnitude.
+                put("kurtosis", value.kurtosis());
+            }
+            put("mean_square", magnitude.second);
+            put("variance_of_square", magnitude.variance_of_square());
+            Ok(Value::Object(result))
+        };
+        let file = match self.asked.quantity {
+            CountedQuantity::Velocity => files::VELOCITY_HISTOGRAM,
+            CountedQuantity::Speed => files::SPEED_HISTOGRAM,
+            CountedQuantity::Acceleration => files::ACCELERATION_HISTOGRAM,
+        };
+        Conclusion { warnings, ..Conclusion::new(file, table, result) }
+    }
+}

@@ -1,0 +1,127 @@
+//! The radial distribution function.
+
+use super::{Analysis, Conclusion, Setting, bytes};
+use crate::engine::Sample;
+use crate::output::{Table, files};
+use crate::plan::Sampler;
+use crate::scene;
+use serde_json::json;
+use std::f64::consts::PI;
+
+/// Pairs by distance, counted over all samples.
+pub(super) struct RadialDistribution {
+    particles: f64,
+    volume: f64,
+    dimension: usize,
+    range: f64,
+    samples: f64,
+    counts: Vec<f64>,
+}
+
+impl RadialDistribution {
+    pub(super) fn new(setting: &Setting<'_>, asked: &scene::RadialDistribution, sampler: &Sampler) -> Self {
+        Self {
+            particles: setting.plan.particles as f64,
+            volume: setting.model.units.volume(),
+            dimension: setting.model.units.dimension,
+            range: asked.range,
+            samples: 0.0,
+            counts: vec![0.0; sampler.quantities],
+        }
+    }
+}
+
+impl Analysis for RadialDistribution {
+    fn name(&self) -> &'static str {
+        "radial_distribution"
+    }
+
+    fn add(&mut self, sample: &Sample) {
+        self.samples += 1.0;
+        self.counts.iter_mut().zip(&sample.sums).for_each(|(count, found)| *count += *found as f64);
+    }
+
+    fn section(&self) -> Vec<u8> {
+        bytes(std::iter::once(self.samples).chain(self.counts.iter().copied()))
+    }
+
+    fn restore(&mut self, numbers: &[f64]) {
+        if let Some((first, rest)) = numbers.split_first()
+            && rest.len() == self.counts.len()
+        {
+            self.samples = *first;
+            self.counts.copy_from_slice(rest);
+        }
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let width = self.range / self.counts.len() as f64;
+        let pairs = 0.5 * self.particles * (self.particles - 1.0);
+        let ball =
+            |radius: f64| if self.dimension == 3 { 4.0 / 3.0 * PI * radius.powi(3) } else { PI * radius * radius };
+        let mut rows = Vec::new();
+        for (bin, count) in self.counts.iter().enumerate() {
+            let inner = bin as f64 * width;
+            let expected = self.samples * pairs * (ball(inner + width) - ball(inner)) / self.volume;
+            rows.push(vec![inner + 0.5 * width, count / expected]);
+        }
+        let samples = self.samples;
+        let result = match peak(&rows) {
+            _ if samples == 0.0 => Err("no sample was taken after equilibration".to_owned()),
+            _ if pairs <= 0.0 => Err("there are no pairs of particles".to_owned()),
+            Some([distance, height]) => {
+                Ok(json!({ "samples": samples, "peak_distance": distance, "peak_height": height }))
+            }
+            None => Ok(json!({ "samples": samples, "peak_distance": null, "peak_height": null })),
+        };
+        let columns = ["distance", "radial_distribution"].map(str::to_owned).to_vec();
+        Conclusion::new(files::RADIAL_DISTRIBUTION, Table { columns, rows }, result)
+    }
+}
+
+/// Bins on each side of the highest that a parabola is fitted to: noise makes the highest single bin too high.
+const PEAK_BINS: usize = 4;
+
+/// Place and height of the maximum of (x, y) rows; none without a positive value. At the edges the highest bin is taken.
+fn peak(rows: &[Vec<f64>]) -> Option<[f64; 2]> {
+    let highest =
+        (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
+    let plain = Some([rows[highest][0], rows[highest][1]]);
+    let Some(first) = highest.checked_sub(PEAK_BINS) else { return plain };
+    let Some(window) = rows.get(first..=highest + PEAK_BINS) else { return plain };
+    // Least squares in units of bins from the middle, where odd moments vanish.
+    let half = PEAK_BINS as f64;
+    let offsets = || (0..window.len()).map(|bin| bin as f64 - half);
+    let moment = |power: i32| offsets().map(|x| x.powi(power)).sum::<f64>();
+    let product = |power: i32| offsets().zip(window).map(|(x, row)| x.powi(power) * row[1]).sum::<f64>();
+    let (count, second, fourth) = (window.len() as f64, moment(2), moment(4));
+    let curvature = (count * product(2) - second * product(0)) / (count * fourth - second * second);
+    let level = (product(0) - curvature * second) / count;
+    let slope = product(1) / second;
+    let top = -slope / (2.0 * curvature);
+    if curvature < 0.0 && top.abs() <= half {
+        let bin = window[1][0] - window[0][0];
+        Some([rows[highest][0] + top * bin, level + 0.5 * slope * top])
+    } else {
+        plain
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_peak_of_a_parabola_is_found_between_bins() {
+        let rows: Vec<Vec<f64>> = (0..40)
+            .map(|bin| 0.02 * (f64::from(bin) + 0.5))
+            .map(|x| vec![x, 1.2 - 3.0 * (x - 0.433_f64).powi(2)])
+            .collect();
+        let [place, height] = peak(&rows).unwrap();
+        assert!((place - 0.433).abs() < 1e-12 && (height - 1.2).abs() < 1e-12, "{place} {height}");
+        assert_eq!(peak(&[vec![1.0, 2.0], vec![2.0, 1.0]]), Some([1.0, 2.0]));
+        assert_eq!(peak(&[vec![1.0, 0.0]]), None);
+        assert_eq!(peak(&[vec![1.0, f64::NAN]]), None);
+    }
+}

@@ -1,0 +1,378 @@
+//! What a run of harmonic chains measures and writes.
+
+use super::analyses::{bytes, numbers};
+use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
+use crate::measure::statistics::Estimate;
+use crate::model::{ChainTrios, Likeness, Strand};
+use crate::output::{OutputError, RunDirectory, Table, files, write_table};
+use crate::scene::{Interaction, Scene};
+use crate::state::{State, Units};
+use serde_json::{Map, Value, json};
+
+/// Name of the section of a checkpoint, and of the results.
+pub(super) const SECTION: &str = "chain";
+
+/// Columns of each chain begin with these, in the order of [`Likeness::ALL`].
+const NAMES: [&str; 3] = ["micro", "dpd", "frictionless"];
+
+/// Largest reduced time of the momentum autocorrelation.
+const LONGEST_LAG: f64 = 5.0;
+
+/// Pulses are shown at this many times from the start to the end, both included.
+const PROFILES: usize = 4;
+
+/// Largest number of beads in a cluster whose memory is computed, in a second or two.
+const LARGEST_CLUSTER: usize = 256;
+
+/// One sample of the three chains with a pulse.
+#[derive(Debug, Clone, PartialEq)]
+struct PulseSample {
+    step: f64,
+    /// Displacements of the clusters.
+    displacements: [Vec<f64>; 3],
+    /// Energies of the clusters, resolved motion only.
+    energies: [f64; 3],
+}
+
+/// Gathers samples of all chains.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chains {
+    trios: ChainTrios,
+    units: Units,
+    time_step: f64,
+    every: u64,
+    pulses: Vec<PulseSample>,
+    thermal: [ThermalSeries; 3],
+}
+
+impl Chains {
+    /// Begins, with a sample every so many steps.
+    pub(super) fn new(trios: ChainTrios, units: Units, time_step: f64, every: u64) -> Self {
+        let thermal = std::array::from_fn(|_| ThermalSeries::new(trios.thermal.clusters));
+        Self { trios, units, time_step, every, pulses: Vec::new(), thermal }
+    }
+
+    /// Adds the particles of a step, with full-step momenta. A step that was added already, before a run went back, is
+    /// left out.
+    pub(super) fn add(&mut self, state: &State) {
+        let step = state.step as f64;
+        if self.pulses.last().is_some_and(|last| last.step >= step) {
+            return;
+        }
+        let [pulse, thermal] = self.trios.strands();
+        let clusters = |number: usize, strand: &Strand| {
+            let (displacements, momenta) = strand.motion(state, &self.units);
+            match Likeness::ALL[number] {
+                Likeness::Micro => self.trios.pulse.coarse_grained(&displacements, &momenta),
+                _ => (displacements, momenta),
+            }
+        };
+        let resolved = self.trios.pulse.frictionless();
+        let samples = [0, 1, 2].map(|number| clusters(number, &pulse[number]));
+        let energies = [0, 1, 2].map(|number| resolved.energy(&samples[number].0, &samples[number].1));
+        let equilibrium = [0, 1, 2].map(|number| clusters(number, &thermal[number]));
+        self.pulses.push(PulseSample { step, displacements: samples.map(|sample| sample.0), energies });
+        for (series, (displacements, momenta)) in self.thermal.iter_mut().zip(&equilibrium) {
+            series.push(displacements, momenta);
+        }
+    }
+
+    /// What a checkpoint has to keep.
+    pub(super) fn section(&self) -> Vec<u8> {
+        let pulse = |sample: &PulseSample| {
+            let mut numbers = vec![sample.step];
+            numbers.extend(sample.energies);
+            numbers.extend(sample.displacements.iter().flatten());
+            numbers
+        };
+        let mut numbers = vec![self.pulses.len() as f64];
+        numbers.extend(self.pulses.iter().flat_map(pulse));
+        for series in &self.thermal {
+            numbers.extend(series.numbers());
+        }
+        bytes(numbers.into_iter())
+    }
+
+    /// Goes on from what a checkpoint kept.
+    pub(super) fn restore(&mut self, section: &[u8]) {
+        let numbers = numbers(section);
+        let clusters = self.trios.pulse.clusters;
+        let width = 4 + 3 * clusters;
+        let Some((count, rest)) = numbers.split_first() else { return };
+        let Some((pulses, rest)) = rest.split_at_checked(*count as usize * width) else { return };
+        let sample = |words: &[f64]| PulseSample {
+            step: words[0],
+            energies: [words[1], words[2], words[3]],
+            displacements: [0, 1, 2].map(|number| words[4 + number * clusters..4 + (number + 1) * clusters].to_vec()),
+        };
+        self.pulses = pulses.chunks_exact(width).map(sample).collect();
+        if let third @ 1.. = rest.len() / 3 {
+            let mut parts = rest.chunks_exact(third);
+            for series in &mut self.thermal {
+                *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
+            }
+        }
+    }
+
+    /// τ = ω₀t/n of a step.
+    fn reduced_time(&self, step: f64) -> f64 {
+        step * self.time_step / self.trios.pulse.cluster_time()
+    }
+
+    /// Writes all tables and returns the results for the summary.
+    pub(super) fn conclude(&self, directory: &RunDirectory) -> Result<Value, OutputError> {
+        let kernels = self.kernels();
+        let pulse = self.pulse();
+        let correlation = self.correlation();
+        let tables = [
+            (files::CHAIN_PROFILES, self.profiles()),
+            (files::CHAIN_PULSE, pulse.clone()),
+            (files::CHAIN_CORRELATION, correlation),
+            (files::CHAIN_MEMORY, memory(&kernels)),
+            (files::CHAIN_EQUILIBRIUM, self.equilibrium()),
+        ];
+        for (name, table) in &tables {
+            write_table(&directory.file(name), table)?;
+        }
+        Ok(self.results(&pulse, &kernels))
+    }
+
+    /// Displacements of clusters at a few times, in units of the height of the pulse.
+    fn profiles(&self) -> Table {
+        let last = self.pulses.len().saturating_sub(1);
+        let mut rows = Vec::new();
+        let mut shown: Vec<usize> = (0..PROFILES).map(|place| place * last / (PROFILES - 1)).collect();
+        shown.dedup();
+        for sample in shown.into_iter().filter_map(|index| self.pulses.get(index)) {
+            for cluster in 0..self.trios.pulse.clusters {
+                let mut row = vec![self.reduced_time(sample.step), cluster as f64];
+                row.extend(sample.displacements.iter().map(|values| values[cluster] / self.trios.amplitude));
+                rows.push(row);
+            }
+        }
+        let names = ["tau", "cluster"].into_iter().chain(NAMES);
+        Table { columns: names.map(str::to_owned).collect(), rows }
+    }
+
+    /// Peak, variance and energy of the pulses, the mean of both halves, with what is exact at the same times.
+    fn pulse(&self) -> Table {
+        let mut columns = vec!["time".to_owned(), "tau".to_owned()];
+        for name in NAMES {
+            for quantity in ["peak", "variance", "energy"] {
+                columns.push(format!("{name}_{quantity}"));
+                columns.push(format!("{name}_exact_{quantity}"));
+            }
+        }
+        let shape = Pulse { amplitude: self.trios.amplitude, width: self.trios.width };
+        let exact = ExactPulse::new(&self.trios, shape);
+        let describe = |displacements: &[f64]| {
+            let [left, right] = half_pulses(displacements);
+            let amplitude = self.trios.amplitude;
+            [0.5 * (left.peak + right.peak) / amplitude, 0.5 * (left.variance + right.variance)]
+        };
+        let first = self.pulses.first().map_or([f64::NAN; 3], |sample| sample.energies);
+        let row = |sample: &PulseSample| {
+            let time = sample.step * self.time_step;
+            let mut row = vec![time, self.reduced_time(sample.step)];
+            for number in 0..3 {
+                let (displacements, energy) = exact.at(number, time);
+                let [[peak, variance], [exact_peak, exact_variance]] =
+                    [&sample.displacements[number], &displacements].map(|values| describe(values));
+                row.extend([peak, exact_peak, variance, exact_variance]);
+                row.extend([sample.energies[number] / first[number], energy]);
+            }
+            row
+        };
+        // The exact motion costs more than the samples do.
+        let every = self.pulses.len().div_ceil(LARGEST_PULSE_TABLE).max(1);
+        let last = self.pulses.len().saturating_sub(1);
+        let shown = self.pulses.iter().enumerate().filter(|(index, _)| index.is_multiple_of(every) || *index == last);
+        Table { columns, rows: shown.map(|(_, sample)| row(sample)).collect() }
+    }
+
+    /// ⟨P(0)P(t)⟩/nmkT of each chain, with what is exact, and the limit max(0, 1 - τ) of large clusters of beads.
+    fn correlation(&self) -> Table {
+        let interval = self.every as f64 * self.time_step;
+        let unit = self.trios.thermal.cluster_time();
+        let samples = self.thermal[0].history().len();
+        // At least as many origins as lags, where the run is that short.
+        let lags = ((LONGEST_LAG * unit / interval) as usize + 1).min(samples.div_ceil(2));
+        let times: Vec<f64> = (0..lags).map(|lag| lag as f64 * interval).collect();
+        let mut columns = vec!["tau".to_owned(), "limit".to_owned()];
+        let mut rows: Vec<Vec<f64>> =
+            times.iter().map(|time| vec![time / unit, (1.0 - time / unit).max(0.0)]).collect();
+        let scale = equilibrium::momentum_variance(&self.trios.thermal, self.trios.temperature);
+        for (number, strand) in self.trios.strands()[1].iter().enumerate() {
+            let name = NAMES[number];
+            columns.extend(["correlation", "correlation_error", "exact_correlation"].map(|q| format!("{name}_{q}")));
+            let size = if number == 0 { self.trios.thermal.cluster_size } else { 1 };
+            let exact = NormalModes::new(strand.chain).momentum_autocorrelation(size, &times);
+            let found = self.thermal[number].momentum_correlation(lags);
+            for ((row, exact), found) in rows.iter_mut().zip(exact).zip(found) {
+                row.extend([found.mean / scale, found.standard_error.unwrap_or(f64::NAN) / scale, exact]);
+            }
+        }
+        // Without heat there is nothing to correlate.
+        rows.retain(|row| row.len() == columns.len());
+        Table { columns, rows }
+    }
+
+    /// Variances of each chain over time, relative to nmkT and to nkT/κ, with what is exact.
+    fn equilibrium(&self) -> Table {
+        let mut columns = vec!["tau".to_owned()];
+        for name in NAMES {
+            columns.extend(
+                ["momentum_variance", "separation_variance", "exact_separation_variance"]
+                    .map(|q| format!("{name}_{q}")),
+            );
+        }
+        let row = |(index, sample): (usize, &PulseSample)| {
+            let mut row = vec![self.reduced_time(sample.step)];
+            for number in 0..3 {
+                let [momentum, separation] =
+                    self.thermal[number].history().get(index).copied().unwrap_or([f64::NAN; 2]);
+                let [momentum_scale, separation_scale] = self.scales();
+                row.extend([momentum / momentum_scale, separation / separation_scale]);
+                row.push(self.exact_separation(number) / separation_scale);
+            }
+            row
+        };
+        Table { columns, rows: self.pulses.iter().enumerate().map(row).collect() }
+    }
+
+    /// nmkT and nkT/κ.
+    fn scales(&self) -> [f64; 2] {
+        let momentum = equilibrium::momentum_variance(&self.trios.thermal, self.trios.temperature);
+        [momentum, self.trios.temperature / self.trios.thermal.frictionless().stiffness]
+    }
+
+    fn exact_separation(&self, number: usize) -> f64 {
+        let trio = &self.trios.thermal;
+        match Likeness::ALL[number] {
+            Likeness::Micro => equilibrium::cluster_separation_variance(trio, self.trios.temperature),
+            _ => equilibrium::separation_variance(&trio.frictionless(), self.trios.temperature),
+        }
+    }
+
+    /// The memory of clusters as large as those of the scene and larger, in fours.
+    fn kernels(&self) -> Vec<MemoryKernel> {
+        let sizes = std::iter::successors(Some(self.trios.pulse.cluster_size), |size| Some(4 * size));
+        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(|size| MemoryKernel::new(size)).collect()
+    }
+
+    fn results(&self, pulse: &Table, kernels: &[MemoryKernel]) -> Value {
+        let value = |name: &str| pulse.column(name).and_then(|column| column.last().copied());
+        let scales = self.scales();
+        let mut chains = Map::new();
+        for (number, name) in NAMES.into_iter().enumerate() {
+            let estimates = self.thermal[number].estimates();
+            let scaled = |found: Option<Estimate>, scale: f64, exact: f64| {
+                let error = found.and_then(|found| found.standard_error).map(|error| error / scale);
+                json!({ "mean": found.map(|found| found.mean / scale), "standard_error": error, "exact": exact / scale })
+            };
+            let last = |quantity: &str| {
+                let [found, exact] = ["", "exact_"].map(|kind| value(&format!("{name}_{kind}{quantity}")));
+                json!({ "found": found, "exact": exact })
+            };
+            let result = json!({
+                "momentum_variance_over_nmkT": scaled(estimates.momentum_variance, scales[0], scales[0]),
+                "separation_variance_times_stiffness_over_nkT":
+                    scaled(estimates.separation_variance, scales[1], self.exact_separation(number)),
+                "pulse_peak": last("peak"),
+                "pulse_variance": last("variance"),
+                "pulse_energy": last("energy"),
+            });
+            chains.insert(name.to_owned(), result);
+        }
+        let plateaus = kernels.iter().filter_map(|kernel| Some((kernel.cluster_size().to_string(), kernel.plateau()?)));
+        let plateaus: Map<String, Value> = plateaus.map(|(size, plateau)| (size, json!(plateau.friction))).collect();
+        json!({
+            "reduced_time": value("tau"),
+            "reduced_friction": self.trios.pulse.reduced_friction,
+            "plateau_friction_by_cluster_size": plateaus,
+            "chains": chains,
+        })
+    }
+}
+
+/// The table of a pulse has about this many rows at most.
+const LARGEST_PULSE_TABLE: usize = 80;
+
+/// The exact motion of a pulse.
+struct ExactPulse<'a> {
+    trios: &'a ChainTrios,
+    modes: [NormalModes; 3],
+    starts: [Vec<f64>; 3],
+    energy: f64,
+}
+
+impl<'a> ExactPulse<'a> {
+    fn new(trios: &'a ChainTrios, shape: Pulse) -> Self {
+        let chain = &trios.pulse;
+        let beads = shape.displacements(chain);
+        let (clusters, still) = chain.coarse_grained(&beads, &vec![0.0; beads.len()]);
+        let modes = [chain.micro(), chain.dissipative(), chain.frictionless()].map(NormalModes::new);
+        let energy = chain.frictionless().energy(&clusters, &still);
+        Self { trios, modes, starts: [beads, clusters.clone(), clusters], energy }
+    }
+
+    /// Displacements of the clusters, and their energy relative to the first.
+    fn at(&self, number: usize, time: f64) -> (Vec<f64>, f64) {
+        let start = &self.starts[number];
+        let (mut displacements, mut momenta) = self.modes[number].evolved(start, &vec![0.0; start.len()], time);
+        let chain = &self.trios.pulse;
+        if number == 0 {
+            (displacements, momenta) = chain.coarse_grained(&displacements, &momenta);
+        }
+        let energy = chain.frictionless().energy(&displacements, &momenta) / self.energy;
+        (displacements, energy)
+    }
+}
+
+/// Running integrals against ω₀t, in equal ratios of time, and the plateau of the largest clusters.
+fn memory(kernels: &[MemoryKernel]) -> Table {
+    const POINTS: usize = 600;
+    let mut columns = vec!["time".to_owned()];
+    columns.extend(kernels.iter().map(|kernel| format!("running_friction_{}", kernel.cluster_size())));
+    let plateau = kernels.last().and_then(|kernel| Some((kernel.cluster_size(), kernel.plateau()?)));
+    if let Some((size, _)) = plateau {
+        columns.push(format!("plateau_{size}"));
+    }
+    let longest = kernels.last().map_or(1.0, |kernel| kernel.cluster_size() as f64);
+    let first = 0.1_f64;
+    let ratio = (longest / first).powf(1.0 / POINTS as f64);
+    let times = std::iter::once(0.0).chain((0..=POINTS).map(|point| first * ratio.powi(point as i32)));
+    let row = |time: f64| {
+        let mut row = vec![time];
+        row.extend(kernels.iter().map(|kernel| kernel.running_friction(time)));
+        if let Some((_, plateau)) = plateau {
+            let within = time <= plateau.range[1];
+            row.push(if within { plateau.friction + plateau.slope * time } else { f64::NAN });
+        }
+        row
+    };
+    Table { columns, rows: times.map(row).collect() }
+}
+
+/// The conditions under which the numbers of a table were found, for its plot.
+pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
+    let Some(chain) = scene.interactions.iter().find_map(|interaction| match interaction {
+        Interaction::HarmonicChain(chain) => Some(chain),
+        _ => None,
+    }) else {
+        return String::new();
+    };
+    let [size, friction, temperature] = [f64::from(chain.cluster_size), chain.friction, scene.temperature];
+    match table {
+        files::CHAIN_PROFILES | files::CHAIN_PULSE => format!(
+            "{} clusters of {size} beads, Gaussian pulse of width {} clusters at rest, kT = 0, γ* = {friction}",
+            chain.pulse.clusters, chain.pulse.width
+        ),
+        files::CHAIN_MEMORY => {
+            "exact, with the centres of clusters of n beads held; the plateau is a line through the mean \
+                                over π/ω_{0}, π < ω_{0}t < n/8"
+                .to_owned()
+        }
+        _ => format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
+    }
+}
