@@ -369,9 +369,7 @@ pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
             chain.pulse.clusters, chain.pulse.width
         ),
         files::CHAIN_MEMORY => {
-            "exact, with the centres of clusters of n beads held; the plateau is a line through the mean \
-                                over π/ω_{0}, π < ω_{0}t < n/8"
-                .to_owned()
+            "exact, of clusters of n beads whose centres are held; the plateau ends with ω_{0}t ≪ n".to_owned()
         }
         _ => format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
     }
