@@ -257,7 +257,7 @@ impl Chains {
     /// The memory of clusters as large as those of the scene and larger, in fours.
     fn kernels(&self) -> Vec<MemoryKernel> {
         let sizes = std::iter::successors(Some(self.trios.pulse.cluster_size), |size| Some(4 * size));
-        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(|size| MemoryKernel::new(size)).collect()
+        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(MemoryKernel::new).collect()
     }
 
     fn results(&self, pulse: &Table, kernels: &[MemoryKernel]) -> Value {
