@@ -369,7 +369,8 @@ pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
             chain.pulse.clusters, chain.pulse.width
         ),
         files::CHAIN_MEMORY => {
-            "exact, of clusters of n beads whose centres are held; the plateau ends with ω_{0}t ≪ n".to_owned()
+            "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
+                .to_owned()
         }
         _ => format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
     }
