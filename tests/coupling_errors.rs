@@ -284,6 +284,10 @@ fn lengths() {
 #[test]
 fn lines_and_fixed_particles() {
     refused(
+        &[r#"particles=[{"species":"bead","count":10}]"#, "interactions=[]", "output.chain_sizes.every=10"],
+        &["output.chain_sizes: found in a scene without chains; accepted: a scene with chains"],
+    );
+    refused(
         &[LINE, r#"output.viscosity={"every":1,"window":10}"#],
         &["output.viscosity: found in a scene of one dimension; accepted: two or three dimensions"],
     );

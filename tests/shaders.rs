@@ -86,6 +86,7 @@ fn plans() -> &'static [(String, Plan)] {
         plans.extend(water_plans());
         plans.extend(coupled_plans());
         plans.extend(noise_plans());
+        plans.extend(bond_plans());
         plans
     })
 }
@@ -138,6 +139,48 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                         let options =
                             Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
                         plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same of bonds and angles, alone and among pairs, on a line, in the plane and in space.
+fn bond_plans() -> Vec<(String, Plan)> {
+    let memory = r#""friction":2,"bath":{"type":"memory","rate":3}"#;
+    let harmonic = r#""potential":{"type":"harmonic","stiffness":9}"#;
+    let fene = r#""potential":{"type":"fene","stiffness":9,"extent":4}"#;
+    let bonds = [
+        r#"{"type":"bonds"}"#.to_owned(),
+        format!(r#"{{"type":"bonds",{harmonic}}}"#),
+        format!(r#"{{"type":"bonds",{fene},{memory}}}"#),
+        format!(r#"{{"type":"bonds",{harmonic},"friction":2,"exclude_repulsion":true}}"#),
+        format!(r#"{{"type":"bonds","friction":2,"bath":{{"type":"white","temperature":0}}}}"#),
+        format!(r#"{{"type":"bonds",{memory}}},{{"type":"angles","stiffness":2}}"#),
+    ];
+    let others = [
+        "",
+        r#",{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3}}"#,
+        r#",{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}},{"type":"tether","stiffness":1}"#,
+    ];
+    let groups = [
+        r#"particles=[{"species":"A","count":60,"chain":{"beads":3}}]"#,
+        r#"particles=[{"species":"A","count":60,"chain":{"beads":3}},{"species":"B","count":9,"fixed":true}]"#,
+    ];
+    let integrator = r#"integrator={"type":"cotter-reich"}"#;
+    let mut plans = Vec::new();
+    for bonds in &bonds {
+        for other in others {
+            for particles in groups {
+                for space in ["space.box=[90]", "space.box=[19,17]", "space.box=[9,10,11]"] {
+                    for generator in ["pcg4d", "threefry2x32-20"] {
+                        let interactions = format!("interactions=[{bonds}{other}]");
+                        let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                        let changes =
+                            [particles, &interactions, space, &generator, integrator, "output.chain_sizes.every=1"];
+                        plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
                     }
                 }
             }

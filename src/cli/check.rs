@@ -382,6 +382,7 @@ fn analyses(scene: &Scene) -> Vec<(String, String)> {
     if let Some(asked) = &output.viscosity {
         rows.push(("viscosity", since(scene, asked.every)));
     }
+    let sizes = output.chain_sizes.iter().map(|asked| ("chain_sizes.csv".to_owned(), since(scene, asked.every)));
     for asked in &output.autocorrelations {
         let name = match asked.quantity {
             CorrelatedQuantity::Velocity => "velocity_autocorrelation",
@@ -397,7 +398,7 @@ fn analyses(scene: &Scene) -> Vec<(String, String)> {
         };
         rows.push((name, format!("{} bins, {}", grouped(asked.bins.into()), since(scene, asked.every))));
     }
-    rows.into_iter().map(|(stem, when)| (format!("{stem}.csv, {stem}.png"), when)).collect()
+    sizes.chain(rows.into_iter().map(|(stem, when)| (format!("{stem}.csv, {stem}.png"), when))).collect()
 }
 
 fn since(scene: &Scene, every: u64) -> String {

@@ -219,6 +219,7 @@ library![
     "kernels/carry",
     "kernels/chebyshev_begin",
     "kernels/chebyshev_iterate",
+    "kernels/chain_sizes",
     "kernels/clusters",
     "kernels/correlate",
     "kernels/deposit",

@@ -21,6 +21,7 @@ pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
+pub use topology::ChainGroup;
 
 use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
@@ -65,6 +66,8 @@ pub struct Model {
     pub coloured_noise: Option<ColouredNoise>,
     /// Spring constant that ties every particle to where it started.
     pub tether: Option<f64>,
+    /// Groups of chains.
+    pub chain_groups: Vec<ChainGroup>,
     /// Bonds, if there are any.
     pub bonds: Option<Bonds>,
     /// Angles between bonds, if they are stiff.
@@ -112,6 +115,8 @@ impl Model {
                 Interaction::ShallowWater(water) => shallow_water = Some(ShallowWater::new(water, scene)),
             }
         }
+        let index = |name: &str| species.iter().position(|species| species.name == name);
+        let chain_groups = topology::chain_groups(scene, index);
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         if let Some(force) = &mut pair_force {
@@ -125,6 +130,7 @@ impl Model {
         };
         Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
+            chain_groups,
             species,
             temperature: scene.temperature,
             time_step: scene.time.step,

@@ -24,3 +24,39 @@ pub(super) fn runs<const LENGTH: usize>(scene: &Scene, species: Option<&[String]
     }
     runs
 }
+
+/// A group of chains of particles with consecutive numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ChainGroup {
+    /// Number of its first particle.
+    pub first: u32,
+    /// Number of chains.
+    pub chains: u32,
+    /// Particles in a chain.
+    pub beads: u32,
+    /// Whether chains are rings.
+    pub closed: bool,
+    /// Index of the species.
+    pub species: u32,
+}
+
+/// All groups of chains; `species` gives the index of a name.
+pub(super) fn chain_groups(scene: &Scene, species: impl Fn(&str) -> Option<usize>) -> Vec<ChainGroup> {
+    let mut groups = Vec::new();
+    let mut first = 0;
+    for group in &scene.particles {
+        let count = group.resolved_count(scene.space.volume());
+        if let Some(chain) = &group.chain {
+            let beads = chain.beads.max(1);
+            groups.push(ChainGroup {
+                first: first as u32,
+                chains: (count / u64::from(beads)) as u32,
+                beads,
+                closed: chain.closed && beads > 2,
+                species: species(&group.species).unwrap_or(0) as u32,
+            });
+        }
+        first += count;
+    }
+    groups
+}

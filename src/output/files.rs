@@ -28,6 +28,8 @@ pub const RADIAL_DISTRIBUTION_PLOT: &str = "radial_distribution.png";
 pub const DIFFUSION: &str = "diffusion.csv";
 /// The plot of mean squared displacement and velocity autocorrelation.
 pub const DIFFUSION_PLOT: &str = "diffusion.png";
+/// Sizes of chains.
+pub const CHAIN_SIZES: &str = "chain_sizes.csv";
 /// The autocorrelation of transverse momentum waves.
 pub const VISCOSITY: &str = "viscosity.csv";
 /// The plot of the autocorrelation of transverse momentum waves.
@@ -83,7 +85,7 @@ pub const CHAIN_EQUILIBRIUM_PLOT: &str = "chain_equilibrium.png";
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 43] = [
+pub const ALL: [&str; 44] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -95,6 +97,7 @@ pub const ALL: [&str; 43] = [
     RADIAL_DISTRIBUTION_PLOT,
     DIFFUSION,
     DIFFUSION_PLOT,
+    CHAIN_SIZES,
     VISCOSITY,
     VISCOSITY_PLOT,
     VELOCITY_AUTOCORRELATION,

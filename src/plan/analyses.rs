@@ -3,7 +3,7 @@
 use super::{Buffer, Contents, Kernel, Plan, Sampler};
 use crate::model::Model;
 use crate::scene::{
-    Autocorrelation, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
+    Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
 };
 use std::f64::consts::PI;
 
@@ -63,6 +63,9 @@ pub(super) fn add(plan: &mut Plan, reported: &Reported<'_>, output: &Output) {
     }
     if let Some(asked) = &output.viscosity {
         builder.viscosity(asked);
+    }
+    if let Some(asked) = &output.chain_sizes {
+        builder.chain_sizes(asked);
     }
     for asked in &output.autocorrelations {
         builder.autocorrelation(asked);
@@ -295,6 +298,40 @@ impl Builder<'_> {
             sums: "mode_sums",
             samples: "mode_samples",
             quantities: 2 * dimension * (dimension - 1),
+            every: asked.every,
+        });
+    }
+
+    fn chain_sizes(&mut self, asked: &ChainSizes) {
+        let groups = &self.reported.model.chain_groups;
+        let words: Vec<[u32; 4]> = groups
+            .iter()
+            .zip(0..)
+            .flat_map(|(group, number)| {
+                (0..group.chains).map(move |chain| [group.first + chain * group.beads, group.beads, number, 0])
+            })
+            .collect();
+        let quantities = 2 * groups.len();
+        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
+        self.plan.buffers.push(Buffer {
+            name: "chain_starts",
+            purpose: "where each chain begins",
+            bytes: (bytes.len() as u64).max(64),
+            contents: Contents::Bytes(bytes),
+        });
+        self.sums(SumSampler {
+            name: "chain_sizes",
+            modules: vec!["kernels/chain_sizes"],
+            constants: vec![
+                ("CHAINS", words.len() as f64),
+                ("QUANTITIES", quantities as f64),
+                ("CHAIN_LENGTH", 1.0 / self.plan.quanta.length_squared),
+            ],
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "chain_sums",
+            samples: "chain_samples",
+            quantities,
             every: asked.every,
         });
     }

@@ -32,6 +32,7 @@ pub fn builtin() -> &'static [Builtin] {
         "edpd-fluid",
         "langevin-gas",
         "gle-oscillator",
+        "polymer-melt",
         "harmonic-chain"
     ]
 }

@@ -36,6 +36,10 @@ pub(super) fn check_scene(scene: &Scene, problems: &mut Vec<Problem>) {
     check_numbers(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
+    if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
+        let accepted = "a scene with chains: a `chain` in one of `particles`";
+        problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
+    }
     if scene.space.lengths.len() == 1 && scene.output.viscosity.is_some() {
         let found = "found in a scene of one dimension";
         problems.push(Problem::new("output.viscosity", found, "two or three dimensions: on a line nothing shears"));

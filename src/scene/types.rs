@@ -719,6 +719,9 @@ pub struct Output {
     /// Mean squared displacement and velocity autocorrelation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
+    /// Sizes of chains: distance of the ends and radius of gyration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain_sizes: Option<ChainSizes>,
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<Viscosity>,
@@ -920,6 +923,15 @@ pub struct Diffusion {
     /// Samples in one window; each window starts from a new origin and the windows are averaged.
     #[schemars(range(min = 2, max = 1_000_000))]
     pub window: u64,
+}
+
+/// Sizes of the chains of each group: squared distance of the ends and squared radius of gyration.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainSizes {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
 }
 
 /// Shear viscosity from the decay of the longest transverse momentum waves.

@@ -39,7 +39,7 @@ impl ExtendedXyz {
 
 fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> std::io::Result<()> {
     let [x, y, z] = description.units.lengths;
-    let periodic = if description.units.dimension == 2 { "T T F" } else { "T T T" };
+    let periodic = ["T F F", "T T F", "T T T"][description.units.dimension.clamp(1, 3) - 1];
     let time = state.step as f64 * description.time_step;
     writeln!(text, "{}", state.len())?;
     writeln!(

@@ -1,7 +1,7 @@
 //! HOOMD's GSD, schema `hoomd` 1.4: <https://gsd.readthedocs.io/en/stable/schema-hoomd.html>.
 //!
-//! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it. What never
-//! changes (box, types, masses) is written in the first frame, from which readers take it for all others.
+//! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
+//! which is written as a plane on which all particles have y = 0. What never changes (box, types, masses, bonds) is written in the first frame, from which readers take it for all others.
 
 use super::Description;
 use crate::output::OutputError;
@@ -93,17 +93,27 @@ fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
 
 fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
     let mut lengths = description.units.lengths.map(|length| length as f32);
-    if description.units.dimension == 2 {
+    let dimension = description.units.dimension.max(2);
+    if dimension == 2 {
         lengths[2] = 0.0;
     }
     let [x, y, z] = lengths;
     file.write_scalars("configuration/box", [x, y, z, 0.0, 0.0, 0.0])?;
-    file.write_scalars("configuration/dimensions", [description.units.dimension as u8])?;
+    file.write_scalars("configuration/dimensions", [dimension as u8])?;
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
     let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
-    file.write_scalars("particles/mass", masses)
+    file.write_scalars("particles/mass", masses)?;
+    let bonds = &description.bonds;
+    if bonds.is_empty() {
+        return Ok(());
+    }
+    let kinds = bonds.iter().map(|(_, kind)| kind + 1).max().unwrap_or(0);
+    file.write_scalars("bonds/N", [bonds.len() as u32])?;
+    file.write_arrays("bonds/types", (0..kinds).map(|kind| type_name(&format!("bond {kind}"))))?;
+    file.write_scalars("bonds/typeid", bonds.iter().map(|(_, kind)| *kind))?;
+    file.write_arrays("bonds/group", bonds.iter().map(|(ends, _)| *ends))
 }
 
 /// The position relative to the centre of the box. Where rounding to single precision would reach the upper face, the
@@ -183,6 +193,10 @@ fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Resul
         copy!(arrays i8, NAME, "particles/types");
         copy!(scalars u32, "particles/typeid");
         copy!(scalars f32, "particles/mass");
+        copy!(scalars u32, "bonds/N");
+        copy!(arrays i8, NAME, "bonds/types");
+        copy!(scalars u32, "bonds/typeid");
+        copy!(arrays u32, 2, "bonds/group");
         copy!(scalars u64, "configuration/step");
         copy!(arrays f32, 3, "particles/position");
         copy!(arrays f32, 3, "particles/velocity");
@@ -293,7 +307,8 @@ mod tests {
     #[test]
     fn positions_stay_below_the_upper_face() {
         let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
-        let description = Description { units, time_step: 0.1, species: Vec::new(), mass_unit: None };
+        let description =
+            Description { units, time_step: 0.1, species: Vec::new(), mass_unit: None, bonds: Vec::new() };
         assert_eq!(centred(&description, [1 << 31; 3]), [0.0; 3]);
         for fraction in [0, 1, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
             for (value, length) in centred(&description, [fraction; 3]).into_iter().zip(units.lengths) {

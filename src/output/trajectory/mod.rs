@@ -30,6 +30,8 @@ struct Description {
     species: Vec<Species>,
     /// Value of one unit of integer mass, where every particle has a mass of its own.
     mass_unit: Option<f64>,
+    /// Numbers of bonded particles and kind of the bond.
+    bonds: Vec<([u32; 2], u32)>,
 }
 
 impl Description {
@@ -39,6 +41,7 @@ impl Description {
             time_step: model.time_step,
             species: model.species.clone(),
             mass_unit: model.shallow_water.as_ref().map(|water| water.mass_unit),
+            bonds: model.bonds.iter().flat_map(|bonds| &bonds.bonds).map(|bond| (bond.ends, bond.kind)).collect(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What is gathered from the samplers beside the observables, and what comes out in the end.
 
 mod autocorrelation;
+mod chain_sizes;
 mod diffusion;
 mod histogram;
 mod radial_distribution;
@@ -16,6 +17,7 @@ use crate::plan::Plan;
 use crate::plan::analyses::{autocorrelation_name, histogram_name};
 use crate::scene::Scene;
 use autocorrelation::Autocorrelation;
+use chain_sizes::ChainSizes;
 use diffusion::Diffusion;
 use histogram::Counts;
 use radial_distribution::RadialDistribution;
@@ -157,6 +159,7 @@ fn analysis(scene: &Scene, setting: &Setting<'_>, index: usize) -> Option<Box<dy
         }
         "diffusion" => Box::new(Diffusion::new(setting, output.diffusion.as_ref()?)),
         "viscosity" => Box::new(Viscosity::new(setting, output.viscosity.as_ref()?)),
+        "chain_sizes" => Box::new(ChainSizes::new(setting)),
         "tracers" => Box::new(Circulations::new(setting.model, setting.model.shallow_water.as_ref()?)),
         name => {
             let correlated = output.autocorrelations.iter().find(|asked| autocorrelation_name(asked.quantity) == name);
