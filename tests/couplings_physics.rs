@@ -26,9 +26,7 @@ use support::{Device, Implementation, Measured, deviate, fluid, largest_differen
 fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
     let model = Model::new(scene);
     let mut runs: Vec<Box<dyn Implementation>> = vec![Box::new(CouplingsReference::new(model.clone(), state.clone()))];
-    if model.bonds.is_none() && model.coloured_noise.is_none() {
-        runs.push(Box::new(Device::from_state(scene, state, Options::default())));
-    }
+    runs.push(Box::new(Device::from_state(scene, state, Options::default())));
     runs
 }
 
@@ -152,7 +150,7 @@ type Coordinates = dyn Fn(&Model, &State, &State) -> Vec<[f64; 4]>;
 /// The coordinates of particles on tethers, from the state at the report point and the one a step later, which has s.
 fn coordinates_of_oscillators(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
     let particle = |id: usize| {
-        let q = model.units.displacement(reported.positions[id], reported.tethers[id]);
+        let q = model.units.displacement(reported.positions[id], after.tethers[id]);
         let p = model.units.momentum(reported.momenta[id]);
         let half = model.units.momentum(after.momenta[id]);
         let s = after.position_baths.get(id).map_or([0.0; 3], |bath| bath.map(|bits| f64::from(f32::from_bits(bits))));
@@ -245,7 +243,7 @@ fn oscillators_keep_the_stationary_law() {
 fn a_free_bath_has_the_discrete_velocity_autocorrelation() {
     const LAGS: usize = 50;
     for scheme in SCHEMES {
-        for a in [1e-3, 0.1, 1.0, 10.0, 1e3] {
+        for a in [1e-3, 1.0, 1e3] {
             let (scene, law) = oscillator(scheme, a, 1.5, 0.0, 55_000);
             let (model, mut state) = start(&scene);
             settle(&mut state, &model, &law);
@@ -353,34 +351,32 @@ fn white_baths_keep_their_temperature() {
 /// Just inside B + W = 4 a cold oscillator stays within bounds, just outside it grows without any.
 #[test]
 fn stability_ends_where_b_and_w_add_up_to_four() {
-    const STEPS: u64 = 1500;
+    const STEPS: u64 = 400;
     for scheme in SCHEMES {
-        for a in [0.01, 1.0, 5.0] {
-            for spring in [0.5, 2.0] {
-                for (edge, stable) in [(3.96, true), (4.04, false)] {
-                    let (warm, _) = oscillator(scheme, a, edge - spring, spring, 4);
-                    let scene = Scene { temperature: 0.0, ..warm };
-                    let mut scene = scene;
-                    scene.particles[0].velocities =
-                        scene::Velocities::Listed { velocities: vec![vec![1.0, -0.7, 0.4]; 4] };
-                    let (model, state) = start(&scene);
-                    for mut run in runs(&scene, &state) {
-                        let survived = run.attempt(STEPS);
-                        let largest = if survived {
-                            let state = run.state();
-                            let momenta = state.momenta.iter().map(|momentum| model.units.momentum(*momentum)[0].abs());
-                            momenta.fold(0.0, f64::max)
-                        } else {
-                            f64::INFINITY
-                        };
-                        // Inside, a mode is at most 1/√(1 - 3.96/4) times as large as its start, and all start at 2.
-                        let name = run.name();
-                        if stable {
-                            assert!(largest < 40.0, "{scheme} {a} {spring}, {name}: {largest} at {edge}");
-                        } else {
-                            assert!(largest > 200.0, "{scheme} {a} {spring}, {name}: {largest} at {edge}");
-                        }
+        for (a, spring) in [(0.01, 2.0), (1.0, 0.5)] {
+            for (edge, stable) in [(3.96, true), (4.04, false)] {
+                let (mut scene, law) = oscillator(scheme, a, 3.9 - spring, spring, 4);
+                scene.temperature = 0.0;
+                // A scene that is certainly unstable is refused: the spring is made stiffer afterwards.
+                let stiffer = Linear { spring: spring + edge - 3.9, ..law };
+                scene.interactions[1] =
+                    scene::Interaction::Tether(scene::TetherInteraction { stiffness: stiffer.stiffness() });
+                scene.particles[0].velocities = scene::Velocities::Listed { velocities: vec![vec![1.0, -0.7, 0.4]; 4] };
+                let (model, mut state) = start(&scene);
+                // Slow beside what the unit of momentum was made for, so that there is room to grow.
+                for momentum in state.momenta.iter_mut().flatten() {
+                    *momentum /= 32;
+                }
+                for mut run in runs(&scene, &state) {
+                    let mut largest = f64::INFINITY;
+                    if run.attempt(STEPS) {
+                        let momenta = run.state().momenta;
+                        let along = momenta.iter().map(|momentum| 16.0 * model.units.momentum(*momentum)[0].abs());
+                        largest = along.fold(0.0, f64::max);
                     }
+                    // Inside, a mode is at most 1/√(1 - 3.96/4) = 10 times as large as its start, which is 1 here.
+                    let what = format!("{scheme} {a}, {}: {largest} at B + W = {edge}", run.name());
+                    assert!(if stable { largest < 20.0 } else { largest > 100.0 }, "{what}");
                 }
             }
         }
@@ -409,10 +405,10 @@ fn a_bath_that_never_forgets_conserves_the_extended_energy() {
                 };
                 let first = energy(run.as_mut());
                 let mut largest = [0.0_f64; 2];
-                for sample in 0..40 {
+                for sample in 0..16 {
                     run.step(25 << halving);
                     let error = (energy(run.as_mut()) / first - 1.0).abs();
-                    largest[sample / 20] = largest[sample / 20].max(error);
+                    largest[sample / 8] = largest[sample / 8].max(error);
                 }
                 let name = run.name();
                 // No drift: the second half of the run is no worse than the first.
@@ -584,7 +580,7 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
 #[test]
 fn pairs_with_memory_reach_the_stationary_law() {
     for scheme in SCHEMES {
-        for a in [0.5, 1.5] {
+        for a in [0.3, 1.5] {
             let (persistence, factor) = family(scheme, a);
             let law = Linear { mass: 1.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.5 };
             let (scene, state) = touching_pairs(
@@ -738,13 +734,13 @@ fn a_fluid_with_memory_does_not_know_of_its_list() {
             let (_, state) = start(&scene);
             for mut run in runs(&scene, &state) {
                 run.step(200);
-                let series = run.series(5, 240);
+                let series = run.series(5, 300);
                 let column = |value: &dyn Fn(&mesoscope::measure::Observables) -> f64| {
                     Measured::of(&series.iter().map(value).collect::<Vec<_>>())
                 };
                 let temperature = column(&|row| row.kinetic_temperature());
                 let bath = column(&|row| row.bath_square);
-                let (_, factor) = family(scheme, 0.2);
+                let (_, factor) = family(scheme, 0.1);
                 let rest = 10.0 * 4.5 * factor;
                 let what = format!("fluid {scheme} {skin}, {}", run.name());
                 // The step is short: B ≤ λₑdt²/μ = 0.04 a pair.
@@ -815,7 +811,7 @@ fn coloured_noise_gives_the_impulse_of_its_jumps() {
                         assert!(error < tolerance, "{process} {dimension} {time}, {}: off by {error}", run.name());
                     }
                 }
-                assert!(jumps > if time < 0.01 { 500 } else { 20 }, "{process} {time}: {jumps} jumps");
+                assert!(jumps > if time < 0.01 { 500 } else { 5 }, "{process} {time}: {jumps} jumps");
             }
         }
     }

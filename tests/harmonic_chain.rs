@@ -1,9 +1,14 @@
-//! Harmonic chains in double precision, step by step, against what is exact: Español 1996,
+//! Harmonic chains in double precision, step by step, and on the device, against what is exact: Español 1996,
 //! doi:10.1103/PhysRevE.53.1572.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::harmonic_chain::{NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses, thermal_start};
 use mesoscope::measure::statistics::Estimate;
 use mesoscope::model::{HarmonicChain, SpringChain};
+use mesoscope::output::read_table;
+use mesoscope::run::Simulation;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 /// A chain with the noise of strength √(`noise` · kTγ) on every dashpot, moved by leapfrog steps between which friction and
@@ -207,5 +212,55 @@ fn clusters_of_beads_in_equilibrium() {
     for (lag, (found, exact)) in series.momentum_correlation(16).into_iter().zip(exact).enumerate() {
         let error = found.standard_error.unwrap();
         assert!((found.mean - exact * scale).abs() < 4.0 * error, "lag {lag}: {found:?}, exact {}", exact * scale);
+    }
+}
+
+const TABLES: [&str; 5] =
+    ["chain_profiles.csv", "chain_pulse.csv", "chain_correlation.csv", "chain_memory.csv", "chain_equilibrium.csv"];
+
+/// The shipped scene, smaller: the pulse as it moves exactly, equilibrium within 4 standard errors, and the same tables to
+/// the last byte from a run that was stopped half-way.
+#[test]
+fn the_scene_on_the_device() {
+    let overrides = |steps: u64| {
+        let chain = "interactions[0].";
+        [
+            format!("time.steps={steps}"),
+            format!("{chain}pulse.clusters=40"),
+            format!("{chain}equilibrium.clusters=256"),
+            "output.energies.every=320".to_owned(),
+        ]
+    };
+    let scene = |steps: u64| mesoscope::scene::load("harmonic-chain", &overrides(steps)).unwrap();
+    let [whole, halves] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let outcome =
+        Simulation::start(scene(1280), whole.path(), true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    let first = Simulation::start(scene(640), halves.path(), true);
+    first.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    let rest = Simulation::resume(halves.path(), Some(1280)).unwrap();
+    rest.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    for name in TABLES {
+        let [one, other] = [&whole, &halves].map(|directory| std::fs::read(directory.path().join(name)).unwrap());
+        assert!(one == other, "{name}");
+        assert!(whole.path().join(name).with_extension("png").exists(), "{name}");
+    }
+    // The steps of ω₀dt = 0.1 are off by their square, and positions by 2048/2³² of a pulse 32 high.
+    let pulse = read_table(&whole.path().join("chain_pulse.csv")).unwrap();
+    for chain in ["micro", "dpd", "frictionless"] {
+        for (quantity, tolerance) in [("peak", 1e-3), ("variance", 0.01), ("energy", 1e-3)] {
+            let [found, exact] = ["", "exact_"].map(|kind| pulse.column(&format!("{chain}_{kind}{quantity}")).unwrap());
+            for (found, exact) in found.iter().zip(&exact) {
+                assert!((found / exact - 1.0).abs() < tolerance, "{chain} {quantity}: {found} {exact}");
+            }
+        }
+        let results = &outcome.summary.results["chain"]["chains"][chain];
+        for quantity in ["momentum_variance_over_nmkT", "separation_variance_times_stiffness_over_nkT"] {
+            let [mean, error, exact] =
+                ["mean", "standard_error", "exact"].map(|key| results[quantity][key].as_f64().unwrap());
+            assert!(
+                (mean - exact).abs() < 4.0 * error && error < 0.12,
+                "{chain} {quantity}: {mean} ± {error}, {exact}"
+            );
+        }
     }
 }

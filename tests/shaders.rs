@@ -386,7 +386,7 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             let mut complain = |complaint: String| {
                 complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
             };
-            if bindings.len() > STORAGE_BUFFERS {
+            if bindings.len() > plan.storage_buffers as usize {
                 let names: Vec<&str> = bindings.iter().map(|binding| binding.name.as_str()).collect();
                 complain(format!("{} storage buffers: {}", bindings.len(), names.join(", ")));
             }

@@ -101,7 +101,7 @@ fn open(settings: &Settings) -> Result<Gpu, Failure> {
         largest_buffer = largest_buffer.max(plan.largest_buffer());
     }
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-    Ok(Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements { largest_buffer })?)
+    Ok(Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements { largest_buffer, ..Requirements::default() })?)
 }
 
 /// Cost of a step of `splitting` in steps of `groot-warren`, round by round.

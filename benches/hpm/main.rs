@@ -109,9 +109,9 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
         }
         let wished = if settings.alternatives { wished } else { needed };
         // Alternatives that do not fit are left out.
-        match Gpu::open(&choice, Requirements { largest_buffer: wished.max(needed) }) {
+        match Gpu::open(&choice, Requirements { largest_buffer: wished.max(needed), ..Requirements::default() }) {
             Err(GpuError::TooSmall { .. }) if wished > needed => {
-                Ok::<_, Failure>(Gpu::open(&choice, Requirements { largest_buffer: needed }))
+                Ok::<_, Failure>(Gpu::open(&choice, Requirements { largest_buffer: needed, ..Requirements::default() }))
             }
             opened => Ok(opened),
         }

@@ -52,20 +52,22 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
 
 // Both half steps around this step: they end at it and begin with it.
 fn advance_hold(id: u32) -> Held {
-    var hold = holds[id];
-    let jump = hold.jump;
-    var closing = Steps(0);
     // Stored momenta of step 0 are full-step ones, and its process begins with it.
-    for (var pending = control.closing; pending != 0; pending = 0) { closing = cross_half_step(id, &hold); }
-    let opening = cross_half_step(id, &hold);
-    holds[id].fraction = hold.fraction;
-    holds[id].halves = hold.halves;
+    let crossed = u32(1 + control.closing);
+    let whole = Steps(round(HOLD_IMPULSE * force_of(holds[id].force)));
+    let halves = holds[id].halves;
+    var held = Held(control.closing * whole, whole);
+    var left = halves - crossed;
     // Most forces outlast a step.
-    for (var pending = hold.jump != jump; pending; pending = false) {
-        holds[id].force = hold.force;
-        holds[id].jump = hold.jump;
+    for (var pending = halves < crossed; pending; pending = false) {
+        var hold = holds[id];
+        for (var closing = control.closing; closing != 0; closing = 0) { held.closing = cross_half_step(id, &hold); }
+        held.opening = cross_half_step(id, &hold);
+        holds[id] = hold;
+        left = hold.halves;
     }
-    return Held(closing, opening);
+    holds[id].halves = left;
+    return held;
 }
 // The half step that ends at this step alone, for a report: nothing is stored. At step 0 it is the one that begins with it,
 // which tells the force; the momentum is complete without it.

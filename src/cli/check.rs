@@ -37,7 +37,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
-    let requirements = Requirements { largest_buffer: planned(Hardware::default()).largest_buffer() };
+    let portable = planned(Hardware::default());
+    let requirements =
+        Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
     let (hardware, adapter) = match Gpu::open(&AdapterChoice::parse(arguments.adapter.as_deref()), requirements) {
         Ok(gpu) => (Hardware { subgroup_size: gpu.subgroup_size() }, gpu.description().name.clone()),
         Err(error @ GpuError::NoSuchAdapter { .. }) => return Err(error.into()),
@@ -111,7 +113,10 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         (Some(water), [Interaction::ShallowWater(asked)]) => {
             rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
         }
-        _ => rows.push(("cells", cells)),
+        _ => {
+            rows.push(("cells", cells));
+            rows.extend(list(model, plan));
+        }
     }
     rows.extend([
         ("adapter", adapter.to_owned()),
@@ -123,6 +128,27 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     ]);
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     format!("{}\n{}", scene.title, aligned(&rows, "  "))
+}
+
+/// The list of neighbours and what its pairs take.
+fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
+    let (Layout::Coupled { listed: Some(listed), .. }, Some(force)) = (plan.layout, &model.pair_force) else {
+        return None;
+    };
+    let noun = if listed.capacity == 1 { "pair" } else { "pairs" };
+    let each = if listed.memory {
+        "12 bytes a pair (neighbour 4, memory 8), twice for the time a new list is made"
+    } else {
+        "4 bytes a pair"
+    };
+    let text = format!(
+        "within {} of each other (cutoff {}, margin {}), room for {} {noun} a particle owns; {each}",
+        short(force.cutoff + force.skin),
+        short(force.cutoff),
+        short(force.skin),
+        listed.capacity
+    );
+    Some(("list", text))
 }
 
 /// What a scene of shallow water does on its mesh.

@@ -10,6 +10,8 @@ use super::error::GpuError;
 pub struct Requirements {
     /// The largest storage buffer in bytes.
     pub largest_buffer: u64,
+    /// The most storage buffers that one kernel binds.
+    pub storage_buffers: u32,
 }
 
 /// An opened device with its queue.
@@ -46,6 +48,17 @@ impl Gpu {
             }
             limits.max_storage_buffer_binding_size = requirements.largest_buffer;
             limits.max_buffer_size = limits.max_buffer_size.max(requirements.largest_buffer);
+        }
+        if requirements.storage_buffers > limits.max_storage_buffers_per_shader_stage {
+            if requirements.storage_buffers > offered.max_storage_buffers_per_shader_stage {
+                return Err(GpuError::TooSmall {
+                    adapter: info.name,
+                    quantity: "storage buffers of a kernel",
+                    allowed: offered.max_storage_buffers_per_shader_stage.into(),
+                    needed: requirements.storage_buffers.into(),
+                });
+            }
+            limits.max_storage_buffers_per_shader_stage = requirements.storage_buffers;
         }
         let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;

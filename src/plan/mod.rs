@@ -230,6 +230,8 @@ pub struct Plan {
     pub finish_report: Vec<usize>,
     /// The samplers; the first is that of the observables.
     pub samplers: Vec<Sampler>,
+    /// The most storage buffers that one kernel binds, if they are more than the eight that every adapter has; else eight.
+    pub storage_buffers: u32,
     /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
     pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.

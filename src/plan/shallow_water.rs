@@ -102,6 +102,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
         advance: Vec::new(),
         finish_report: Vec::new(),
         samplers: Vec::new(),
+        storage_buffers: 8,
         reported: None,
         operations_per_particle: 0.0,
     }

@@ -61,6 +61,8 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
         let mut panel = Panel::new("Cluster", &format!("X at τ = {}", short_number(moment[0])));
         panel.x.range = Some([0.0, last]);
         for (points, (_, name)) in all.iter().zip(CHAINS) {
+            // One legend is enough.
+            let name = if chart.panels.is_empty() { name } else { "" };
             panel.series.push(Series::line(name, points[range.clone()].to_vec()));
         }
         chart.panels.push(panel);
@@ -85,6 +87,10 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Ch
         panel("energy", "Energy relative to the first"),
     ];
     panels[2].y.range = Some([0.0, 1.1]);
+    // One legend is enough.
+    for series in panels[1..].iter_mut().flat_map(|panel| &mut panel.series) {
+        series.name.clear();
+    }
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
 }
 
@@ -98,7 +104,7 @@ pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable)
     panel.series = compared(table, "correlation");
     let limit = Series::line("large clusters of beads: max(0, 1 − τ)", points(table, "tau", "limit"));
     panel.series.push(limit.with_ink(SeriesInk::Ink { pattern: 1 }));
-    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel.with_reference("none", 0.0)] }
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel.with_reference("", 0.0)] }
 }
 
 /// The running integral of the exact memory kernel, as a friction, with the plateau it has while ω₀t ≪ n.
@@ -117,8 +123,11 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> C
         panel.series.push(Series::line(&format!("n = {size}"), line));
     }
     for name in table.columns.iter().filter(|name| name.starts_with("plateau_")) {
-        let line = points(table, "time", name).into_iter().filter(|point| point[0] > 0.0).collect();
-        panel.series.push(Series::line("plateau", line).with_ink(SeriesInk::Ink { pattern: 1 }));
+        let line = points(table, "time", name);
+        let height = line.first().map_or(f64::NAN, |point| point[1]);
+        let line = line.into_iter().filter(|point| point[0] > 0.0).collect();
+        let name = format!("plateau, from γ* = {height:.3}");
+        panel.series.push(Series::line(&name, line).with_ink(SeriesInk::Ink { pattern: 1 }));
     }
     let panel = panel.with_reference("γ* = ½", 0.5).with_reference("over all times: 0", 0.0);
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
@@ -140,10 +149,12 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &EnergyTable)
     let momenta = momenta.with_reference("exact", 1.0);
     let mut separations = Panel::new(REDUCED_TIME, "var(X_{μ+1} − X_{μ}) κ/nkT");
     separations.series = lines("separation_variance");
+    // One legend is enough.
+    separations.series.iter_mut().for_each(|series| series.name.clear());
     for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {
         let exact = column(table, &format!("{chain}_exact_separation_variance"));
         if let Some(value) = exact.first() {
-            separations = separations.with_reference(name, *value);
+            separations = separations.with_reference(&format!("{name}: {value:.3}"), *value);
         }
     }
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![momenta, separations] }
@@ -192,7 +203,7 @@ mod tests {
         let columns = ["time", "running_friction_16", "running_friction_64", "plateau_64"];
         let chart = chain_memory_chart("t", "s", &table(&columns, &[&[0.0, 0.0, 0.0, 0.5], &[1.0, 0.6, 0.7, 0.48]]));
         let names: Vec<&str> = chart.panels[0].series.iter().map(|series| series.name.as_str()).collect();
-        assert_eq!(names, ["n = 16", "n = 64", "plateau"]);
+        assert_eq!(names, ["n = 16", "n = 64", "plateau, from γ* = 0.500"]);
         assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.7]]);
     }
 

@@ -257,7 +257,7 @@ impl Chains {
     /// The memory of clusters as large as those of the scene and larger, in fours.
     fn kernels(&self) -> Vec<MemoryKernel> {
         let sizes = std::iter::successors(Some(self.trios.pulse.cluster_size), |size| Some(4 * size));
-        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(|size| MemoryKernel::new(size)).collect()
+        sizes.take_while(|size| *size <= LARGEST_CLUSTER).map(MemoryKernel::new).collect()
     }
 
     fn results(&self, pulse: &Table, kernels: &[MemoryKernel]) -> Value {
@@ -369,8 +369,7 @@ pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
             chain.pulse.clusters, chain.pulse.width
         ),
         files::CHAIN_MEMORY => {
-            "exact, with the centres of clusters of n beads held; the plateau is a line through the mean \
-                                over π/ω_{0}, π < ω_{0}t < n/8"
+            "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
                 .to_owned()
         }
         _ => format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),

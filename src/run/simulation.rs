@@ -198,7 +198,9 @@ pub(super) fn open_adapter(
     options: Options,
 ) -> Result<Gpu, RunError> {
     let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
-    Ok(Gpu::open(choice, Requirements { largest_buffer: portable.largest_buffer() })?)
+    let requirements =
+        Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
+    Ok(Gpu::open(choice, requirements)?)
 }
 
 /// Opens the adapter that a run of this scene would open.

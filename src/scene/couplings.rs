@@ -20,7 +20,6 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
             });
             let frictions = std::iter::once((format!("{path}.friction"), dpd.friction)).chain(named).collect();
             check_bath(&dpd.bath, frictions, path, problems);
-            check_range(scene, dpd, path, problems);
         }
         Interaction::Langevin(langevin) => check_langevin(scene, langevin, path, problems),
         Interaction::Bonds(bonds) => check_bonds(scene, bonds, path, problems),
@@ -246,24 +245,6 @@ fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: 
 
 fn fits(value: f64) -> bool {
     value < f64::from(f32::MAX)
-}
-
-fn check_range(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut Vec<Problem>) {
-    if !scene_is_coupled(scene) {
-        return;
-    }
-    let least = 2.0 * (dpd.cutoff + dpd.skin);
-    for (axis, length) in scene.space.lengths.iter().enumerate() {
-        // Shorter than two cutoffs is a mistake by itself.
-        if *length < least && *length >= 2.0 * dpd.cutoff {
-            let accepted = format!(
-                "at least {least}, twice the cutoff {} and the skin {}, within which neighbours are listed; or a smaller \
-                 {path}.skin",
-                dpd.cutoff, dpd.skin
-            );
-            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
-        }
-    }
 }
 
 fn check_langevin(scene: &Scene, langevin: &LangevinInteraction, path: &str, problems: &mut Vec<Problem>) {

@@ -7,7 +7,7 @@
 //! unstable, and refused.
 
 use super::error::{Problem, Warning};
-use super::{Bath, BondPotential, Integrator, Interaction, Scene};
+use super::{Bath, BondPotential, BondsInteraction, Integrator, Interaction, Scene};
 use crate::model::{BathStep, BondKind, Bonds, Model};
 use std::f64::consts::PI;
 
@@ -135,7 +135,7 @@ fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
             Some(BondPotential::Harmonic { stiffness, length: 0.0 }) => [stiffness, 0.0],
             _ => [0.0; 2],
         };
-        let all = stiffnesses(bonds);
+        let all = stiffnesses(scene, model, bonds, step);
         strains.extend(of_network(scene, model, bonds, step, &|kind| if line { all[kind] } else { isotropic(kind) }));
     }
     strains
@@ -145,7 +145,7 @@ fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
 fn possible(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
     let mut strains = Vec::new();
     if let Some(bonds) = &model.bonds {
-        let all = stiffnesses(bonds);
+        let all = stiffnesses(scene, model, bonds, step);
         strains.extend(of_network(scene, model, bonds, step, &|kind| all[kind]));
     }
     strains
@@ -215,16 +215,29 @@ fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
     strains
 }
 
-/// K and λₑ of each kind of bonds; K at rest, the least of a bond that is finitely extensible.
-fn stiffnesses(bonds: &Bonds) -> Vec<[f64; 2]> {
-    let kind = |kind: &BondKind| {
+/// K and λₑ at a step of each kind of bonds; K at rest, the least of a bond that is finitely extensible.
+fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f64; 2]> {
+    let asked: Vec<&BondsInteraction> = scene
+        .interactions
+        .iter()
+        .filter_map(|interaction| match interaction {
+            Interaction::Bonds(bonds) => Some(bonds),
+            _ => None,
+        })
+        .collect();
+    let kind = |(index, kind): (usize, &BondKind)| {
         let spring = match kind.potential {
             Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
             None => 0.0,
         };
-        [spring, kind.bath.map_or(0.0, |step| step.coupling)]
+        let bath = match asked.get(index) {
+            Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling,
+            // The baths of harmonic chains are white: 2γ/dt.
+            None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),
+        };
+        [spring, bath]
     };
-    bonds.kinds.iter().map(kind).collect()
+    bonds.kinds.iter().enumerate().map(kind).collect()
 }
 
 /// The interaction that each kind of bonds comes from.
@@ -253,7 +266,7 @@ fn species_of_particles(scene: &Scene, model: &Model) -> Vec<u32> {
 /// Every bond by itself, on the reduced mass of its ends.
 fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
     let species = species_of_particles(scene, model);
-    let (stiffnesses, places) = (stiffnesses(bonds), places(scene, bonds));
+    let (stiffnesses, places) = (stiffnesses(scene, model, bonds, step), places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
     for bond in &bonds.bonds {
         let inverse: f64 = bond.ends.iter().map(|end| inverse_mass(model, species[*end as usize] as usize)).sum();

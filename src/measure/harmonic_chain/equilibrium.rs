@@ -1,7 +1,7 @@
 //! Exact variances of clusters in equilibrium, between fixed ends. Indices of clusters count from 0.
 //!
 //! With displacements of beads of covariance kT/κ A⁻¹, those of clusters of n have, to order n/N,
-//! ⟨XXᵀ⟩ = (kTn/κ) [A⁻¹ - (1 - n⁻²)/6]. Equations (26) and (27) of Español 1996, doi:10.1103/PhysRevE.53.1572, miss the
+//! `⟨XXᵀ⟩ = (kTn/κ) [A⁻¹ - (1 - n⁻²)/6]`. Equations (26) and (27) of Español 1996, doi:10.1103/PhysRevE.53.1572, miss the
 //! second part, which a chain of clusters joined by springs κ/n does not have either: its neighbours are further apart.
 //! Here the ends are exact too: the fixed bead is one bead, not one cluster, from its neighbour.
 
@@ -13,7 +13,7 @@ pub fn momentum_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
     chain.frictionless().mass * temperature
 }
 
-/// ⟨X_μ X_ν⟩ of the clusters of a chain of beads.
+/// `⟨X_μ X_ν⟩` of the clusters of a chain of beads.
 #[must_use]
 pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [usize; 2]) -> f64 {
     let size = chain.cluster_size as f64;
@@ -25,7 +25,7 @@ pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [us
     temperature / chain.stiffness * (left * (length - right) / length - own)
 }
 
-/// The variance of X_{μ+1} - X_μ of the clusters of a chain of beads, (kTn/κ) [(2 + n⁻²)/3 - n/(N+1)], in which the last
+/// The variance of `X_{μ+1} - X_μ` of the clusters of a chain of beads, (kTn/κ) [(2 + n⁻²)/3 - n/(N+1)], in which the last
 /// part is that of the fixed ends.
 #[must_use]
 pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
@@ -34,7 +34,7 @@ pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f
     temperature * size / chain.stiffness * ((2.0 + size.powi(-2)) / 3.0 - size / length)
 }
 
-/// The variance of x_{i+1} - x_i of a chain, kT/κ [1 - 1/(N+1)]; of clusters, that of springs κ/n.
+/// The variance of `x_{i+1} - x_i` of a chain, kT/κ [1 - 1/(N+1)]; of clusters, that of springs κ/n.
 #[must_use]
 pub fn separation_variance(chain: &SpringChain, temperature: f64) -> f64 {
     temperature / chain.stiffness * (1.0 - 1.0 / (chain.beads as f64 + 1.0))
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(momentum_variance(&CHAIN, 1.5), 5.0 * 2.0 * 1.5);
     }
 
-    /// ⟨XXᵀ⟩ = (kTn/κ)[A⁻¹ - (1 - n⁻²)/6] where single beads are the clusters: the inverse matrix itself.
+    /// `⟨XXᵀ⟩ = (kTn/κ)[A⁻¹ - (1 - n⁻²)/6]` where single beads are the clusters: the inverse matrix itself.
     #[test]
     fn single_beads_are_the_inverse_matrix() {
         let single = HarmonicChain { clusters: 8, cluster_size: 1, ..CHAIN };

@@ -12,7 +12,7 @@ const RING: usize = 32;
 /// With the beads' matrix in the basis of cluster means Q and of all other coordinates R, the momenta of clusters obey
 /// the generalised Langevin equation of Mori with
 ///
-/// K(t) = D_QR D_RR⁻¹ cos(√D_RR t) D_RQ,
+/// `K(t) = D_QR D_RR⁻¹ cos(√D_RR t) D_RQ`,
 ///
 /// the force of beads that move while the means are clamped. If it decayed at once, ∫K = (γ/nm)A, equation (41) of Español
 /// 1996, doi:10.1103/PhysRevE.53.1572. But the clamped beads have a lowest frequency, near πω₀/n, so the integral over
@@ -114,7 +114,7 @@ impl MemoryKernel {
 /// Cosines cos(πk(i + ½)/n), k = 1 … n - 1, are the modes of the free beads of a cluster. The springs between clusters add one
 /// vector's product with itself, and it is that vector through which the means act: with f the amplitudes of the cosines
 /// at the first bead and a = 2f sin(θ/2) for even k, 2f cos(θ/2) for odd k (the latter a quarter of a turn apart in phase),
-/// D_RR = 4 sin²(πk/2n) + a aᵀ and D_RQ = 2 sin(θ/2) a/√n.
+/// `D_RR = 4 sin²(πk/2n) + a aᵀ` and `D_RQ = 2 sin(θ/2) a/√n`.
 fn wave_modes(cluster_size: usize, phase: f64) -> Vec<[f64; 2]> {
     let size = cluster_size as f64;
     let (sine, cosine) = (0.5 * phase).sin_cos();
@@ -138,7 +138,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// K(t) of the middle one of some clusters between fixed ends, from matrices of all beads: with P = 1 - QQᵀ, the clamped
+    /// K(t) of the middle one of some clusters between fixed ends, from matrices of all beads: with `P = 1 - QQᵀ`, the clamped
     /// beads move by PDP, of which the means are null vectors.
     fn between_ends(n: usize, clusters: usize, times: &[f64]) -> Vec<f64> {
         let beads = DMatrix::from_fn(n * clusters, n * clusters, |i, j| match i.abs_diff(j) {

@@ -176,7 +176,7 @@ mod tests {
         }
     }
 
-    /// In the middle of a long chain ⟨p_i(0) p_i(t)⟩/mkT = J₀(2ω₀t) (Schrödinger 1914); the ends change the average by
+    /// In the middle of a long chain `⟨p_i(0) p_i(t)⟩/mkT = J₀(2ω₀t)` (Schrödinger 1914); the ends change the average by
     /// 1/N.
     #[test]
     fn a_bead_forgets_its_momentum_as_in_an_infinite_chain() {

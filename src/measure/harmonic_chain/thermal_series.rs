@@ -12,9 +12,9 @@ pub struct ThermalSeries {
     clusters: usize,
     /// Sample after sample, the momenta of all clusters.
     momenta: Vec<f64>,
-    /// For every pair of neighbours, the sum of (X_{μ+1} - X_μ)² over the samples.
+    /// For every pair of neighbours, the sum of `(X_{μ+1} - X_μ)²` over the samples.
     separations: Vec<f64>,
-    /// Means of P² and of (X_{μ+1} - X_μ)² over the chain, sample after sample.
+    /// Means of P² and of `(X_{μ+1} - X_μ)²` over the chain, sample after sample.
     history: Vec<[f64; 2]>,
 }
 
@@ -23,7 +23,7 @@ pub struct ThermalSeries {
 pub struct ThermalEstimates {
     /// ⟨P²⟩.
     pub momentum_variance: Option<Estimate>,
-    /// The variance of X_{μ+1} - X_μ.
+    /// The variance of `X_{μ+1} - X_μ`.
     pub separation_variance: Option<Estimate>,
 }
 
@@ -50,7 +50,7 @@ impl ThermalSeries {
         self.history.push([momentum / self.clusters as f64, separation / self.separations.len() as f64]);
     }
 
-    /// Means over the chain of P² and of (X_{μ+1} - X_μ)², sample after sample.
+    /// Means over the chain of P² and of `(X_{μ+1} - X_μ)²`, sample after sample.
     #[must_use]
     pub fn history(&self) -> &[[f64; 2]] {
         &self.history

@@ -81,6 +81,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         advance: Vec::new(),
         finish_report: Vec::new(),
         samplers: Vec::new(),
+        storage_buffers: 8,
         reported: Some("reported"),
         force_unit: 0.0,
         operations_per_particle: 0.0,

@@ -27,6 +27,9 @@ impl Builder<'_> {
         let memory = self.model.position_bath.as_ref().is_some_and(|bath| bath.memory);
         let seen = if memory { "common/position_seen" } else { "common/position_unseen" };
         let forces = self.reported_forces(output);
+        // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
+        let optional = [!self.single(), memory, self.model.coloured_noise.is_some(), forces == "common/force_on"];
+        self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
         let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
         if self.has_potential() {
