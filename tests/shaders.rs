@@ -157,7 +157,7 @@ fn bond_plans() -> Vec<(String, Plan)> {
         format!(r#"{{"type":"bonds",{harmonic}}}"#),
         format!(r#"{{"type":"bonds",{fene},{memory}}}"#),
         format!(r#"{{"type":"bonds",{harmonic},"friction":2,"exclude_repulsion":true}}"#),
-        format!(r#"{{"type":"bonds","friction":2,"bath":{{"type":"white","temperature":0}}}}"#),
+        r#"{"type":"bonds","friction":2,"bath":{"type":"white","temperature":0}}"#.to_owned(),
         format!(r#"{{"type":"bonds",{memory}}},{{"type":"angles","stiffness":2}}"#),
     ];
     let others = [
