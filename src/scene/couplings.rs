@@ -6,8 +6,8 @@ use super::error::Problem;
 use super::nearest::nearest;
 use super::placement;
 use super::{
-    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
-    LangevinInteraction, ParticleGroup, Placement, Scene, stability,
+    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
+    ParticleGroup, Placement, Scene, stability,
 };
 use crate::model::Model;
 
