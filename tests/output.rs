@@ -341,6 +341,43 @@ fn steps_of(path: &Path) -> Vec<u64> {
         .collect()
 }
 
+/// Bonds are in the first frame, and stay there when a trajectory is cut back to it; a line is a plane in HOOMD's terms.
+#[test]
+fn gsd_holds_bonds() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::TRAJECTORY_GSD);
+    let scene = serde_json::from_value(serde_json::json!({
+        "title": "line", "space": {"box": [50.0]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1.0,
+        "particles": [{"species": "bead", "count": 6, "chain": {"beads": 3}}],
+        "interactions": [
+            {"type": "bonds", "pairs": [[5, 1]]},
+            {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 1.0}},
+        ],
+    }));
+    let scene: Scene = scene.unwrap();
+    let model = Model::new(&scene);
+    let start = mesoscope::scene::placement::initial_state(&scene, &model);
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    for step in [0, 10, 20] {
+        trajectory.append(&State { step, ..start.clone() }).unwrap();
+    }
+    trajectory.flush().unwrap();
+    drop(trajectory);
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 10).unwrap());
+
+    let file = GsdFile::open(&path, Mode::Read).unwrap();
+    assert_eq!(file.n_frames(), 2);
+    assert_eq!(file.iter_scalars::<u32>(0, "bonds/N").unwrap().collect::<Vec<_>>(), [5]);
+    assert_eq!(file.iter_scalars::<u32>(0, "bonds/typeid").unwrap().collect::<Vec<_>>(), [0, 1, 1, 1, 1]);
+    let groups: Vec<[u32; 2]> = file.iter_arrays(0, "bonds/group").unwrap().collect();
+    assert_eq!(groups, [[5, 1], [0, 1], [1, 2], [3, 4], [4, 5]]);
+    assert_eq!(file.iter_arrays::<i8, 64>(0, "bonds/types").unwrap().count(), 2);
+    assert_eq!(file.iter_scalars::<u8>(0, "configuration/dimensions").unwrap().collect::<Vec<_>>(), [2]);
+    assert_eq!(file.iter_scalars::<f32>(0, "configuration/box").unwrap().collect::<Vec<_>>()[..3], [50.0, 1.0, 0.0]);
+    let positions: Vec<[f32; 3]> = file.iter_arrays(0, "particles/position").unwrap().collect();
+    assert!(positions.iter().all(|position| position[1..] == [0.0, 0.0]), "{positions:?}");
+}
+
 #[test]
 fn gsd_holds_what_hoomd_expects() {
     let root = tempfile::tempdir().unwrap();

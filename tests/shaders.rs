@@ -189,8 +189,9 @@ fn bond_plans() -> Vec<(String, Plan)> {
                     for generator in ["pcg4d", "threefry2x32-20"] {
                         let interactions = format!("interactions=[{bonds}{other}]");
                         let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
-                        let changes =
-                            [particles, &interactions, space, &generator, integrator, "output.chain_sizes.every=1"];
+                        let output =
+                            r#"output={"chain_sizes":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
+                        let changes = [particles, &interactions, space, &generator, integrator, output];
                         plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
                     }
                 }
