@@ -151,7 +151,7 @@ fn assert_within(name: &str, found: Option<Estimate>, expected: f64) {
     assert!(error < 0.05 * expected, "{name}: the error {error} shows nothing");
 }
 
-/// ⟨P²⟩ and the variance of X_{μ+1} - X_μ of the dissipative chain, with the noise of fluctuation and dissipation and with
+/// ⟨P²⟩ and the variance of `X_{μ+1} - X_μ` of the dissipative chain, with the noise of fluctuation and dissipation and with
 /// that of equation (47): √(kTγ) keeps half the temperature.
 #[test]
 fn the_printed_noise_keeps_half_the_temperature() {

@@ -123,6 +123,17 @@ fn coupled_plans() -> Vec<(String, Plan)> {
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"fixed":true}]"#,
     ];
     let mut plans = Vec::new();
+    // Masses, baths, a random force and forces for an analysis at once.
+    for all in ["", r#",{"type":"coloured-noise","strength":1,"time":0.1}"#] {
+        let interactions = format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,"bath":{{"type":"memory","rate":3}}}},
+                {{"type":"langevin","friction":1,"bath":{{"type":"memory","rate":3}}}}{all}]"#
+        );
+        for particles in particles {
+            let changes = [&[interactions.as_str(), particles], SAMPLERS].concat();
+            plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
+        }
+    }
     for interactions in &interactions {
         for particles in particles {
             for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
@@ -382,6 +393,11 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             complaints.entry("two buffers share a name".to_owned()).or_insert(scene.clone());
         }
         let mut bound = BTreeSet::new();
+        let most = plan.kernels.iter().map(|kernel| shader(kernel).bindings.len()).max().unwrap_or(0);
+        if plan.storage_buffers as usize != most.max(STORAGE_BUFFERS) {
+            let complaint = format!("asks for {} storage buffers and binds {most}", plan.storage_buffers);
+            complaints.entry(complaint).or_insert(scene.clone());
+        }
         for kernel in &plan.kernels {
             let bindings = &shader(kernel).bindings;
             let mut complain = |complaint: String| {

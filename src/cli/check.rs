@@ -109,14 +109,11 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         ("particles", format!("{particles} in {} dimensions, box {}", lengths.len(), lengths.join(" × "))),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
     ];
-    match (&model.shallow_water, scene.interactions.as_slice()) {
-        (Some(water), [Interaction::ShallowWater(asked)]) => {
-            rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
-        }
-        _ => {
-            rows.push(("cells", cells));
-            rows.extend(list(model, plan));
-        }
+    if let (Some(water), [Interaction::ShallowWater(asked)]) = (&model.shallow_water, scene.interactions.as_slice()) {
+        rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
+    } else {
+        rows.push(("cells", cells));
+        rows.extend(list(model, plan));
     }
     rows.extend([
         ("adapter", adapter.to_owned()),

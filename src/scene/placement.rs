@@ -73,7 +73,8 @@ fn draw_bond_baths(state: &mut State, model: &Model) {
     let key = noise::step_key(model.seed, stream::BOND, 0);
     let all = bonds.bonds.iter().enumerate().map(|(index, bond)| {
         let kind = &bonds.kinds[bond.kind as usize];
-        let width = kind.bath.filter(|step| step.remembers()).map_or(0.0, |step| step.deviation(kind.temperature));
+        let width =
+            kind.bath.filter(crate::model::BathStep::remembers).map_or(0.0, |step| step.deviation(kind.temperature));
         let words = noise::words(model.generator, key, [index as u32, 1]);
         ((width * noise::gaussian(words)) as f32).to_bits()
     });
