@@ -21,10 +21,10 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
     keep_position_bath(id, bath);
     let impulse = position_impulse(bath);
-    var kick = steps_of(kicks[slot]) + Steps(round(impulse));
+    let kick = steps_of(kicks[slot]) + Steps(round(impulse));
     kicks[slot] = vec4<i32>(0);
-    let closing = control.closing * (kick + held.closing);
-    var momentum = steps_of(me.momentum) + closing + kick + held.opening;
+    let opening = kick + held.opening;
+    var momentum = steps_of(me.momentum) + control.closing * (kick + held.closing) + opening;
     momentum = select(momentum, Steps(0), is_fixed(species));
     let travelled = abs(Vector(momentum)) * drift_of(species);
     raise(select(FAILURE_IMPULSE, 0u, largest(abs(impulse)) < IMPULSE_LIMIT)
@@ -32,6 +32,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT));
     let word = momentum_word(momentum, species);
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
-    particles[slot] = advanced_particle(position_word(fraction, id), word, kick);
+    particles[slot] = advanced_particle(position_word(fraction, id), word, opening);
     check_anchor(slot, fraction);
 }

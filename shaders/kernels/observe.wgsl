@@ -21,12 +21,12 @@ fn observe(slot: u32) {
     let species = species_of(me);
     let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
     note_position_bath(species, bath);
-    let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath)));
+    let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + closing_of_hold(id);
     kicks[slot] = vec4<i32>(0);
-    var momentum = steps_of(me.momentum) + control.closing * (kick + closing_of_hold(id));
+    var momentum = steps_of(me.momentum) + control.closing * kick;
     momentum = select(momentum, Steps(0), is_fixed(species));
     begin_force();
-    add_force(momentum_word(kick + closing_of_hold(id), 0));
+    add_force(momentum_word(kick, 0));
     store_force(id);
     let p = Vector(momentum);
     total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
