@@ -15,6 +15,7 @@
 
 mod support;
 
+use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::Options;
 use mesoscope::reference::{CouplingsReference, Reference};
@@ -167,6 +168,7 @@ fn check_law(
     law: &Linear,
     coordinates: &Coordinates,
     [samples, every]: [u64; 2],
+    largest_error: f64,
 ) {
     let model = Model::new(scene);
     let mut sums: Vec<[f64; 7]> = Vec::new();
@@ -199,7 +201,7 @@ fn check_law(
                 &format!("{what} {name}, {}", run.name()),
                 value / scale,
                 0.0,
-                0.0025,
+                largest_error,
             );
         }
     }
@@ -216,7 +218,7 @@ fn oscillators_reach_the_stationary_law() {
             for mut run in runs(&scene, &state) {
                 run.step(120);
                 let what = format!("{scheme} {a}");
-                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [8, 12]);
+                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [8, 12], 0.0025);
             }
         }
     }
@@ -233,7 +235,7 @@ fn oscillators_keep_the_stationary_law() {
             settle(&mut state, &model, &law);
             for mut run in runs(&scene, &state) {
                 let what = format!("{scheme} {a}");
-                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [3, 25]);
+                check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_oscillators, [3, 25], 0.0025);
             }
         }
     }
@@ -284,7 +286,8 @@ fn a_free_bath_has_the_discrete_velocity_autocorrelation() {
 /// Observables against the coordinates they are sums of.
 #[test]
 fn observables_are_sums_over_oscillators() {
-    let (scene, law) = oscillator("cotter-reich", 1.0, 2.0, 1.0, 2000);
+    let (mut scene, law) = oscillator("cotter-reich", 1.0, 2.0, 1.0, 2000);
+    scene.output.energies.every = 30;
     let (model, state) = start(&scene);
     for mut run in runs(&scene, &state) {
         run.step(30);
@@ -396,6 +399,7 @@ fn a_bath_that_never_forgets_conserves_the_extended_energy() {
                 "interactions.0.bath.rate=0",
                 &format!("interactions.0.bath.scheme=\"{scheme}\""),
                 "particles.0.count=200",
+                "output.energies.every=25",
             ]);
             let (_, state) = start(&scene);
             for (index, mut run) in runs(&scene, &state).into_iter().enumerate() {
@@ -434,7 +438,7 @@ fn dimers(count: usize, law: &Linear, bond: &str) -> Scene {
         "title": "test", "space": {{"box": [128]}}, "time": {{"step": {}, "steps": 1}}, "temperature": {},
         "particles": [{{"species": "A", "count": {count}, "mass": 1}}, {{"species": "B", "count": {count}, "mass": 3}}],
         "interactions": [{{"type": "bonds", "pairs": {pairs:?}, {bond}}}],
-        "output": {{"energies": {{"every": 1}}}}
+        "output": {{"energies": {{"every": 1000000}}}}
     }}"#,
         law.time_step, law.temperature
     );
@@ -493,7 +497,7 @@ fn bonds_keep_the_stationary_law_of_their_reduced_mass() {
         settle_dimers(&mut state, &model, &law);
         for mut run in runs(&scene, &state) {
             let what = format!("bond {scheme} {a}");
-            check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_dimers, [12, 8]);
+            check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_dimers, [12, 8], 0.0025);
             assert_eq!(run.state().total_momentum(), [0; 3], "{}", run.name());
         }
     }
@@ -508,7 +512,7 @@ fn a_free_bond_diffuses_as_its_friction_says() {
         let law = Linear { mass: 0.75, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.0 };
         let coupling = law.coupling() / factor;
         let scene = dimers(
-            40_000,
+            30_000,
             &law,
             &format!(
                 r#""bath": {{"type": "memory", "rate": {}, "coupling": {coupling}, "scheme": "{scheme}"}}"#,
@@ -542,7 +546,7 @@ fn a_free_bond_diffuses_as_its_friction_says() {
                 })
                 .collect();
             let what = format!("diffusion {scheme}, {}", run.name());
-            Measured::of_independent(&rates).assert(&what, 1.0, 0.0, 0.008);
+            Measured::of_independent(&rates).assert(&what, 1.0, 0.0, 0.01);
         }
     }
 }
@@ -557,7 +561,7 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
         "particles": [{{"species": "A", "count": {}, "mass": 2}}],
         "interactions": [{{"type": "dpd", "cutoff": 4, "weight_exponent": 0}},
             {{"type": "bonds", "pairs": {pairs:?}, "potential": {{"type": "harmonic", "stiffness": 50, "length": 2}}}}],
-        "noise": {{"distribution": "gaussian"}}, "output": {{"energies": {{"every": 1}}}}
+        "noise": {{"distribution": "gaussian"}}, "output": {{"energies": {{"every": 1000000}}}}
     }}"#,
         8 * count,
         2 * count
@@ -579,38 +583,36 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
 
 #[test]
 fn pairs_with_memory_reach_the_stationary_law() {
-    for scheme in SCHEMES {
-        for a in [0.3, 1.5] {
-            let (persistence, factor) = family(scheme, a);
-            let law = Linear { mass: 1.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.5 };
-            let (scene, state) = touching_pairs(
-                40_000,
-                &[&format!(
-                    r#"interactions.0.bath={{"type":"memory","rate":{},"coupling":{},"scheme":"{scheme}"}}"#,
-                    a / law.time_step,
-                    law.coupling() / factor
-                )],
-            );
-            let response = law.coupling() * (1.0 + persistence) / 2.0;
-            let coordinates = move |model: &Model, reported: &State, after: &State| -> Vec<[f64; 4]> {
-                let count = reported.len() / 2;
-                let pair = |(index, bath): (usize, &PairBath)| {
-                    assert_eq!([bath.first as usize, bath.second as usize], [index, count + index]);
-                    let r = model.units.displacement(reported.positions[index], reported.positions[count + index])[0];
-                    // What is kept is e s - λₑ(1+e)/2 φ.
-                    let kept = f64::from(f32::from_bits(bath.memory));
-                    let s = (kept + response * (r - 4.0)) / persistence;
-                    let momentum = |state: &State| model.units.momentum(state.momenta[index])[0];
-                    [r - 2.0, momentum(reported), s, momentum(after)]
-                };
-                after.pair_baths.iter().enumerate().map(pair).collect()
+    for (scheme, a) in [("cotter-reich", 0.3), ("symmetric", 1.5), ("exponential", 1.0)] {
+        let (persistence, factor) = family(scheme, a);
+        let law = Linear { mass: 1.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.5 };
+        let (scene, state) = touching_pairs(
+            12_000,
+            &[&format!(
+                r#"interactions.0.bath={{"type":"memory","rate":{},"coupling":{},"scheme":"{scheme}"}}"#,
+                a / law.time_step,
+                law.coupling() / factor
+            )],
+        );
+        let response = law.coupling() * (1.0 + persistence) / 2.0;
+        let coordinates = move |model: &Model, reported: &State, after: &State| -> Vec<[f64; 4]> {
+            let count = reported.len() / 2;
+            let pair = |(index, bath): (usize, &PairBath)| {
+                assert_eq!([bath.first as usize, bath.second as usize], [index, count + index]);
+                let r = model.units.displacement(reported.positions[index], reported.positions[count + index])[0];
+                // What is kept is e s - λₑ(1+e)/2 φ.
+                let kept = f64::from(f32::from_bits(bath.memory));
+                let s = (kept + response * (r - 4.0)) / persistence;
+                let momentum = |state: &State| model.units.momentum(state.momenta[index])[0];
+                [r - 2.0, momentum(reported), s, momentum(after)]
             };
-            for mut run in runs(&scene, &state) {
-                run.step(60);
-                let what = format!("pairs {scheme} {a}");
-                check_law(&what, &scene, run.as_mut(), &law, &coordinates, [12, 8]);
-                assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
-            }
+            after.pair_baths.iter().enumerate().map(pair).collect()
+        };
+        for mut run in runs(&scene, &state) {
+            run.step(60);
+            let what = format!("pairs {scheme} {a}");
+            check_law(&what, &scene, run.as_mut(), &law, &coordinates, [12, 8], 0.005);
+            assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
         }
     }
 }
@@ -628,7 +630,7 @@ fn white_pairs_have_the_temperature_of_their_integrator() {
         (r#"{"type":"groot-warren","lambda":0.3}"#.to_owned(), warren(0.3)),
     ] {
         let (scene, state) = touching_pairs(
-            10_000,
+            7000,
             &[&format!("interactions.0.friction={friction}"), &format!("integrator={integrator}")],
         );
         let model = Model::new(&scene);
@@ -715,47 +717,84 @@ fn a_fast_bath_is_white_noise() {
     }
 }
 
-/// A pair that leaves and comes back: its bath goes on if it stayed on the list, which a wide skin makes longer, and starts
-/// anew otherwise. Both are right in law.
+/// A pair that leaves and comes back: its bath goes on if it stayed on the list, which a wide skin makes likelier, and
+/// starts anew otherwise. Both are right in law: a bath knows nothing of the fluid it is in.
 #[test]
 fn a_fluid_with_memory_does_not_know_of_its_list() {
-    for scheme in SCHEMES {
-        let mut found = Vec::new();
-        for skin in [0.05, 0.6] {
-            let scene = fluid(&[
-                "space.box=[6,6,6]",
-                "time.step=0.01",
-                "interactions.0.repulsion=10",
-                &format!("interactions.0.skin={skin}"),
-                &format!(r#"interactions.0.bath={{"type":"memory","rate":10,"scheme":"{scheme}"}}"#),
-                r#"integrator={"type":"cotter-reich"}"#,
-                "output.energies.every=1",
-            ]);
-            let (_, state) = start(&scene);
-            for mut run in runs(&scene, &state) {
-                run.step(200);
-                let series = run.series(5, 300);
-                let column = |value: &dyn Fn(&mesoscope::measure::Observables) -> f64| {
-                    Measured::of(&series.iter().map(value).collect::<Vec<_>>())
-                };
-                let temperature = column(&|row| row.kinetic_temperature());
-                let bath = column(&|row| row.bath_square);
-                let (_, factor) = family(scheme, 0.1);
-                let rest = 10.0 * 4.5 * factor;
-                let what = format!("fluid {scheme} {skin}, {}", run.name());
-                // The step is short: B ≤ λₑdt²/μ = 0.04 a pair.
-                temperature.assert(&format!("{what} temperature"), 1.0, 0.005, 0.006);
-                Measured { mean: bath.mean / rest, error: bath.error / rest }.assert(
-                    &format!("{what} bath"),
-                    1.0,
-                    0.03,
-                    0.01,
-                );
-                assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
-                found.push(bath);
-            }
+    const RATE: f64 = 10.0;
+    let (friction, time_step) = (4.5, 0.01);
+    for (scheme, skin) in [("cotter-reich", 0.05), ("cotter-reich", 0.6), ("symmetric", 0.3), ("exponential", 0.3)] {
+        let scene = fluid(&[
+            "space.box=[6,6,6]",
+            &format!("time.step={time_step}"),
+            "interactions.0.repulsion=10",
+            &format!("interactions.0.skin={skin}"),
+            &format!(r#"interactions.0.bath={{"type":"memory","rate":{RATE},"scheme":"{scheme}"}}"#),
+            r#"integrator={"type":"cotter-reich"}"#,
+            "output.energies.every=5",
+        ]);
+        let (_, state) = start(&scene);
+        let at_rest = RATE * friction * family(scheme, RATE * time_step).1;
+        for mut run in runs(&scene, &state) {
+            run.step(200);
+            let series = run.series(5, 240);
+            let temperature: Vec<f64> = series.iter().map(Observables::kinetic_temperature).collect();
+            let bath: Vec<f64> = series.iter().map(|row| row.bath_square / at_rest).collect();
+            let what = format!("fluid {scheme} {skin}, {}", run.name());
+            // Stretches of this length scatter by 0.0133, as 24 of them do; blocking sees too few of the slow turns between
+            // kinetic and potential energy. B is 0.06 for some thirteen pairs a particle: a bit of that is allowed for.
+            let temperature = Measured { error: 0.0133, ..Measured::of(&temperature) };
+            temperature.assert(&format!("{what}, temperature"), 1.0, 0.005, 0.0133);
+            Measured::of(&bath).assert(&format!("{what}, bath"), 1.0, 0.01, 0.004);
+            run.step(1);
+            assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
         }
-        println!("{scheme}: {found:?}");
+    }
+}
+
+/// Every step of the device from wherever it is, rebuilt lists and all, against one step of the reference from there.
+///
+/// Impulses are rounded to some 2⁻²⁴ of a thermal momentum; single precision adds a relative error of some 2⁻²³ to impulses
+/// of at most about 2²³ units for each of some dozen pairs. A hundred units are a hundred-thousandth of the noise of a step.
+#[test]
+fn every_step_of_the_device_is_one_of_the_reference() {
+    for (changes, steps) in [
+        (vec![r#"interactions.0.skin=0.05"#, "space.box=[4,4,4]"], 60),
+        (vec![r#"interactions.0.skin=0.6"#, "space.box=[6,6,6]"], 200),
+        (vec![r#"interactions.0.skin=0.3"#, "space.box=[12,9]"], 100),
+    ] {
+        let mut changes = changes;
+        changes.extend([
+            "time.step=0.01",
+            "interactions.0.repulsion=10",
+            r#"interactions.0.bath={"type":"memory","rate":10}"#,
+            r#"integrator={"type":"cotter-reich"}"#,
+        ]);
+        let scene = fluid(&changes);
+        let (model, state) = start(&scene);
+        let mut device = Device::from_state(&scene, &state, Options::default());
+        let mut lists = 0;
+        let mut before = state;
+        for step in 0..steps {
+            let mut reference = CouplingsReference::new(model.clone(), before.clone());
+            reference.step().unwrap();
+            device.step(1);
+            let found = device.state();
+            let expected = reference.state();
+            let what = format!("step {step}, {changes:?}");
+            let (momentum, position) = largest_difference(&found, expected);
+            assert!(momentum <= 100 && position <= 400, "{what}: {momentum} and {position} units off");
+            lists += usize::from(found.anchors != before.anchors);
+            assert_eq!(found.anchors, expected.anchors, "{what}");
+            assert_eq!(found.pair_baths.len(), expected.pair_baths.len(), "{what}");
+            for (a, b) in found.pair_baths.iter().zip(&expected.pair_baths) {
+                assert_eq!([a.first, a.second, a.stamp], [b.first, b.second, b.stamp], "{what}");
+                let [a, b] = [a, b].map(|bath| f32::from_bits(bath.memory));
+                assert!((a - b).abs() < 1e-4, "{what}: {a} {b}");
+            }
+            before = found;
+        }
+        assert!(lists > 3, "{changes:?}: {lists} lists");
     }
 }
 

@@ -120,7 +120,7 @@ pub fn oscillators(changes: &[&str]) -> Scene {
         "particles": [{"species": "A", "count": 1000, "mass": 2}],
         "interactions": [{"type": "langevin", "bath": {"type": "memory", "rate": 1, "coupling": 20}},
             {"type": "tether", "stiffness": 10}],
-        "output": {"energies": {"every": 1}}
+        "output": {"energies": {"every": 1000000}}
     }"#;
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     match scene::parse("test", text, &changes) {
