@@ -21,6 +21,8 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     let configurational = potential && water.is_none() && !model.has_fixed_particles() && model.angles.is_none();
     // What is tied to places in space presses on nothing.
     let pressure = water.is_none() && model.tether.is_none() && !model.has_fixed_particles();
+    // Harmonic chains are at temperature zero and at that of the scene side by side.
+    let one_temperature = model.chains.is_none();
     let all: [(&'static str, bool, Cell); 17] = [
         ("time", true, |row, step| row.step as f64 * step),
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
@@ -29,7 +31,7 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
         ("bath_energy", memory, |row, _| row.bath_energy),
         ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
         ("bath_square", memory || water.is_some_and(|water| water.bath.is_some()), |row, _| row.bath_square),
-        ("temperature", true, |row, _| row.kinetic_temperature()),
+        ("temperature", one_temperature, |row, _| row.kinetic_temperature()),
         (CONFIGURATIONAL, configurational, |row, _| row.configurational_temperature()),
         ("pressure", pressure, |row, _| row.pressure()),
         ("pressure_conservative", pressure && potential, |row, _| row.conservative_pressure()),
