@@ -36,6 +36,9 @@ fn the_commands_run() {
                 arguments.extend(["--set", "space.box=[6,6,6]", "--set", "time.equilibration=20"]);
                 arguments.extend(["--set", "output.radial_distribution.every=10"]);
             }
+            if arguments[1].starts_with("edpd") {
+                arguments.extend(["--set", "time.equilibration=0", "--set", "output.diffusion.window=4"]);
+            }
         }
         mesoscope(directory.path(), &arguments);
     }
