@@ -8,3 +8,4 @@ fn check_anchor(slot: u32, fraction: Fraction) {
     // A loop, not a branch: software adapters execute both sides of a branch, atomics included, but leave a loop.
     for (var far = dot(d, d) > SQUARED_REACH; far; far = false) { atomicStore(&control.demand, 1u); }
 }
+fn note_anchor(slot: u32, position: vec4<u32>) { anchors[slot] = position; }

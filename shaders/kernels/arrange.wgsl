@@ -1,12 +1,9 @@
-// Puts every particle into its cell, remembers where it came from and where it is, and clears the counts for the next
-// time.
+// Puts every particle into its cell, notes what others ask for about its place, and clears the counts for the next time.
 override PARTICLES: u32;
 override CELLS: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
-@group(0) @binding(27) var<storage, read_write> came_from: array<u32>;
-@group(0) @binding(28) var<storage, read_write> anchors: array<vec4<u32>>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -18,7 +15,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let fraction = fraction_of(particle.position);
     let slot = cells[cell_index(row_of(fraction), column_of(fraction))] + ranks[index];
     sorted[slot] = particle;
-    came_from[slot] = index;
-    anchors[slot] = particle.position;
+    note_anchor(slot, particle.position);
+    note_origin(slot, index);
     note_slot(particle.position.w, slot);
 }

@@ -78,10 +78,10 @@ impl PairForce {
         self.friction[a * self.species + b]
     }
 
-    /// Whether the bath of pairs has a memory.
+    /// Whether the bath of pairs has a memory, and any effect.
     #[must_use]
     pub fn remembers(&self) -> bool {
-        matches!(self.bath, Bath::Memory { .. })
+        matches!(self.bath, Bath::Memory { .. }) && self.has_friction()
     }
 
     /// The bath step of a pair of species, coupled to φ(r).

@@ -12,6 +12,7 @@ pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
 
 use crate::model::Model;
+use crate::noise;
 use crate::scene::Output;
 use crate::state::Units;
 
@@ -247,6 +248,34 @@ impl Sampler {
 }
 
 impl Plan {
+    /// A plan of a model that does nothing yet; its noise is of the stream.
+    fn new(model: &Model, cells: [u32; 3], layout: Layout, quanta: Quanta, stream: u32) -> Self {
+        Self {
+            particles: model.particle_count(),
+            units: model.units,
+            cells,
+            layout,
+            quanta,
+            seed_key: noise::seed_key(model.seed, stream),
+            time_step: model.time_step,
+            force_unit: 0.0,
+            suggested_step: 0.25 * model.time_step,
+            kernels: Vec::new(),
+            constants: Vec::new(),
+            buffers: Vec::new(),
+            prepare: Vec::new(),
+            sort: Vec::new(),
+            before_report: Vec::new(),
+            report: Vec::new(),
+            advance: Vec::new(),
+            finish_report: Vec::new(),
+            samplers: Vec::new(),
+            storage_buffers: 8,
+            reported: None,
+            operations_per_particle: 0.0,
+        }
+    }
+
     /// Bytes of all buffers.
     #[must_use]
     pub fn bytes(&self) -> u64 {

@@ -37,30 +37,8 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
 
 fn empty_plan(model: &Model, grid: &Grid) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    Plan {
-        particles: model.particle_count(),
-        units: model.units,
-        cells: grid.cells,
-        layout: Layout::Particles { dimension: model.units.dimension, predicted },
-        quanta: quanta(model),
-        seed_key: noise::seed_key(model.seed, noise::stream::PAIR),
-        time_step: model.time_step,
-        force_unit: 0.0,
-        suggested_step: 0.25 * model.time_step,
-        kernels: Vec::new(),
-        constants: Vec::new(),
-        buffers: Vec::new(),
-        prepare: Vec::new(),
-        sort: Vec::new(),
-        before_report: Vec::new(),
-        report: Vec::new(),
-        advance: Vec::new(),
-        finish_report: Vec::new(),
-        samplers: Vec::new(),
-        storage_buffers: 8,
-        reported: None,
-        operations_per_particle: 0.0,
-    }
+    let layout = Layout::Particles { dimension: model.units.dimension, predicted };
+    Plan::new(model, grid.cells, layout, quanta(model), noise::stream::PAIR)
 }
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies

@@ -64,48 +64,27 @@ fn best_storage(model: &Model, water: &ShallowWater) -> Storage {
 
 fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
     let bath_nodes = if water.bath.is_some() { water.nodes() as usize } else { 0 };
-    Plan {
-        particles: model.particle_count(),
-        units: model.units,
-        cells: [water.mesh[0], water.mesh[1], 1],
-        layout: Layout::Water {
-            carriers: water.carriers as usize,
-            tracers: (model.particle_count() - water.carriers) as usize,
-            bath_nodes,
-            bins: match storage {
-                Storage::Sorted => None,
-                Storage::Bins => {
-                    let (capacity, arrivals) = bin_places(model, water);
-                    Some(Bins {
-                        cells: water.mesh,
-                        capacity: capacity as usize,
-                        arrivals: arrivals as usize,
-                        centred: water.spline_order == 2,
-                    })
-                }
-            },
+    let layout = Layout::Water {
+        carriers: water.carriers as usize,
+        tracers: (model.particle_count() - water.carriers) as usize,
+        bath_nodes,
+        bins: match storage {
+            Storage::Sorted => None,
+            Storage::Bins => {
+                let (capacity, arrivals) = bin_places(model, water);
+                Some(Bins {
+                    cells: water.mesh,
+                    capacity: capacity as usize,
+                    arrivals: arrivals as usize,
+                    centred: water.spline_order == 2,
+                })
+            }
         },
-        quanta: quanta(model, water),
-        seed_key: noise::seed_key(model.seed, noise::stream::MESH),
-        time_step: model.time_step,
-        force_unit: 0.0,
-        suggested_step: water
-            .advisable_step([model.units.lengths[0], model.units.lengths[1]], model.time_step)
-            .min(0.25 * model.time_step),
-        kernels: Vec::new(),
-        constants: Vec::new(),
-        buffers: Vec::new(),
-        prepare: Vec::new(),
-        sort: Vec::new(),
-        before_report: Vec::new(),
-        report: Vec::new(),
-        advance: Vec::new(),
-        finish_report: Vec::new(),
-        samplers: Vec::new(),
-        storage_buffers: 8,
-        reported: None,
-        operations_per_particle: 0.0,
-    }
+    };
+    let lengths = [model.units.lengths[0], model.units.lengths[1]];
+    let cells = [water.mesh[0], water.mesh[1], 1];
+    let plan = Plan::new(model, cells, layout, quanta(model, water), noise::stream::MESH);
+    Plan { suggested_step: water.advisable_step(lengths, model.time_step).min(plan.suggested_step), ..plan }
 }
 
 /// Units of the sums: small against the 24 bits of a single term, and large enough for 64 bits to hold all of them. The

@@ -126,6 +126,8 @@ impl Simulation {
                     start = task.last_checkpoint(start)?;
                     let reason = if task.model.shallow_water.is_some() {
                         "the particles crowd in one cell of the mesh"
+                    } else if task.model.is_coupled() {
+                        "a particle has more neighbours than the list has room for"
                     } else {
                         "the particles crowd at the ends of the box"
                     };

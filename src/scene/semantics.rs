@@ -8,7 +8,7 @@ use super::{
     CorrelatedQuantity, CountedQuantity, DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities,
 };
 
-/// Bytes of device memory that a run needs for each particle, as an upper bound.
+/// Bytes of device memory that a fluid without lists and analyses needs for each particle, as an upper bound.
 pub const BYTES_PER_PARTICLE: u64 = 100;
 
 /// Particles are numbered by 32-bit words.

@@ -194,83 +194,38 @@ pub trait Implementation {
     }
 }
 
-impl Implementation for Reference {
-    fn name(&self) -> &'static str {
-        "reference"
-    }
+/// Every reference has the same face.
+macro_rules! reference {
+    ($($reference:ty),*) => {
+        $(impl Implementation for $reference {
+            fn name(&self) -> &'static str {
+                "reference"
+            }
 
-    fn step(&mut self, steps: u64) {
-        self.run(steps).unwrap();
-    }
+            fn step(&mut self, steps: u64) {
+                self.run(steps).unwrap();
+            }
 
-    fn attempt(&mut self, steps: u64) -> bool {
-        self.run(steps).is_ok()
-    }
+            fn attempt(&mut self, steps: u64) -> bool {
+                self.run(steps).is_ok()
+            }
 
-    fn observe(&mut self) -> Observables {
-        Reference::observe(self).unwrap()
-    }
+            fn observe(&mut self) -> Observables {
+                <$reference>::observe(self).unwrap()
+            }
 
-    fn reported(&mut self) -> State {
-        self.reported_state().unwrap()
-    }
+            fn reported(&mut self) -> State {
+                self.reported_state().unwrap()
+            }
 
-    fn state(&mut self) -> State {
-        Reference::state(self).clone()
-    }
+            fn state(&mut self) -> State {
+                <$reference>::state(self).clone()
+            }
+        })*
+    };
 }
 
-impl Implementation for CouplingsReference {
-    fn name(&self) -> &'static str {
-        "reference"
-    }
-
-    fn step(&mut self, steps: u64) {
-        self.run(steps).unwrap();
-    }
-
-    fn attempt(&mut self, steps: u64) -> bool {
-        self.run(steps).is_ok()
-    }
-
-    fn observe(&mut self) -> Observables {
-        CouplingsReference::observe(self).unwrap()
-    }
-
-    fn reported(&mut self) -> State {
-        self.reported_state().unwrap()
-    }
-
-    fn state(&mut self) -> State {
-        CouplingsReference::state(self).clone()
-    }
-}
-
-impl Implementation for ShallowWaterReference {
-    fn name(&self) -> &'static str {
-        "reference"
-    }
-
-    fn step(&mut self, steps: u64) {
-        self.run(steps).unwrap();
-    }
-
-    fn attempt(&mut self, steps: u64) -> bool {
-        self.run(steps).is_ok()
-    }
-
-    fn observe(&mut self) -> Observables {
-        ShallowWaterReference::observe(self).unwrap()
-    }
-
-    fn reported(&mut self) -> State {
-        self.reported_state().unwrap()
-    }
-
-    fn state(&mut self) -> State {
-        ShallowWaterReference::state(self).clone()
-    }
-}
+reference!(Reference, CouplingsReference, ShallowWaterReference);
 
 /// An engine with what is needed to read its samples.
 pub struct Device {

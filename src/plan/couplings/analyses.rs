@@ -57,7 +57,9 @@ impl Builder<'_> {
         let mut kernels = self.binning();
         let groups = self.groups(self.particles.max(self.grid.count()));
         let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
-        kernels.push(self.kernel("order", &[&sorted[..], &["kernels/order"]].concat(), groups));
+        // On the side: the list and what it has noted stay as they are.
+        let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
+        kernels.push(self.kernel("arrange_by_cell", &[&sorted[..], &unnoted].concat(), groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let modules = [&sorted[..], &["common/contact", span, "kernels/pair_histogram"]].concat();
         let count = self.kernel("pair_histogram", &modules, rows * segments);

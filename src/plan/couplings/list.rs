@@ -123,7 +123,8 @@ impl Builder<'_> {
         let mut kernels = self.binning();
         let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
-        let arrange = [&sorted[..], &[self.slots(), "kernels/arrange"]].concat();
+        let origins = if self.force.remembers() { "common/origins_on" } else { "common/origins_off" };
+        let arrange = [&sorted[..], &["common/anchors_on", origins, self.slots(), "kernels/arrange"]].concat();
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let exclusions = self.exclusions();
@@ -163,11 +164,11 @@ impl Builder<'_> {
     fn list_buffers(&mut self) {
         self.ordering_buffers();
         let particles = self.particles;
-        self.buffer("came_from", "where each particle was stored before", 4 * particles);
         self.buffer("anchors", "where each particle was when the list was made", 16 * particles);
         let pairs = self.list_capacity() * particles;
         self.buffer("neighbours", "pairs of each particle", 4 * (pairs + particles));
         if self.force.remembers() {
+            self.buffer("came_from", "where each particle was stored before", 4 * particles);
             self.buffer("neighbours_next", "the same, while the list is made", 4 * (pairs + particles));
             self.buffer("memories", "what the bath of each pair remembers", 8 * pairs);
             self.buffer("memories_next", "the same, while the list is made", 8 * pairs);

@@ -15,7 +15,7 @@ mod tethers;
 
 use super::{Buffer, Contents, Grid, Kernel, Layout, Listed, Options, Plan, Quanta, Sampler, pair};
 use crate::model::{BathStep, Model, PairForce};
-use crate::noise::{self, stream};
+use crate::noise::stream;
 use crate::scene::{Distribution, Generator, Integrator, Output};
 
 /// Sums of a report without baths that remember, in the order of `shaders/common/totals.wgsl`; those of baths follow.
@@ -62,30 +62,8 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         holds: model.coloured_noise.is_some(),
         tethers: model.tether.is_some(),
     };
-    Plan {
-        particles: model.particle_count(),
-        units: model.units,
-        cells: grid.cells,
-        layout,
-        quanta: quanta(model),
-        seed_key: noise::seed_key(model.seed, stream::PAIR),
-        time_step: model.time_step,
-        suggested_step: 0.25 * model.time_step,
-        kernels: Vec::new(),
-        constants: Vec::new(),
-        buffers: Vec::new(),
-        prepare: Vec::new(),
-        sort: Vec::new(),
-        before_report: Vec::new(),
-        report: Vec::new(),
-        advance: Vec::new(),
-        finish_report: Vec::new(),
-        samplers: Vec::new(),
-        storage_buffers: 8,
-        reported: Some("reported"),
-        force_unit: 0.0,
-        operations_per_particle: 0.0,
-    }
+    let plan = Plan::new(model, grid.cells, layout, quanta(model), stream::PAIR);
+    Plan { reported: Some("reported"), ..plan }
 }
 
 /// Units of the sums: those of pairs, and for the square of a bath that of the stiffest.
@@ -237,8 +215,13 @@ impl Builder<'_> {
         if self.model.units.dimension == 3 { "common/kicks3" } else { "common/kicks2" }
     }
 
+    /// The module that gathers conservative forces at a report, if there are any.
     fn forces(&self) -> &'static str {
-        if self.model.units.dimension == 3 { "common/forces3" } else { "common/forces2" }
+        match self.model.units.dimension {
+            _ if !self.model.has_potential() => "common/forces_off",
+            3 => "common/forces3",
+            _ => "common/forces2",
+        }
     }
 
     /// Modules that draw the random words of a key and counters.

@@ -32,19 +32,11 @@ impl Builder<'_> {
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
         let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
-        if self.has_potential() {
+        if self.model.has_potential() {
             self.buffer("forces", "impulses of half a step by conservative forces, at a report", 16 * self.particles);
             self.report_kernel("square_forces", &["kernels/square_forces"], groups);
         }
         self.plan.operations_per_particle += 60.0;
-    }
-
-    /// Whether kernels of the report gather conservative forces.
-    fn has_potential(&self) -> bool {
-        self.model.pair_force.is_some()
-            || self.model.tether.is_some()
-            || self.model.bonds.is_some()
-            || self.model.angles.is_some()
     }
 
     fn noisy_positions(&self) -> bool {

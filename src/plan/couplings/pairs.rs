@@ -11,7 +11,7 @@ impl Builder<'_> {
         }
         self.pair_constants();
         let groups = self.groups(self.particles);
-        let memory = self.force.remembers() && self.force.has_friction();
+        let memory = self.force.remembers();
         let modules = self.pair_modules();
         let (mut unseen, mut seen) = (vec!["common/pairs_unseen"], vec!["common/pairs_seen", self.forces()]);
         if memory {
@@ -44,7 +44,7 @@ impl Builder<'_> {
         modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         let thermal = force.has_friction() && force.temperature > 0.0;
-        if force.remembers() && force.has_friction() {
+        if force.remembers() {
             modules.push("common/pair_memory");
             modules.push(if thermal { "common/bath_noise_on" } else { "common/bath_noise_off" });
         } else {
