@@ -23,6 +23,8 @@ pub mod stream {
     pub const BOND: u32 = 8;
     /// Directions of bonds at the start.
     pub const CHAIN: u32 = 9;
+    /// Noise of a face of two Voronoi cells.
+    pub const FACE: u32 = 10;
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.

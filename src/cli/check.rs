@@ -89,11 +89,8 @@ fn interval(first: u64, every: u64) -> String {
 fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
-        Integrator::Splitting {} => "splitting".to_owned(),
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
-        Integrator::CotterReich {} => "cotter-reich".to_owned(),
-        Integrator::Gyro {} => "gyro".to_owned(),
-        Integrator::Rotate {} => "rotate".to_owned(),
+        _ => scene.integrator.name().to_owned(),
     };
     let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
     let particles = match &model.shallow_water {

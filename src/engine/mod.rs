@@ -426,7 +426,7 @@ impl<'a> Engine<'a> {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
             }
             _ => match self.plan.layout {
-                Layout::Particles { .. } | Layout::Coupled { .. } => {
+                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => {
                     "a momentum is more than 64 times its natural scale".to_owned()
                 }
                 Layout::Water { .. } => {

@@ -13,5 +13,5 @@ mod sums;
 
 pub use field::{Field, FieldError};
 pub use mesh_fields::MeshFlow;
-pub use observables::Observables;
+pub use observables::{CellObservables, Observables};
 pub use sums::observables_of;

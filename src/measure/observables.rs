@@ -37,6 +37,31 @@ pub struct Observables {
     pub bath_energy: f64,
     /// Mean square of the bath variables.
     pub bath_square: f64,
+    /// What is measured of Voronoi cells, in Voronoi DPD.
+    pub cells: Option<CellObservables>,
+}
+
+/// What is measured of Voronoi cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellObservables {
+    /// Σ V, which is the volume of the box.
+    pub volume: f64,
+    /// Number of faces, each counted once; of a generic tessellation of N cells 3N.
+    pub faces: u64,
+    /// Σ M in integer units.
+    pub mass_units: i64,
+    /// Σ E, of internal energies.
+    pub internal_energy: f64,
+    /// Mean temperature kT inside the cells.
+    pub internal_temperature: f64,
+    /// Σ pV over the volume of the box.
+    pub pressure: f64,
+    /// Exchanges that the limit has cut since the state was uploaded.
+    pub limited_exchanges: u64,
+    /// Iterations of the last solution for the friction.
+    pub iterations: u64,
+    /// Its residual, relative to the right-hand side.
+    pub residual: f64,
 }
 
 impl Observables {
@@ -115,6 +140,7 @@ mod tests {
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        cells: None,
     };
 
     #[test]

@@ -32,6 +32,7 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
         bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        cells: None,
     }
 }
 
@@ -62,6 +63,7 @@ fn shallow_water(
         potential_energy: sum(3) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
+        cells: None,
         about_centre_of_mass: false,
         gradient_squared: 0.0,
         laplacian: 0.0,

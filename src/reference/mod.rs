@@ -222,7 +222,9 @@ impl Reference {
         match self.model.integrator {
             Integrator::GrootWarren { .. } => groot_warren::report(self, found),
             Integrator::CotterReich {} => cotter_reich::report(self, found),
-            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} => splitting::report(self, found),
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                splitting::report(self, found)
+            }
         }
     }
 

@@ -27,7 +27,8 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
         Interaction::ColouredNoise(_)
         | Interaction::Tether(_)
         | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_) => {}
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => {}
     }
 }
 
@@ -61,7 +62,7 @@ pub(super) fn check_motion(scene: &Scene, problems: &mut Vec<Problem>) {
 fn scene_is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
-        Interaction::ShallowWater(_) => false,
+        Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
         _ => true,
     };
     let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
@@ -95,7 +96,8 @@ fn check_numbers(scene: &Scene, problems: &mut Vec<Problem>) {
         Interaction::Bonds(_)
         | Interaction::Angles(_)
         | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_) => None,
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => None,
     };
     let mut seen = HashSet::new();
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -176,7 +178,7 @@ fn check_integrator(scene: &Scene, problems: &mut Vec<Problem>) {
         }
         Integrator::GrootWarren { .. } => check_groot_warren(scene, problems),
         // The last two are refused with all other scenes that are not of shallow water.
-        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} => {}
+        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {}
     }
 }
 
@@ -185,7 +187,7 @@ fn reason(scene: &Scene) -> String {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let what = match interaction {
             Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
-            Interaction::Dpd(_) | Interaction::ShallowWater(_) => continue,
+            Interaction::Dpd(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => continue,
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::ColouredNoise(_) => "a coloured noise",
             Interaction::Tether(_) => "tethers",

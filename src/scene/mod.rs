@@ -21,6 +21,7 @@ mod stability;
 pub mod surface;
 mod text;
 mod types;
+pub(crate) mod voronoi;
 mod warnings;
 
 pub use builtin::{Builtin, builtin};
@@ -30,6 +31,7 @@ pub use load::{load, parse, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
+pub use voronoi::{CellEnergy, EquationOfState, FrictionSolver, InitialMasses, VoronoiForm, VoronoiInteraction};
 pub use warnings::warnings;
 
 impl Space {
@@ -62,7 +64,8 @@ impl Interaction {
             | Self::Tether(_)
             | Self::Angles(_)
             | Self::HarmonicChain(_)
-            | Self::ShallowWater(_) => scene,
+            | Self::ShallowWater(_)
+            | Self::Voronoi(_) => scene,
         }
     }
 }

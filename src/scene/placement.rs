@@ -241,7 +241,7 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
             });
             state.momenta.extend(balanced);
         }
-        Velocities::Rest => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Rest | Velocities::ShearWave { .. } => state.momenta.resize(first + count, [0; 3]),
         Velocities::Listed { velocities } => {
             state.momenta.extend(velocities.iter().take(count).map(|velocity| {
                 std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))
