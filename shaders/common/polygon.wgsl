@@ -5,13 +5,14 @@ var<private> side_words: array<u32, CORNERS>;
 var<private> corners: array<Vector, CORNERS>;
 // Radius of the circle around a computed corner within which the true one certainly is.
 var<private> blurs: array<f32, CORNERS>;
-// Where the corners are at a cut: 1 beyond the bisector, 0 on it, -1 on this side.
-var<private> corner_places: array<i32, CORNERS>;
-// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner.
+// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
+// brought up to date as corners are looked at.
 var<private> reach: f32;
 var<private> overflown: bool;
 
 const UNKNOWN: f32 = 1e15;
+// Further than any corner, however blurred, and its square.
+const EVERYWHERE: f32 = 1e18;
 // Half the distance from 1 to the next larger number.
 const ROUNDING: f32 = 5.9604645e-8;
 
@@ -55,16 +56,15 @@ fn begin_polygon(slot: u32) {
     set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half.x, -half.y, blur));
     set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half.x, -half.y, blur));
     overflown = false;
-    measure_reach();
+    reach = EVERYWHERE * EVERYWHERE;
 }
 
 fn measure_reach() {
     reach = 0.0;
     for (var i = 0u; i < sides; i++) {
         let far = length(corners[i]) + blurs[i];
-        reach = max(reach, far * far);
+        reach = max(reach, 4.00001 * far * far);
     }
-    reach *= 4.00001;
 }
 
 // A bisector: the unit vector towards its site, and half the way.
@@ -75,36 +75,90 @@ struct Bisector {
 
 fn beyond(bisector: Bisector, index: u32) -> f32 { return dot(corners[index], bisector.direction) - bisector.half; }
 
-// Cuts the polygon along the bisector of a site, unless no corner is beyond it. Corners on it go only with ones beyond, so
-// that no side without length is left.
+// The corner that is surest beyond a bisector, and how far any may be.
+struct Survey {
+    surest: u32,
+    farthest: f32,
+}
+
+// Looks at all corners, four at a time, and brings the reach up to date.
+fn survey(bisector: Bisector) -> Survey {
+    var surely = vec4<f32>(-4.0 * UNKNOWN);
+    var possibly = vec4<f32>(-4.0 * UNKNOWN);
+    var indices = vec4<u32>(0u);
+    var squares = vec4<f32>(0.0);
+    var widest = vec4<f32>(0.0);
+    for (var i = 0u; i < sides; i += 4u) {
+        let four = min(vec4<u32>(i, i + 1u, i + 2u, i + 3u), vec4<u32>(sides - 1u));
+        let a = corners[four.x];
+        let b = corners[four.y];
+        let c = corners[four.z];
+        let d = corners[four.w];
+        let x = vec4<f32>(a.x, b.x, c.x, d.x);
+        let y = vec4<f32>(a.y, b.y, c.y, d.y);
+        let blur = vec4<f32>(blurs[four.x], blurs[four.y], blurs[four.z], blurs[four.w]);
+        let height = x * bisector.direction.x + y * bisector.direction.y - bisector.half;
+        indices = select(indices, four, height - blur > surely);
+        surely = max(surely, height - blur);
+        possibly = max(possibly, height + blur);
+        squares = max(squares, x * x + y * y);
+        widest = max(widest, blur);
+    }
+    let far = sqrt(largest_of(squares)) + largest_of(widest);
+    reach = 4.00001 * far * far;
+    let left = select(indices.x, indices.y, surely.y > surely.x);
+    let right = select(indices.z, indices.w, surely.w > surely.z);
+    let surest = select(left, right, max(surely.z, surely.w) > max(surely.x, surely.y));
+    return Survey(surest, largest_of(possibly));
+}
+fn largest_of(v: vec4<f32>) -> f32 { return max(max(v.x, v.y), max(v.z, v.w)); }
+
+// Cuts the polygon along the bisector of a site, unless no corner is beyond it.
 fn cut(site: Site, squared: f32) {
     let inverse = inverseSqrt(squared);
     let bisector = Bisector(site.away * scale() * inverse, 0.5 * squared * inverse);
-    var highest = -1.0;
-    for (var i = 0u; i < sides; i++) { highest = max(highest, beyond(bisector, i) + blurs[i]); }
-    for (var pending = highest > 0.0; pending; pending = false) { cut_corners(site, bisector); }
+    let found = survey(bisector);
+    for (var pending = found.farthest > 0.0; pending; pending = false) { cut_corners(site, bisector, found.surest); }
 }
 
-fn cut_corners(site: Site, bisector: Bisector) {
-    var found = false;
+// Cuts corners beyond a bisector, and with them those next to them that are on it, so that no side without length is left.
+// Searches from the surest one, then goes on to both sides.
+fn cut_corners(site: Site, bisector: Bisector, surest: u32) {
+    var corner = surest;
+    var tried = 0u;
     var first = 0u;
-    for (var i = 0u; i < sides; i++) {
-        let far = beyond(bisector, i);
-        var place = i32(sign(far));
-        for (var pending = abs(far) <= blurs[i]; pending; pending = false) {
-            place = in_circle(site_of(side_words[i]), site_of(side_words[after(i)]), site);
+    var last = 0u;
+    var gone = 0u;
+    for (var phase = 0u; phase < 3u && tried < sides && gone < sides;) {
+        let height = beyond(bisector, corner);
+        var place = i32(sign(height));
+        for (var pending = abs(height) <= blurs[corner]; pending; pending = false) {
+            place = in_circle(site_of(side_words[corner]), site_of(side_words[after(corner)]), site);
         }
-        corner_places[i] = place;
-        found = found || place > 0;
-        first = select(first, i, place > 0);
+        if (phase == 0u) {
+            tried += 1u;
+            if (place > 0) {
+                first = corner;
+                last = corner;
+                gone = 1u;
+                phase = 1u;
+                tried = 0u;
+            }
+            corner = after(corner);
+        } else {
+            if (place >= 0) {
+                gone += 1u;
+                first = select(first, corner, phase == 2u);
+                last = select(last, corner, phase == 1u);
+                corner = select(after(corner), before(corner), phase == 2u);
+            } else {
+                phase += 1u;
+                corner = before(first);
+            }
+        }
     }
-    if (!found) { return; }
-    var last = first;
-    var gone = 1u;
-    for (; gone < sides && corner_places[after(last)] >= 0; gone++) { last = after(last); }
-    for (; gone < sides && corner_places[before(first)] >= 0; gone++) { first = before(first); }
-    // The particle itself is never beyond, and neither is the whole polygon.
-    if (gone == sides) { return; }
+    // No corner is beyond. Not all are: the particle itself never is.
+    if (gone == 0u || gone == sides) { return; }
     if (sides + 2u - gone > CORNERS) {
         overflown = true;
         return;
@@ -130,5 +184,4 @@ fn cut_corners(site: Site, bisector: Bisector) {
     sides = sides + 2u - gone;
     set_side(first, first_word, entry);
     set_side(first + 1u, site.word, leaving);
-    measure_reach();
 }

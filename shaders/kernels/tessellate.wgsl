@@ -5,8 +5,6 @@ override PARTICLES: u32;
 
 // How far a particle may be beside its grid cell, as a fraction of the box.
 const STRAY: f32 = 3e-5;
-// Further than any corner, however blurred.
-const EVERYWHERE: f32 = 1e18;
 
 // Square of the distance to which a search through so many rings of grid cells is complete. Beyond a whole box on an axis
 // there is nothing on it.
@@ -60,9 +58,20 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
                 look_into(row, column, along, across);
             }
         }
+        measure_reach();
     }
     store_faces(slot);
     raise(select(0u, FAILURE_FRAMES, overflown));
+    raise(select(FAILURE_LOOPS, 0u, loops_go_on()));
+}
+
+// Whether loops still go on as they should. Software adapters leave every loop after its first turn once an invocation has
+// made 65 535 turns in all, without a word.
+fn loops_go_on() -> bool {
+    var turns = 0u;
+    // A compiler cannot know that no polygon has so many sides, and has to count.
+    for (var i = 0u; i < 2u + (sides >> 16u); i++) { turns += 1u; }
+    return turns == 2u;
 }
 
 fn store_faces(slot: u32) {
