@@ -421,6 +421,9 @@ impl<'a> Engine<'a> {
             bits if bits & 64 != 0 => {
                 format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
             }
+            bits if bits & 128 != 0 => {
+                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
+            }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
