@@ -277,6 +277,9 @@ fn momentum_unit(
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);
         }
+        if let crate::scene::Velocities::ShearWave { amplitude, .. } = group.velocities {
+            scale = scale.max(group.mass * amplitude.abs() / 8.0);
+        }
     }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {

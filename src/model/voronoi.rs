@@ -35,12 +35,12 @@ impl Voronoi {
         let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
         // Range for a hundred times the heaviest cell and its energy, in steps small against f32's.
         let unit = |scale: f64| if scale > 0.0 { (scale.log2().ceil() - 24.0).exp2() } else { 2_f64.powi(-24) };
-        let energy = scene.temperature * (1.0 + heaviest / interaction.molecular_mass);
+        let energy = interaction.hottest(scene.temperature) * (1.0 + heaviest / interaction.molecular_mass);
         Self {
             form: interaction.form,
-            viscosity: interaction.viscosity,
+            viscosity: interaction.friction_viscosity(),
             molecular_mass: interaction.molecular_mass,
-            conductivity: interaction.energy.map(|energy| energy.conductivity),
+            conductivity: interaction.energy.as_ref().map(|energy| energy.conductivity),
             exchange_limit: interaction.exchange_limit,
             solver: interaction.friction_solver,
             initial_masses: interaction.initial_masses,
