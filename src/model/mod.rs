@@ -23,7 +23,7 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 pub use topology::ChainGroup;
-pub use voronoi::Voronoi;
+pub use voronoi::{NETWORK_VISCOSITY, Voronoi};
 
 use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;

@@ -65,7 +65,8 @@ fn scene_is_coupled(scene: &Scene) -> bool {
         Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
         _ => true,
     };
-    let alone = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
+    let alone =
+        |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
     !scene.interactions.iter().any(alone)
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(|group| group.fixed)

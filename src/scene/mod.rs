@@ -34,6 +34,7 @@ pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
 pub use voronoi::{
     CellEnergy, EquationOfState, FrictionSolver, InitialMasses, TemperatureRegion, VoronoiForm, VoronoiInteraction,
+    shear_waves,
 };
 pub use warnings::warnings;
 

@@ -4,7 +4,7 @@ use super::error::Problem;
 use super::{
     CorrelatedQuantity, CountedQuantity, Integrator, Interaction, Scene, SnapshotColor, Velocities, placement,
 };
-use crate::model::Model;
+use crate::model::{Model, NETWORK_VISCOSITY};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -138,15 +138,11 @@ impl Default for FrictionSolver {
     }
 }
 
-/// Shear viscosity of a network of cells over the viscosity η of their friction, without the part that moving cells carry:
-/// the middle of what is measured, 1.22 to 1.25.
-const NETWORK: f64 = 1.235;
-
 impl VoronoiInteraction {
     /// Viscosity η of the law of friction.
     #[must_use]
     pub fn friction_viscosity(&self) -> f64 {
-        self.viscosity.or_else(|| Some(self.shear_viscosity? / NETWORK)).unwrap_or(1.0)
+        self.viscosity.or_else(|| Some(self.shear_viscosity? / NETWORK_VISCOSITY)).unwrap_or(1.0)
     }
 
     /// The highest temperature kT at the start, in a scene of a temperature.
@@ -324,7 +320,7 @@ fn check_shear_wave(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// Groups that start with a shear wave, with its amplitude and number of periods.
-pub(crate) fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
+pub fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
     scene.particles.iter().enumerate().filter_map(|(index, group)| match group.velocities {
         Velocities::ShearWave { amplitude, periods } => Some((index, amplitude, periods)),
         _ => None,
