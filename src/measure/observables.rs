@@ -65,10 +65,10 @@ pub struct CellObservables {
 }
 
 impl Observables {
-    /// Kinetic, potential and, of Voronoi cells, internal energy.
+    /// Kinetic and potential energy.
     #[must_use]
     pub fn total_energy(&self) -> f64 {
-        self.kinetic_energy + self.potential_energy + self.cells.map_or(0.0, |cells| cells.internal_energy)
+        self.kinetic_energy + self.potential_energy
     }
 
     /// Velocity of the centre of mass; NaN without particles.
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn voronoi_cells_have_energy_and_pressure_inside() {
+    fn voronoi_cells_have_a_pressure_inside() {
         let cells = CellObservables {
             volume: 10.0,
             faces: 6,
@@ -177,7 +177,6 @@ mod tests {
             residual: 0.0,
         };
         let cells = Observables { cells: Some(cells), ..PAIR };
-        assert_eq!(cells.total_energy(), 37.0);
         assert!((cells.pressure() - (7.0 / 15.0 + 2.0)).abs() < 1e-15);
     }
 

@@ -233,13 +233,13 @@ mod tests {
         let tessellation = Tessellation::new([4.0, 4.0], &positions);
         let names = ["A".to_owned()];
         let picture = picture([4.0, 4.0], &positions, &tessellation, &[0; 16], &names);
-        let style = Snapshot { width: 64, height: 64, ..Snapshot::default() };
+        let style = Snapshot { width: 190, height: 190, ..Snapshot::default() };
         let canvas = lay_out(&picture, &style, Theme::Light).unwrap();
-        // Cells centred on the left edge show on the right too: 20 of two triangles each. Faces: 2 of each cell; those
-        // of the images are the images' own. Four lines are the box.
+        // Cells centred on the left edge show on the right too: 20 of two triangles each. Each of 32 faces once, and once
+        // more the 12 that belong to those cells, which have the lower numbers. Four lines are the box.
         let lines = canvas.shapes.iter().filter(|shape| shape.kind == 0).count();
         let triangles = canvas.shapes.iter().filter(|shape| shape.kind == 4).count();
-        assert_eq!((triangles, lines), (40, 40 + 4));
+        assert_eq!((triangles, lines), (40, 32 + 12 + 4));
     }
 
     #[test]

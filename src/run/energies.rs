@@ -28,12 +28,13 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     let kept = cells.is_some_and(Voronoi::keeps_energy);
     let limited = cells.is_some_and(|cells| cells.exchanges_mass() || cells.conductivity.is_some_and(|c| c > 0.0));
     let solved = cells.is_some_and(|cells| cells.viscosity > 0.0) && model.integrator == Integrator::Splitting {};
-    let all: [(&'static str, bool, Cell); 25] = [
+    let all: [(&'static str, bool, Cell); 26] = [
         ("time", true, |row, step| row.step as f64 * step),
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
         ("potential_energy", potential, |row, _| row.potential_energy),
         ("internal_energy", kept, |row, _| of_cells(row, |cells| cells.internal_energy)),
-        ("total_energy", true, |row, _| row.total_energy()),
+        ("total_energy", !kept, |row, _| row.total_energy()),
+        ("total_energy", kept, |row, _| row.kinetic_energy + of_cells(row, |cells| cells.internal_energy)),
         ("bath_energy", memory, |row, _| row.bath_energy),
         ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
         ("bath_square", memory || water.is_some_and(|water| water.bath.is_some()), |row, _| row.bath_square),

@@ -278,24 +278,6 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Vec<
             problems.push(Problem::new(path, "found \"acceleration\"", accepted));
         }
     }
-    // The kernels of these analyses know the masses of species only.
-    let varying = match (voronoi.form, voronoi.initial_masses) {
-        (VoronoiForm::Gradient, InitialMasses::Equal) => return,
-        (VoronoiForm::Gradient, _) => "whose cells start with masses of their own",
-        _ => "whose cells exchange mass",
-    };
-    let asked = [
-        ("diffusion", output.diffusion.is_some()),
-        ("viscosity", output.viscosity.is_some()),
-        ("autocorrelations", !output.autocorrelations.is_empty()),
-        ("histograms", !output.histograms.is_empty()),
-    ];
-    for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
-        let found = format!("found in a scene {varying}");
-        let accepted =
-            "the form `gradient` with masses that are `equal`: every cell then keeps the mass of its species";
-        problems.push(Problem::new(format!("output.{name}"), found, accepted));
-    }
 }
 
 /// A wave can be measured only where there is one.
