@@ -5,33 +5,117 @@ use super::Builder;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
+/// Room for the corners of a cell, with the module that says so: taken in turn as a run finds it too little.
+const TIERS: [(u64, &str); 3] = [(24, "common/corners24"), (128, "common/corners128"), (1024, "common/corners1024")];
+
+/// What an ordering of the particles is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Occasion {
+    /// A report: nobody has counted the particles into cells yet, and the clock stands still.
+    Report,
+    /// Within a step: the drift before has counted the particles.
+    Midway,
+    /// The beginning of a step: the particles are counted, and the clock moves on.
+    Beginning,
+}
+
 impl Builder<'_> {
-    /// Kernels that order the particles as they are now.
+    /// Kernels that order the particles as they are now and find the cells around them, for a report.
     pub(super) fn geometry(&mut self) -> Vec<usize> {
-        let groups = self.groups(self.particles);
-        let rows = self.grid.rows();
-        let mut kernels = vec![self.kernel("bin", &["common/grid2", "kernels/bin"], groups)];
-        let scan = ["common/grid2", "common/cells_plain", "common/row_scan"];
-        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
-            kernels.push(self.kernel("scan", &all, 1));
-        } else {
-            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
-            kernels.push(self.kernel("scan_blocks", &blocks, rows.div_ceil(256)));
-            let tops = ["common/grid2", "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
-            kernels.push(self.kernel("scan_tops", &tops, 1));
-            let groups = self.groups(rows);
-            kernels.push(self.kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
-            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        self.geometry_for(Occasion::Report)
+    }
+
+    /// Kernels that order the particles as they are now and find the cells around them. They share buffers, and those that
+    /// do the same are one.
+    pub(super) fn geometry_for(&mut self, occasion: Occasion) -> Vec<usize> {
+        let mut kernels = Vec::new();
+        if occasion == Occasion::Report {
+            let groups = self.groups(self.particles);
+            kernels.push(self.shared_kernel("bin", &["common/grid2", "kernels/bin"], groups));
         }
+        self.scan(occasion, &mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
         let sorted = ["common/grid2", "common/cells_plain", "common/sorted_plain"];
-        kernels.push(self.kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
-        self.buffer("sorted", "particles in order of cells", 32 * self.particles);
-        self.buffer("cells", "where each cell begins", 4 * (self.grid.count() + 1 + rows));
-        self.buffer("counts", "particles in each cell", 4 * self.grid.count());
-        self.buffer("ranks", "place of each particle in its cell", 4 * self.particles);
+        kernels.push(self.shared_kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
+        let groups = self.groups(self.particles);
+        kernels.push(self.shared_kernel("order_cells", &[&sorted[..], &["kernels/order_cells"]].concat(), groups));
+        let (_, corners) = self.tier();
+        let polygon = ["common/face", corners, "common/sites", "common/polygon", "common/in_circle"];
+        let cells = ["common/grid2", "common/cells_plain"];
+        let tessellate =
+            self.shared_kernel("tessellate", &[&cells[..], &polygon, &["kernels/tessellate"]].concat(), groups);
+        self.plan.kernels[tessellate].constants = vec![("SPACING", self.spacing())];
+        kernels.push(tessellate);
+        self.geometry_buffers();
         kernels
+    }
+
+    /// Kernels of the prefix sum over grid cells.
+    fn scan(&mut self, occasion: Occasion, kernels: &mut Vec<usize>) {
+        let rows = self.grid.rows();
+        let clock: &[&'static str] = match occasion {
+            Occasion::Beginning => &["common/threefry", "common/begin_step"],
+            Occasion::Report | Occasion::Midway => &["common/same_step"],
+        };
+        let scan = ["common/grid2", "common/cells_plain", "common/row_scan"];
+        if self.scans_at_once() {
+            let all = [&scan[..], &["common/workgroup_scan"], clock, &["kernels/scan"]].concat();
+            kernels.push(self.shared_kernel("scan", &all, 1));
+        } else {
+            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
+            kernels.push(self.shared_kernel("scan_blocks", &blocks, rows.div_ceil(256)));
+            let tops = [&["common/grid2", "common/workgroup_scan"], clock, &["kernels/scan_tops"]].concat();
+            kernels.push(self.shared_kernel("scan_tops", &tops, 1));
+            let groups = self.groups(rows);
+            kernels.push(self.shared_kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
+        }
+    }
+
+    fn scans_at_once(&self) -> bool {
+        self.grid.rows() <= SINGLE_SCAN_ROWS && !self.options.many_level_scan
+    }
+
+    /// Room for the faces of a cell, and the module that says so.
+    fn tier(&self) -> (u64, &'static str) {
+        TIERS[(self.options.list_growth as usize).min(TIERS.len() - 1)]
+    }
+
+    /// Mean distance of particles: the unit of length of a cell's polygon.
+    fn spacing(&self) -> f64 {
+        (self.model.units.volume() / self.particles.max(1) as f64).sqrt()
+    }
+
+    /// A kernel that is made once, however often it is asked for.
+    fn shared_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
+        let wanted = self.kernel(name, modules, workgroups);
+        let kernels = &self.plan.kernels;
+        let known = kernels[..wanted]
+            .iter()
+            .position(|kernel| kernel.name == name && kernel.modules == kernels[wanted].modules);
+        if known.is_some() {
+            self.plan.kernels.pop();
+        }
+        known.unwrap_or(wanted)
+    }
+
+    fn geometry_buffers(&mut self) {
+        if self.plan.buffers.iter().any(|buffer| buffer.name == "sorted") {
+            return;
+        }
+        let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
+        self.buffer("sorted", "particles in order of grid cells", 32 * particles);
+        self.buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
+        self.buffer("counts", "particles in each grid cell", 4 * cells);
+        self.buffer("ranks", "place of each particle in its grid cell", 4 * particles);
+        if !self.scans_at_once() {
+            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        }
+        let faces = self.tier().0 * particles;
+        self.buffer("face_counts", "number of faces of each cell", 4 * particles);
+        self.buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
+        self.buffer("face_lengths", "length of each face", 4 * faces);
+        self.buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
+        self.buffer("volumes", "area of each cell", 4 * particles);
     }
 }
