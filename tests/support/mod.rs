@@ -8,7 +8,7 @@ use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
-use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference};
+use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -242,7 +242,7 @@ macro_rules! reference {
     };
 }
 
-reference!(Reference, CouplingsReference, ShallowWaterReference);
+reference!(Reference, CouplingsReference, ShallowWaterReference, VoronoiReference);
 
 /// An engine with what is needed to read its samples.
 pub struct Device {
