@@ -7,6 +7,7 @@ use mesoscope::engine::EngineError;
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::Options;
+use mesoscope::reference::VoronoiReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
@@ -366,4 +367,73 @@ fn analyses_know_the_masses_of_cells() {
     assert_eq!(sums("diffusion")[0], 0);
     let counted: i64 = sums("speed_histogram").iter().take(100).sum();
     assert!(counted > 0);
+}
+
+/// The largest differences of two states: momenta, positions, masses and energies in integer units.
+fn differences(a: &State, b: &State) -> [i64; 4] {
+    let (momentum, position) = support::largest_difference(a, b);
+    let masses = a.masses.iter().zip(&b.masses).map(|(a, b)| (i64::from(*a) - i64::from(*b)).abs());
+    let energies = a.energies.iter().zip(&b.energies).map(|(a, b)| (i64::from(*a) - i64::from(*b)).abs());
+    [momentum, position, masses.max().unwrap_or(0), energies.max().unwrap_or(0)]
+}
+
+/// Steps from the same state with the same random words. A unit is 2⁻²⁴ of what a cell has of momentum, mass or energy, or
+/// 2⁻³² of the box; single precision and the solver's tolerance of 10⁻⁷ make a few dozen of these.
+fn compare(name: &str, scene: &Scene, state: &State) {
+    let mut device = Device::from_state(scene, state, Options::default());
+    let mut reference = VoronoiReference::new(Model::new(scene), state.clone()).unwrap();
+    for step in 1..=2_i64 {
+        device.step(1);
+        reference.step().unwrap();
+        let found = differences(&device.state(), reference.state());
+        println!("{name}, step {step}: momenta, positions, masses, energies differ by {found:?} units");
+        let limits = [UNITS * step, 8 * UNITS * step, UNITS * step, UNITS * step];
+        assert!(found.iter().zip(limits).all(|(found, limit)| *found <= limit), "{name}: {found:?}");
+    }
+    let (row, expected) = (device.observe(), reference.observe().unwrap());
+    let (cells, expected_cells) = (row.cells.unwrap(), expected.cells.unwrap());
+    for (what, a, b) in [
+        ("kinetic energy", row.kinetic_energy, expected.kinetic_energy),
+        ("free energy", row.potential_energy, expected.potential_energy),
+        ("virial", row.conservative_virial, expected.conservative_virial),
+        ("internal energy", cells.internal_energy, expected_cells.internal_energy),
+        ("internal temperature", cells.internal_temperature, expected_cells.internal_temperature),
+        ("pressure", cells.pressure, expected_cells.pressure),
+        ("volume", cells.volume, expected_cells.volume),
+    ] {
+        assert!((a - b).abs() <= 1e-5 * b.abs().max(1e-3), "{name}: {what} {a}, not {b}");
+    }
+    assert_eq!(row.momentum, expected.momentum);
+    assert_eq!((cells.faces, cells.mass_units), (expected_cells.faces, expected_cells.mass_units));
+    assert_eq!(cells.limited_exchanges, expected_cells.limited_exchanges, "{name}");
+}
+
+const UNITS: i64 = 100;
+const TIGHT: &str = r#"interactions.0.friction_solver={"iterations":200,"tolerance":1e-7}"#;
+
+#[test]
+fn steps_are_those_of_the_reference() {
+    for (name, changes) in variants() {
+        let scene = with(225, &changes, &[TIGHT]);
+        compare(&name, &scene, &start(&scene).1);
+    }
+    for changes in [
+        &["interactions.0.viscosity=0"][..],
+        &["interactions.0.viscosity=0", ENERGY],
+        &["temperature=0", r#"particles.0.velocities={"type":"shear-wave","amplitude":1,"periods":1}"#],
+        &["space.box=[45,5]"],
+        &[r#"noise={"generator":"threefry2x32-20"}"#],
+        &[r#"particles=[{"species":"A","count":100,"mass":5},{"species":"B","count":125,"mass":1}]"#, "time.step=0.002"],
+        &["interactions.0.molecular_mass=0.05", ENERGY],
+    ] {
+        let scene = cells(225, &[&[TIGHT], changes].concat());
+        compare(&format!("{changes:?}"), &scene, &start(&scene).1);
+    }
+}
+
+/// More cells than one workgroup solves for.
+#[test]
+fn many_cells_are_those_of_the_reference() {
+    let scene = cells(2116, &[TIGHT, ENERGY]);
+    compare("2116 cells", &scene, &start(&scene).1);
 }
