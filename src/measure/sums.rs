@@ -93,6 +93,7 @@ fn voronoi(
     let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
         (0.0, sum(6) * quanta.energy, sum(8) * quanta.energy / plan.particles as f64)
     } else {
+        // Zero where there is no potential.
         (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
     };
     Observables {
