@@ -7,7 +7,9 @@ pub mod fit;
 pub mod harmonic_chain;
 pub mod histogram;
 mod mesh_fields;
+pub mod neighbours;
 mod observables;
+pub mod shear_wave;
 pub mod statistics;
 mod sums;
 

@@ -23,7 +23,7 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 pub use topology::ChainGroup;
-pub use voronoi::Voronoi;
+pub use voronoi::{NETWORK_VISCOSITY, Voronoi};
 
 use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
@@ -276,6 +276,9 @@ fn momentum_unit(
         if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);
+        }
+        if let crate::scene::Velocities::ShearWave { amplitude, .. } = group.velocities {
+            scale = scale.max(group.mass * amplitude.abs() / 8.0);
         }
     }
     for interaction in &scene.interactions {

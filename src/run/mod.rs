@@ -19,6 +19,7 @@
 //! ```
 
 mod analyses;
+mod cells;
 mod chain;
 mod circulations;
 mod conservation;

@@ -1,6 +1,7 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
+use super::cells::Cells;
 use super::chain::{self, Chains};
 use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
@@ -126,6 +127,8 @@ impl Simulation {
                     start = task.last_checkpoint(start)?;
                     let reason = if task.model.shallow_water.is_some() {
                         "the particles crowd in one cell of the mesh"
+                    } else if task.model.voronoi.is_some() {
+                        "a cell has more corners than there is room for"
                     } else if task.model.is_coupled() {
                         "a particle has more neighbours than the list has room for"
                     } else {
@@ -226,6 +229,7 @@ struct Run<'a> {
     energies: EnergyRecorder,
     analyses: Analyses,
     chains: Option<Chains>,
+    cells: Cells,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
@@ -268,6 +272,7 @@ impl<'a> Run<'a> {
             energies,
             analyses: Analyses::new(scene, model, plan, &start.sections),
             chains: chains_of(scene, model, &start.sections),
+            cells: Cells::new(scene, &start.sections),
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
@@ -322,6 +327,7 @@ impl<'a> Run<'a> {
             if let Some(chains) = &self.chains {
                 sections.push((chain::SECTION.to_owned(), chains.section()));
             }
+            sections.extend(self.cells.sections());
             checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
             self.saved_step = step;
             self.momentum = state.total_momentum();
@@ -334,12 +340,14 @@ impl<'a> Run<'a> {
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
         let sample = self.schedule.chain(step);
+        let due = self.schedule.cells(step);
         let last = step == self.scene.time.steps;
-        if number.is_some() || frame || sample || last {
+        if number.is_some() || frame || sample || due.any() || last {
             let state = engine.reported()?;
             if let (true, Some(chains)) = (sample, &mut self.chains) {
                 chains.add(&state);
             }
+            self.cells.add(due, &state, self.model);
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
@@ -404,6 +412,7 @@ impl<'a> Run<'a> {
         if let Some(chains) = &self.chains {
             summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
         }
+        self.cells.conclude(self.directory, self.model, &mut summary)?;
         summary.conserved_exactly = conserved(self.model);
         summary.not_conserved = not_conserved(self.model);
         // Numbers first: they are worth more than pictures if the disk is full.

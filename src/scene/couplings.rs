@@ -65,8 +65,9 @@ fn scene_is_coupled(scene: &Scene) -> bool {
         Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
         _ => true,
     };
-    let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
-    !water
+    let alone =
+        |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
+    !scene.interactions.iter().any(alone)
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(|group| group.fixed)
             || scene.interactions.iter().any(coupled))
@@ -152,7 +153,13 @@ fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, 
     } else if let Some(count) = group.count.filter(|count| !count.is_multiple_of(beads)) {
         problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), wrong(count)));
     }
-    let placed = matches!(group.placement, Placement::Random | Placement::Lattice);
+    if let Placement::Lattice { jitter } = group.placement
+        && jitter > 0.0
+    {
+        let accepted = "no `jitter` for chains, which would stretch their bonds";
+        problems.push(Problem::new(format!("{path}.placement.jitter"), format!("found {jitter}"), accepted));
+    }
+    let placed = matches!(group.placement, Placement::Random | Placement::Lattice { .. });
     let half = half_box(scene);
     if placed && chain.spacing > half {
         let accepted = format!(

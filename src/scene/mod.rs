@@ -22,6 +22,7 @@ pub mod surface;
 mod text;
 mod types;
 pub(crate) mod voronoi;
+mod voronoi_start;
 mod warnings;
 
 pub use builtin::{Builtin, builtin};
@@ -31,7 +32,10 @@ pub use load::{load, parse, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
-pub use voronoi::{CellEnergy, EquationOfState, FrictionSolver, InitialMasses, VoronoiForm, VoronoiInteraction};
+pub use voronoi::{
+    CellEnergy, EquationOfState, FrictionSolver, InitialMasses, TemperatureRegion, VoronoiForm, VoronoiInteraction,
+    shear_waves,
+};
 pub use warnings::warnings;
 
 impl Space {
@@ -64,8 +68,8 @@ impl Interaction {
             | Self::Tether(_)
             | Self::Angles(_)
             | Self::HarmonicChain(_)
-            | Self::ShallowWater(_)
-            | Self::Voronoi(_) => scene,
+            | Self::ShallowWater(_) => scene,
+            Self::Voronoi(voronoi) => voronoi.hottest(scene),
         }
     }
 }

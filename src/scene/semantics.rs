@@ -24,6 +24,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Problem> {
     // What follows from a model or a start needs a scene that makes sense.
     if problems.is_empty() {
         super::couplings::check_motion(scene, &mut problems);
+        super::voronoi::check_start(scene, &mut problems);
     }
     problems
 }

@@ -230,7 +230,12 @@ pub enum Placement {
     #[serde(rename_all = "kebab-case")]
     Random,
     /// The smallest nearly cubic (square) lattice that holds the group, filled evenly.
-    Lattice,
+    Lattice {
+        /// Largest random shift of a particle along each axis, as a part of the spacing. Not for chains.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        jitter: f64,
+    },
     /// Positions listed one by one; each is taken modulo the box.
     Listed {
         /// One position per particle.
@@ -244,6 +249,19 @@ pub enum Placement {
         #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl Placement {
+    /// Whether the particles start on a lattice, shifted or not.
+    #[must_use]
+    pub fn is_lattice(&self) -> bool {
+        matches!(self, Self::Lattice { .. })
+    }
 }
 
 /// A feature of the surface of shallow water, periodic in the box.
@@ -768,9 +786,34 @@ pub struct Output {
     /// Histograms of velocities and accelerations, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub histograms: Vec<Histogram>,
+    /// How many neighbours Voronoi cells have, as a table and a plot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neighbours: Option<Neighbours>,
+    /// The decay of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_wave: Option<ShearWave>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<Fields>,
+}
+
+/// The histogram of the numbers of neighbours of Voronoi cells, after equilibration.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbours {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+}
+
+/// The decay of the wave of `velocities` of type `shear-wave`, after equilibration.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShearWave {
+    /// Steps between two samples: long against the time in which friction relaxes a single cell, short against the
+    /// decay of the wave.
+    #[schemars(range(min = 1))]
+    pub every: u64,
 }
 
 /// Fields on the mesh, as pictures and arrays.
@@ -868,7 +911,7 @@ pub struct Snapshot {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
-    /// What the colour of a particle shows.
+    /// What the colour of a particle shows; left out, the species, or the density of Voronoi cells of one species.
     pub color: SnapshotColor,
 }
 
@@ -882,7 +925,7 @@ impl Default for Snapshot {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SnapshotColor {
-    /// The species (default).
+    /// The species.
     #[default]
     Species,
     /// The speed, on a perceptually uniform scale.

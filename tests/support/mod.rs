@@ -87,6 +87,23 @@ pub fn shear_flow(changes: &[&str]) -> Scene {
     }
 }
 
+/// Cells of unit mean volume and five molecules each, on a jittered lattice, with changes given as `path=value`.
+pub fn cells(count: u32, changes: &[&str]) -> Scene {
+    let edge = f64::from(count.max(1)).sqrt();
+    let text = format!(
+        r#"{{
+        "title": "test", "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.02, "steps": 1}}, "temperature": 1.0,
+        "particles": [{{"species": "A", "count": {count}, "mass": 5, "placement": {{"type": "lattice", "jitter": 0.25}}}}],
+        "interactions": [{{"type": "voronoi"}}], "output": {{"energies": {{"every": 1}}}}
+    }}"#
+    );
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", &text, &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
 /// A scene's model and initial state.
 pub fn start(scene: &Scene) -> (Model, State) {
     let model = Model::new(scene);

@@ -41,7 +41,7 @@ use crate::scene::Integrator;
 use crate::state::State;
 use crate::tessellation::{self, Tessellation};
 use exchange::{Exchange, Ledger};
-use faces::{Cells, Face};
+use faces::{Cells, Face, dot};
 
 /// A model of Voronoi DPD and its state, stepped on the CPU.
 #[derive(Debug, Clone)]
@@ -160,10 +160,37 @@ impl VoronoiReference {
     }
 
     /// B: pressure and mass exchange.
+    ///
+    /// Internal energies change what pushes them: it is the pressure halfway that acts, so that the step is of second
+    /// order.
     fn push(&mut self, geometry: &Geometry, time: f64) -> Result<(), Unstable> {
-        let now = self.now(geometry);
+        let mut now = self.now(geometry);
+        if self.cells.keeps_energy() {
+            now.pressures = self.middle_pressures(geometry, &now, time);
+        }
         let exchanges = self.pressure(geometry, &now, time);
         self.settle(&geometry.faces, &exchanges, &now)
+    }
+
+    /// The pressures in the middle of a push, from the heat that it brings to each cell if velocities and pressures stay.
+    fn middle_pressures(&self, geometry: &Geometry, now: &Cells, time: f64) -> Vec<f64> {
+        let mut heat = vec![0.0; self.state.len()];
+        for face in &geometry.faces {
+            let (exchange, _) = pressure::exchange(&self.cells, now, face, time);
+            let total = exchange.total_energy(face, &now.velocities, &now.velocities);
+            for (cell, sign) in [(face.k, 1.0), (face.l, -1.0)] {
+                let velocity = now.velocities[cell];
+                let kinetic = dot(exchange.momentum, velocity) - 0.5 * exchange.mass * dot(velocity, velocity);
+                heat[cell] += sign * (total - kinetic);
+            }
+        }
+        (0..heat.len())
+            .map(|cell| {
+                let energy = now.internal_energies[cell] + 0.5 * heat[cell];
+                let temperature = equation_of_state::temperature(&self.cells, now.masses[cell], energy);
+                equation_of_state::pressure(&self.cells, now.masses[cell], now.volumes[cell], temperature)
+            })
+            .collect()
     }
 
     fn pressure(&mut self, geometry: &Geometry, now: &Cells, time: f64) -> Vec<Exchange> {
