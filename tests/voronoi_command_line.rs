@@ -332,7 +332,11 @@ fn sweeps_see_the_quantities_of_cells() {
     let place = Place::new().with("/time/steps", json!(20));
     fs::write(place.path("scene.json"), place.scene.to_string()).unwrap();
     let (scene, out) = (place.argument("scene.json"), place.argument("sweep"));
+    let quantities = ["--plot", "temperature", "--plot", "mean_neighbours", "--plot", "solver_iterations"];
     let said =
-        succeeds(&["tradeoff", &scene, "--vary", "time.step=0.01,0.02", "--target", "temperature=1", "--out", &out]);
+        succeeds(&[&["sweep", &scene, "--vary", "time.step=0.01,0.02", "--out", &out], &quantities[..]].concat());
     assert!(said.contains("0.01") && said.contains("0.02"), "{said}");
+    for variant in ["step=0.01", "step=0.02"] {
+        assert!(place.path("sweep").join(variant).join(files::SUMMARY).exists(), "{:?}", listing(&place.path("sweep")));
+    }
 }
