@@ -1,6 +1,4 @@
 // Cells as they are when the exchange begins.
-@group(0) @binding(15) var<storage, read_write> volumes: array<f32>;
-
 fn side_of(slot: u32, cell: Particle) -> Side {
     let velocity = velocity_of(cell);
     let mass = mass_of(cell);

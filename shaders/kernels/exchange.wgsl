@@ -24,7 +24,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let word = face_words[face];
         let other = neighbour_of(word);
         let they = particles[other];
-        if (!owns(me.position.w, they.position.w)) { continue; }
+        if (!owns_face(me.position.w, they.position.w)) { continue; }
         let theirs = side_of(other, they);
         let facet = facet_of(face, word, me.position, they.position);
         let twist = twist_of(face, facet);

@@ -1,5 +1,6 @@
 // The image of the preconditioned residual under the equations, and the sums that an iteration needs.
 override PARTICLES: u32;
+override VISCOSITY: f32; // times the time step
 @group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>;       // W, residual
 @group(0) @binding(22) var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
 @group(0) @binding(23) var<storage, read_write> searches: array<vec4<f32>>;        // preconditioned residual; place
@@ -32,10 +33,10 @@ fn image_of_search(slot: u32, mine: vec4<f32>) -> Vector {
         let other = neighbour_of(word);
         if (other == slot) { continue; }
         let theirs = searches[other];
-        let separation = separation_of(place - bitcast<vec2<u32>>(theirs.zw), image_of(word));
-        let square = dot(separation, separation);
+        let apart = separation(place, bitcast<vec2<u32>>(theirs.zw), word);
+        let square = dot(apart, apart);
         let v = mine.xy - theirs.xy;
-        image += VISCOSITY * face_lengths[face] * inverseSqrt(square) * (v + dot(v, separation) / square * separation);
+        image += VISCOSITY * face_lengths[face] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
     }
     return image;
 }

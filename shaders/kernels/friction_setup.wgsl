@@ -19,7 +19,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 
 // Returns the square of the right-hand side.
 fn set_up(slot: u32) -> f32 {
-    noise_key = solver.key;
+    prepare_noise();
     let me = particles[slot];
     let velocity = velocity_of(me);
     let temperature = temperature_of(me);

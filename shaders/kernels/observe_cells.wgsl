@@ -3,8 +3,6 @@ override PARTICLES: u32;
 override KINETIC: f32;         // sums' units in a real energy
 override VOLUME_STEPS: f32;    // and in a volume
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
-@group(0) @binding(11) var<storage, read_write> face_counts: array<u32>;
-@group(0) @binding(15) var<storage, read_write> volumes: array<f32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,

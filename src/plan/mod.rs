@@ -22,7 +22,7 @@ use crate::state::Units;
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     match (&model.shallow_water, &model.voronoi) {
         (Some(water), _) => shallow_water::plan(model, water, output, options),
-        (None, Some(cells)) => voronoi::plan(model, cells, output, options),
+        (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         _ => pair::plan(model, equilibration, output, hardware, options),
     }

@@ -446,7 +446,7 @@ impl Builder<'_> {
             equilibration: self.equilibration,
             workgroup: self.workgroup_size(),
             space: space(&self.model.units, self.predicted()),
-            coefficients: self.coefficients(),
+            masses: vec![self.coefficients(), "common/mass_of_species"],
             particles: "particles",
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some("reported_momenta"),
