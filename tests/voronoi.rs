@@ -27,7 +27,8 @@ fn start(scene: &Scene) -> State {
     let mut state = scene::placement::initial_state(scene, &model);
     let cells = model.voronoi.as_ref().unwrap();
     if state.masses.is_empty() {
-        state.masses = state.species.iter().map(|s| (model.species[*s as usize].mass / cells.mass_unit) as u32).collect();
+        state.masses =
+            state.species.iter().map(|s| (model.species[*s as usize].mass / cells.mass_unit) as u32).collect();
     }
     if cells.keeps_energy() && state.energies.is_empty() {
         state.energies = (0..state.len())
@@ -56,7 +57,11 @@ fn it_runs() {
         &[r#"interactions.0.form="paper""#, r#"interactions.0.energy={"conductivity":1}"#],
         &[r#"integrator.type="euler""#],
         &[r#"integrator.type="euler""#, r#"interactions.0.form="paper""#],
-        &[r#"integrator.type="euler""#, r#"interactions.0.form="consistent""#, r#"interactions.0.energy={"conductivity":1}"#],
+        &[
+            r#"integrator.type="euler""#,
+            r#"interactions.0.form="consistent""#,
+            r#"interactions.0.energy={"conductivity":1}"#,
+        ],
     ] {
         let scene = cells(&[&["time.step=0.005"], extra].concat());
         let state = start(&scene);
@@ -67,9 +72,18 @@ fn it_runs() {
             let after = run.observe();
             println!(
                 "  {} T {:.4} p {:?} V {:.5} faces {} m {} E {:.5} Ti {:.4} lim {} it {} res {:.2e} F {:.3}",
-                after.step, after.kinetic_temperature(), after.momentum, after.cells.unwrap().volume, after.cells.unwrap().faces,
-                after.cells.unwrap().mass_units, after.cells.unwrap().internal_energy + after.kinetic_energy, after.cells.unwrap().internal_temperature,
-                after.cells.unwrap().limited_exchanges, after.cells.unwrap().iterations, after.cells.unwrap().residual, after.potential_energy
+                after.step,
+                after.kinetic_temperature(),
+                after.momentum,
+                after.cells.unwrap().volume,
+                after.cells.unwrap().faces,
+                after.cells.unwrap().mass_units,
+                after.cells.unwrap().internal_energy + after.kinetic_energy,
+                after.cells.unwrap().internal_temperature,
+                after.cells.unwrap().limited_exchanges,
+                after.cells.unwrap().iterations,
+                after.cells.unwrap().residual,
+                after.potential_energy
             );
         }
     }

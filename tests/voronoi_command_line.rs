@@ -308,9 +308,9 @@ fn check_says_what_the_scene_requires() {
     for part in [
         "search grid",
         "gradient: constant masses",
-        "ideal gas, 50 molecules a cell",
-        "kept account of in every cell, heat conductivity 50",
-        "1 of friction at faces, about 1.235 of the network of cells",
+        "ideal gas, 125 molecules a cell",
+        "kept account of in every cell, heat conductivity 1000",
+        "5 of friction at faces, about 6.175 of the network of cells",
         "conjugate gradients, at most",
         "neighbours.csv, neighbours.png",
         "snapshot-….png",

@@ -78,20 +78,16 @@ fn shallow_water(
 /// The residual of the solver of the friction is counted in these.
 const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
 
-fn voronoi(
-    sample: &Sample,
-    sum: impl Fn(usize) -> f64,
-    plan: &Plan,
-    model: &Model,
-    cells: &Voronoi,
-) -> Observables {
+fn voronoi(sample: &Sample, sum: impl Fn(usize) -> f64, plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
     let whole = |index: usize| sample.sums.get(index).copied().unwrap_or(0);
     let quanta = plan.quanta;
     let mass_units = whole(3);
     let mass = mass_units as f64 * cells.mass_unit;
     // What one molecule has of both, as an ideal gas of two dimensions, and with it the product of pressure and volume.
     let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
-        (0.0, sum(6) * quanta.energy, sum(8) * quanta.energy / plan.particles as f64)
+        // Kinetic and internal energy together are integers, whose sum says whether any is lost.
+        let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
+        (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
     } else {
         (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
     };

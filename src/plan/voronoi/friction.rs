@@ -13,8 +13,10 @@ impl Builder<'_> {
     /// Kernels that find the mean velocities of a whole step of friction.
     pub(super) fn solve_friction(&mut self) -> Vec<usize> {
         let groups = self.particles.div_ceil(LANES).max(1);
-        let begin = self.bare_kernel("friction_begin", vec!["common/control", "common/solver", "kernels/friction_begin"], 1);
-        let mut setup = vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
+        let begin =
+            self.bare_kernel("friction_begin", vec!["common/control", "common/solver", "kernels/friction_begin"], 1);
+        let mut setup =
+            vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
         setup.extend(self.cell());
         setup.extend(["common/side"]);
         setup.extend(self.rubbing());
@@ -56,7 +58,12 @@ impl Builder<'_> {
         let bytes: Vec<u8> = bytemuck::cast_slice(&demands).to_vec();
         // As large as the least buffer.
         let bytes = [bytes, vec![0; 40]].concat();
-        self.buffer_of("demands", "workgroups of an iteration of the solver", bytes.len() as u64, Contents::Bytes(bytes));
+        self.buffer_of(
+            "demands",
+            "workgroups of an iteration of the solver",
+            bytes.len() as u64,
+            Contents::Bytes(bytes),
+        );
         self.buffer("solver", "how far the solver of the friction has come", HEADER + 16 * groups);
         self.buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
         self.buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
