@@ -1,7 +1,7 @@
 // The faces of Voronoi cells as `tessellate` leaves them: face f of the cell in a slot is element f * PARTICLES + slot.
 //
-// A word names the neighbour's slot and which of its periodic images is meant: the neighbour is at the shortest displacement
-// and (sx, sy) boxes more, with (sx + 1) + 3 (sy + 1) in the upper four bits.
+// A word names the neighbour's slot and which of its periodic images is meant: the separation r_k - r_l is the shortest one
+// less (sx, sy) boxes, with (sx + 1) + 3 (sy + 1) in the upper four bits.
 @group(0) @binding(11) var<storage, read_write> face_counts: array<u32>;
 @group(0) @binding(12) var<storage, read_write> face_words: array<u32>;
 @group(0) @binding(13) var<storage, read_write> face_lengths: array<f32>;
@@ -20,7 +20,7 @@ fn face_word(slot: u32, image: vec2<i32>) -> u32 {
 
 // From the neighbour's image to me, r_k - r_l.
 fn separation(me: Fraction, other: Fraction, word: u32) -> Vector {
-    return -(Vector(signed(other - me)) + 4294967296.0 * Vector(image_of(word))) * unit_lengths();
+    return (Vector(signed(me - other)) - 4294967296.0 * Vector(image_of(word))) * unit_lengths();
 }
 // The direction that goes with e = (r_k - r_l) / r: seen from the other side both turn round.
 fn tangent(e: Vector) -> Vector { return Vector(-e.y, e.x); }
@@ -31,7 +31,8 @@ fn owns_face(id: u32, other: u32) -> bool { return (id < other) == (((id + other
 
 // The image of the larger number seen from the smaller one: both ends find the same code.
 fn common_image(id: u32, other_id: u32, me: Fraction, other: Fraction, word: u32) -> u32 {
-    // Exactly half a box away the shortest displacement has the same sign from both sides.
-    let back = vec2<i32>(signed(other - me) == Steps(i32(-2147483647) - 1)) - image_of(word);
+    // Exactly half a box away the shortest separation has the same sign from both sides.
+    let half = signed(me - other) == Steps(i32(-2147483647) - 1);
+    let back = -image_of(word) - vec2<i32>(half);
     return select(face_word(0u, back), word, id < other_id) >> 28u;
 }

@@ -5,11 +5,15 @@ var<private> side_words: array<u32, CORNERS>;
 var<private> corners: array<Vector, CORNERS>;
 // Radius of the circle around a computed corner within which the true one certainly is.
 var<private> blurs: array<f32, CORNERS>;
+// Where the corners are at a cut: 1 beyond the bisector, 0 on it, -1 on this side.
+var<private> corner_places: array<i32, CORNERS>;
 // Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner.
 var<private> reach: f32;
 var<private> overflown: bool;
 
 const UNKNOWN: f32 = 1e15;
+// Half the distance from 1 to the next larger number.
+const ROUNDING: f32 = 5.9604645e-8;
 
 // Where the bisectors of two sites meet, and its blur. The shorter displacement and the way between the sites are the two
 // best known sides of the triangle.
@@ -28,7 +32,7 @@ fn meeting(first: Site, second: Site) -> vec3<f32> {
     let turned = select(cross, -cross, swap);
     let least = 4e-6 * lengths;
     let corner = n * (0.5 / select(max(turned, least), -max(turned, least), swap));
-    let blur = (lengths / max(turned, least)) * (16.0 * sqrt(pp) + 32.0 * length(q) + 64.0 * length(corner)) * 5.9604645e-8;
+    let blur = (lengths / max(turned, least)) * (20.0 * sqrt(pp) + 40.0 * length(q) + 80.0 * length(corner)) * ROUNDING;
     return vec3<f32>(corner, select(blur, UNKNOWN, turned <= least));
 }
 
@@ -44,7 +48,7 @@ fn before(index: u32) -> u32 { return select(index, sides, index == 0u) - 1u; }
 // The rectangle between a particle and its own images.
 fn begin_polygon(slot: u32) {
     let half = 2147483648.0 * scale();
-    let blur = length(half) * 6e-6;
+    let blur = 100.0 * ROUNDING * length(half);
     sides = 4u;
     set_side(0u, face_word(slot, vec2<i32>(1, 0)), vec3<f32>(half.x, half.y, blur));
     set_side(1u, face_word(slot, vec2<i32>(0, 1)), vec3<f32>(-half.x, half.y, blur));
@@ -71,17 +75,6 @@ struct Bisector {
 
 fn beyond(bisector: Bisector, index: u32) -> f32 { return dot(corners[index], bisector.direction) - bisector.half; }
 
-// Which side of the bisector of a site a corner is on: positive beyond it, where it is cut; zero on it.
-fn exact_side(index: u32, site: Site) -> i32 {
-    return in_circle(site_of(side_words[index]), site_of(side_words[after(index)]), site);
-}
-fn side_of(index: u32, site: Site, bisector: Bisector) -> i32 {
-    let far = beyond(bisector, index);
-    var side = i32(sign(far));
-    for (var pending = abs(far) <= blurs[index]; pending; pending = false) { side = exact_side(index, site); }
-    return side;
-}
-
 // Cuts the polygon along the bisector of a site, unless no corner is beyond it. Corners on it go only with ones beyond, so
 // that no side without length is left.
 fn cut(site: Site, squared: f32) {
@@ -93,27 +86,23 @@ fn cut(site: Site, squared: f32) {
 }
 
 fn cut_corners(site: Site, bisector: Bisector) {
-    var surest = -1.0;
+    var found = false;
     var first = 0u;
     for (var i = 0u; i < sides; i++) {
-        let sure = beyond(bisector, i) - blurs[i];
-        if (sure > surest) {
-            surest = sure;
-            first = i;
+        let far = beyond(bisector, i);
+        var place = i32(sign(far));
+        for (var pending = abs(far) <= blurs[i]; pending; pending = false) {
+            place = in_circle(site_of(side_words[i]), site_of(side_words[after(i)]), site);
         }
-    }
-    var found = surest > 0.0;
-    for (var i = 0u; i < sides && !found; i++) {
-        if (side_of(i, site, bisector) > 0) {
-            found = true;
-            first = i;
-        }
+        corner_places[i] = place;
+        found = found || place > 0;
+        first = select(first, i, place > 0);
     }
     if (!found) { return; }
     var last = first;
     var gone = 1u;
-    for (; gone < sides && side_of(after(last), site, bisector) >= 0; gone++) { last = after(last); }
-    for (; gone < sides && side_of(before(first), site, bisector) >= 0; gone++) { first = before(first); }
+    for (; gone < sides && corner_places[after(last)] >= 0; gone++) { last = after(last); }
+    for (; gone < sides && corner_places[before(first)] >= 0; gone++) { first = before(first); }
     // The particle itself is never beyond, and neither is the whole polygon.
     if (gone == sides) { return; }
     if (sides + 2u - gone > CORNERS) {

@@ -5,8 +5,8 @@ override SPACING: f32;
 
 struct Site {
     word: u32,         // slot and image, as `face.wgsl` packs them
-    steps: Steps,      // shortest displacement from the particle of the cell
-    away: Vector,      // displacement in units of 2^-32 of the box, with the image's boxes
+    steps: Steps,      // shortest separation, from the site to the particle of the cell
+    away: Vector,      // displacement to the site in units of 2^-32 of the box, with the image's boxes
 }
 
 var<private> home: Fraction;
@@ -14,14 +14,14 @@ var<private> home: Fraction;
 fn scale() -> Vector { return unit_lengths() / SPACING; }
 
 fn site_at(word: u32, fraction: Fraction) -> Site {
-    let steps = signed(fraction - home);
-    return Site(word, steps, Vector(steps) + 4294967296.0 * Vector(image_of(word)));
+    let steps = signed(home - fraction);
+    return Site(word, steps, 4294967296.0 * Vector(image_of(word)) - Vector(steps));
 }
 fn site_of(word: u32) -> Site { return site_at(word, fraction_of(particles[neighbour_of(word)].position)); }
 
 // From one site to another, to full relative precision however close they are: low words of integers, and as many boxes as
 // are missing.
 fn between(a: Site, b: Site) -> Vector {
-    let near = Vector(b.steps - a.steps);
+    let near = Vector(a.steps - b.steps);
     return near + 4294967296.0 * round((b.away - a.away - near) * (1.0 / 4294967296.0));
 }

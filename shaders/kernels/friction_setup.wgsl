@@ -1,5 +1,4 @@
-// The equations of Crank and Nicolson's friction: for the mean W of the velocities U before and after it,
-// (2M + dt G) W = 2MU + J with the friction G and the random impulses J. The velocities before are the first guess.
+// Sets up the equations of friction; the velocities before it are the first guess.
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>;       // W, residual

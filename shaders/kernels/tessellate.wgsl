@@ -5,6 +5,8 @@ override PARTICLES: u32;
 
 // How far a particle may be beside its grid cell, as a fraction of the box.
 const STRAY: f32 = 3e-5;
+// Further than any corner, however blurred.
+const EVERYWHERE: f32 = 1e18;
 
 // Square of the distance to which a search through so many rings of grid cells is complete. Beyond a whole box on an axis
 // there is nothing on it.
@@ -15,7 +17,7 @@ fn searched(ring: u32) -> f32 {
     let narrower = (min(within, 1.0 - within) + f32(ring)) / count - STRAY;
     let margin = max(narrower * 4294967296.0 * scale(), Vector(0.0));
     let whole = Vector(f32(ring)) >= count;
-    let least = min(select(margin.x, UNKNOWN, whole.x), select(margin.y, UNKNOWN, whole.y));
+    let least = min(select(margin.x, EVERYWHERE, whole.x), select(margin.y, EVERYWHERE, whole.y));
     return least * least;
 }
 
@@ -28,9 +30,9 @@ fn look_into(row: u32, column: u32, along: i32, across: i32) {
     let end = cells[cell + 1u];
     for (var other = cells[cell]; other < end; other++) {
         let fraction = fraction_of(particles[other].position);
-        let steps = signed(fraction - home);
-        let image = box - vec2<i32>(fraction < home) + vec2<i32>(steps < Steps(0));
-        let away = Vector(steps) + 4294967296.0 * Vector(image);
+        let steps = signed(home - fraction);
+        let image = box + vec2<i32>(home < fraction) - vec2<i32>(steps < Steps(0));
+        let away = 4294967296.0 * Vector(image) - Vector(steps);
         let d = away * scale();
         let squared = dot(d, d);
         if (squared < reach && squared > 0.0 && all(abs(image) <= vec2<i32>(1))) {

@@ -6,6 +6,8 @@ use crate::plan::{Contents, folded};
 
 /// Lanes of a workgroup of the solver, whose sums are of single precision: no choice, for results depend on it.
 const LANES: u64 = 64;
+/// Cells whose equations one workgroup solves as fast as many.
+const FEW: u64 = 2048;
 /// Bytes of what the solver has come to, before the sums of workgroups.
 const HEADER: u64 = 48;
 
@@ -13,10 +15,11 @@ impl Builder<'_> {
     /// Kernels that find the mean velocities of a whole step of friction.
     pub(super) fn solve_friction(&mut self) -> Vec<usize> {
         let groups = self.particles.div_ceil(LANES).max(1);
-        let begin =
-            self.bare_kernel("friction_begin", vec!["common/control", "common/solver", "kernels/friction_begin"], 1);
-        let mut setup =
-            vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
+        let iterations =
+            if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
+        let begin = vec!["common/control", "common/solver", iterations, "kernels/friction_begin"];
+        let begin = self.bare_kernel("friction_begin", begin, 1);
+        let mut setup = vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
         setup.extend(self.cell());
         setup.extend(["common/side"]);
         setup.extend(self.rubbing());
@@ -28,21 +31,28 @@ impl Builder<'_> {
         }
         setup.push("kernels/friction_setup");
         let setup = self.kernel("friction_setup", &setup, groups);
-        let image = ["common/solver", "common/friction_sums", "common/face", "kernels/friction_image"];
-        let image = self.kernel("friction_image", &image, groups);
-        let judge = ["common/solver", "common/friction_sums", "kernels/friction_judge"];
-        let judge = self.bare_kernel("friction_judge", judge.to_vec(), 1);
-        let step = ["common/solver", "common/friction_sums", "common/preconditioner", "kernels/friction_step"];
-        let step = self.kernel("friction_step", &step, groups);
-        self.plan.kernels[judge].constants = vec![
+        self.solver_buffers(groups);
+        let verdict = vec![
             ("CELL_GROUPS", groups as f64),
             ("TOLERANCE", self.cells.solver.tolerance),
             ("ITERATIONS", f64::from(self.cells.solver.iterations)),
         ];
+        let sums = ["common/solver", "common/friction_sums"];
+        let equations = ["common/friction_equations", "common/preconditioner", "common/face"];
+        if self.solves_at_once() {
+            let modules = [&sums[..], &equations, &["common/friction_verdict", "kernels/friction_solve"]].concat();
+            let solve = self.kernel("friction_solve", &modules, 1);
+            self.plan.kernels[solve].constants = verdict;
+            return vec![begin, setup, solve];
+        }
+        let image = self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
+        let judge = [&sums[..], &["common/friction_verdict", "kernels/friction_judge"]].concat();
+        let judge = self.bare_kernel("friction_judge", judge, 1);
+        self.plan.kernels[judge].constants = verdict;
+        let step = self.kernel("friction_step", &[&sums[..], &equations, &["kernels/friction_step"]].concat(), groups);
         for kernel in [image, step] {
             self.plan.kernels[kernel].demand = Some(1);
         }
-        self.solver_buffers(groups);
         let mut kernels = vec![begin, setup];
         for _ in 0..self.cells.solver.iterations {
             kernels.extend([image, judge, step]);
@@ -52,23 +62,26 @@ impl Builder<'_> {
         kernels
     }
 
+    /// Whether one workgroup goes through all iterations.
+    fn solves_at_once(&self) -> bool {
+        self.particles <= FEW
+    }
+
     fn solver_buffers(&mut self, groups: u64) {
-        let [width, height] = folded(groups as u32);
-        let demands: [u32; 6] = [width, height, 1, 0, 0, 0];
-        let bytes: Vec<u8> = bytemuck::cast_slice(&demands).to_vec();
-        // As large as the least buffer.
-        let bytes = [bytes, vec![0; 40]].concat();
-        self.buffer_of(
-            "demands",
-            "workgroups of an iteration of the solver",
-            bytes.len() as u64,
-            Contents::Bytes(bytes),
-        );
+        if !self.solves_at_once() {
+            let [width, height] = folded(groups as u32);
+            // Filled up to the least size of a buffer.
+            let mut demands = [0_u32; 16];
+            demands[..3].copy_from_slice(&[width, height, 1]);
+            let bytes: Vec<u8> = bytemuck::cast_slice(&demands).to_vec();
+            self.buffer_of("demands", "workgroups of an iteration of the solver", 64, Contents::Bytes(bytes));
+            self.buffer("images", "what friction makes of preconditioned residuals", 8 * self.particles);
+        }
         self.buffer("solver", "how far the solver of the friction has come", HEADER + 16 * groups);
         self.buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
         self.buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
         self.buffer("searches", "preconditioned residuals", 16 * self.particles);
-        self.buffer("images", "what friction makes of them", 8 * self.particles);
-        self.buffer("directions", "directions of search, and what friction makes of them", 16 * self.particles);
+        let directions = if self.solves_at_once() { 32 } else { 16 };
+        self.buffer("directions", "directions of search, and what friction makes of them", directions * self.particles);
     }
 }

@@ -45,7 +45,15 @@ impl Builder<'_> {
         let cells = ["common/grid2", "common/cells_plain"];
         let tessellate =
             self.shared_kernel("tessellate", &[&cells[..], &polygon, &["kernels/tessellate"]].concat(), groups);
-        self.plan.kernels[tessellate].constants = vec![("SPACING", self.spacing())];
+        let [x_weight, y_weight] = weights(self.model.units.lengths);
+        let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
+        self.plan.kernels[tessellate].constants = vec![
+            ("SPACING", self.spacing()),
+            ("WEIGHT_X_LOW", low(x_weight)),
+            ("WEIGHT_X_HIGH", high(x_weight)),
+            ("WEIGHT_Y_LOW", low(y_weight)),
+            ("WEIGHT_Y_HIGH", high(y_weight)),
+        ];
         kernels.push(tessellate);
         self.geometry_buffers();
         kernels
@@ -117,5 +125,45 @@ impl Builder<'_> {
         self.buffer("face_lengths", "length of each face", 4 * faces);
         self.buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
         self.buffer("volumes", "area of each cell", 4 * particles);
+    }
+}
+
+/// Whole numbers in the ratio of the squares of the box's edges: the smallest that are right to 32 bits, by continued
+/// fractions. Which cells are neighbours is decided exactly for a box whose edges are in that ratio.
+fn weights(lengths: [f64; 3]) -> [u64; 2] {
+    const LARGEST: f64 = 9.0e15;
+    let ratio = ((lengths[1] / lengths[0]) * (lengths[1] / lengths[0])).clamp(1.0 / LARGEST, LARGEST);
+    let (mut before, mut now) = ([0.0, 1.0], [1.0, 0.0]);
+    let mut rest = ratio;
+    loop {
+        let whole = rest.floor();
+        let next = [whole * now[0] + before[0], whole * now[1] + before[1]];
+        if next[0].max(next[1]) > LARGEST {
+            break;
+        }
+        (before, now) = (now, next);
+        let close = (now[0] / now[1] - ratio).abs() <= ratio * 2_f64.powi(-32);
+        if close || rest == whole {
+            break;
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    [now[1] as u64, now[0] as u64]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::weights;
+
+    #[test]
+    fn weights_are_in_the_ratio_of_squared_edges() {
+        assert_eq!(weights([7.0, 7.0, 1.0]), [1, 1]);
+        assert_eq!(weights([10.0, 20.0, 1.0]), [1, 4]);
+        assert_eq!(weights([1000.0, 0.01, 1.0]), [10_000_000_000, 1]);
+        for lengths in [[3.0_f64.sqrt(), 2.0, 1.0], [std::f64::consts::PI, 100.0, 1.0], [1.0, 0.123_456_789, 1.0]] {
+            let [x, y] = weights(lengths);
+            let (found, expected) = (y as f64 / x as f64, (lengths[1] / lengths[0]).powi(2));
+            assert!((found / expected - 1.0).abs() <= 2_f64.powi(-32), "{lengths:?}: {x}, {y}");
+        }
     }
 }
