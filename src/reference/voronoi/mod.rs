@@ -41,7 +41,7 @@ use crate::scene::Integrator;
 use crate::state::State;
 use crate::tessellation::{self, Tessellation};
 use exchange::{Exchange, Ledger};
-use faces::{Cells, Face};
+use faces::{Cells, Face, dot};
 
 /// A model of Voronoi DPD and its state, stepped on the CPU.
 #[derive(Debug, Clone)]
