@@ -128,7 +128,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
         .with("/output/snapshot/every", json!(20));
     let said = place.run("out", &[]);
     assert!(said.contains("small foam: 144 particles in 2 dimensions"), "{said}");
-    for part in ["temperature", "pressure", "neighbours of a cell  6.000000", "3 numbered snapshots"] {
+    for part in ["temperature", "pressure", "neighbours of a cell", "shear viscosity (wave)", "3 numbered snapshots"] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     let expected = [
