@@ -71,21 +71,27 @@ fn height(index: u32) -> f32 { return dot(corners[index], direction) - half; }
 // Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
 const FEW: u32 = 12u;
 
-// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date.
+// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date, and finds the corner
+// that is surest beyond, if there are few.
 fn may_cut(there: Site, squared: f32) -> bool {
     site = there;
     let inverse = inverseSqrt(squared);
     direction = there.away * scale() * inverse;
     half = 0.5 * squared * inverse;
     var highest = -4.0 * UNKNOWN;
+    var surest = -4.0 * UNKNOWN;
     var farthest = 0.0;
     var widest = 0.0;
+    corner = 0u;
     for (var i = 0u; i < FEW; i++) {
-        let corner = corners[i];
-        let blur = blurs[i];
         let exists = i < sides;
-        highest = max(highest, select(-4.0 * UNKNOWN, dot(corner, direction) + blur, exists));
-        farthest = max(farthest, select(0.0, dot(corner, corner), exists));
+        let blur = blurs[i];
+        let over = dot(corners[i], direction);
+        let sure = select(-4.0 * UNKNOWN, over - blur, exists);
+        corner = select(corner, i, sure > surest);
+        surest = max(surest, sure);
+        highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
+        farthest = max(farthest, select(0.0, dot(corners[i], corners[i]), exists));
         widest = max(widest, select(0.0, blur, exists));
     }
     let far = sqrt(farthest) + widest;
@@ -112,8 +118,9 @@ var<private> known_place: i32;
 const NOT_KNOWN: i32 = 2;
 
 fn begin_search() {
+    let many = sides > FEW;
     var surest = -4.0 * UNKNOWN;
-    for (var i = 0u; i < sides; i++) {
+    for (var i = 0u; many && i < sides; i++) {
         let sure = height(i) - blurs[i];
         corner = select(corner, i, sure > surest);
         surest = max(surest, sure);
