@@ -43,9 +43,13 @@ fn next_cell() {
     let place = vec2<u32>(unfolded - boxes * count);
     // A row with ends beyond the whole box has none.
     let exists = wide <= i32(CELLS_X);
-    let cell = select(0u, cell_index(place.y, place.x), exists);
+    let corner = Vector(unfolded) / Vector(f32(CELLS_X), f32(CELLS_Y)) - Vector(home) * (1.0 / 4294967296.0);
+    let opposite = corner + 1.0 / Vector(f32(CELLS_X), f32(CELLS_Y));
+    let gap = max(max(corner, -opposite) - STRAY, Vector(0.0)) * 4294967296.0 * scale();
+    let worth = exists && dot(gap, gap) < reach;
+    let cell = select(0u, cell_index(place.y, place.x), worth);
     other = cells[cell];
-    end = select(other, cells[cell + 1u], exists);
+    end = select(other, cells[cell + 1u], worth);
     along += select(max(2 * ring, 1), 1, abs(across) == ring);
     if (along > wide || !exists) {
         across += 1;
@@ -57,16 +61,22 @@ fn next_cell() {
     }
 }
 
+// Goes on to a grid cell with particles that is not too far away.
+fn next_particle() {
+    for (; other >= end;) {
+        // The next ring begins with its first row.
+        let begins = across == -min(ring, i32(CELLS_Y)) && along == -width();
+        finished = begins && ring > 0 && searched(ring - 1) >= reach;
+        if (finished) { break; }
+        next_cell();
+    }
+}
+
 // Looks through particles until the bisector of one may cut the polygon.
 fn look_around() {
     loop {
-        if (other >= end) {
-            // The next ring begins with its first row.
-            let begins = across == -min(ring, i32(CELLS_Y)) && along == -width();
-            finished = begins && ring > 0 && searched(ring - 1) >= reach;
-            if (finished) { break; }
-            next_cell();
-        }
+        next_particle();
+        if (finished) { break; }
         if (other < end) {
             let fraction = fraction_of(particles[other].position);
             let steps = signed(home - fraction);
