@@ -91,8 +91,11 @@ fn tessellation(scene: &Scene) -> Plan {
     let model = Model::new(scene);
     let mut plan = plan::plan(&model, 0, &scene.output, Hardware { subgroup_size: None }, Options::default());
     let geometry = ["bin", "scan", "scan_blocks", "scan_tops", "scan_rows", "arrange", "order_cells", "tessellate"];
-    plan.advance = plan.report.iter().copied().filter(|&kernel| geometry.contains(&plan.kernels[kernel].name)).collect();
-    for kernels in [&mut plan.prepare, &mut plan.sort, &mut plan.before_report, &mut plan.report, &mut plan.finish_report] {
+    plan.advance =
+        plan.report.iter().copied().filter(|&kernel| geometry.contains(&plan.kernels[kernel].name)).collect();
+    for kernels in
+        [&mut plan.prepare, &mut plan.sort, &mut plan.before_report, &mut plan.report, &mut plan.finish_report]
+    {
         kernels.clear();
     }
     plan.samplers.clear();

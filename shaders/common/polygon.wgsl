@@ -1,10 +1,6 @@
 // A convex polygon around a particle that is cut along bisectors. Side i, counter-clockwise, ends at corner i, where side
-// i + 1 begins.
+// i + 1 begins. With every corner goes its blur: the radius of the circle around it within which the true one certainly is.
 var<private> sides: u32;
-var<private> side_words: array<u32, CORNERS>;
-var<private> corners: array<Vector, CORNERS>;
-// Radius of the circle around a computed corner within which the true one certainly is.
-var<private> blurs: array<f32, CORNERS>;
 // Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
 // brought up to date as corners are looked at.
 var<private> reach: f32;
@@ -37,12 +33,6 @@ fn meeting(first: Site, second: Site) -> vec3<f32> {
     return vec3<f32>(corner, select(blur, UNKNOWN, turned <= least));
 }
 
-fn set_side(index: u32, word: u32, corner: vec3<f32>) {
-    side_words[index] = word;
-    corners[index] = corner.xy;
-    blurs[index] = corner.z;
-}
-
 fn after(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == sides); }
 fn before(index: u32) -> u32 { return select(index, sides, index == 0u) - 1u; }
 
@@ -66,7 +56,7 @@ var<private> site: Site;
 var<private> direction: Vector;
 var<private> half: f32;
 
-fn height(index: u32) -> f32 { return dot(corners[index], direction) - half; }
+fn height(index: u32) -> f32 { return dot(corner_at(index), direction) - half; }
 
 // Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
 const FEW: u32 = 12u;
@@ -85,13 +75,13 @@ fn may_cut(there: Site, squared: f32) -> bool {
     corner = 0u;
     for (var i = 0u; i < FEW; i++) {
         let exists = i < sides;
-        let blur = blurs[i];
-        let over = dot(corners[i], direction);
+        let blur = blur_at(i);
+        let over = dot(corner_at(i), direction);
         let sure = select(-4.0 * UNKNOWN, over - blur, exists);
         corner = select(corner, i, sure > surest);
         surest = max(surest, sure);
         highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
-        farthest = max(farthest, select(0.0, dot(corners[i], corners[i]), exists));
+        farthest = max(farthest, select(0.0, dot(corner_at(i), corner_at(i)), exists));
         widest = max(widest, select(0.0, blur, exists));
     }
     let far = sqrt(farthest) + widest;
@@ -121,7 +111,7 @@ fn begin_search() {
     let many = sides > FEW;
     var surest = -4.0 * UNKNOWN;
     for (var i = 0u; many && i < sides; i++) {
-        let sure = height(i) - blurs[i];
+        let sure = height(i) - blur_at(i);
         corner = select(corner, i, sure > surest);
         surest = max(surest, sure);
     }
@@ -137,7 +127,7 @@ fn search() {
         if (phase == FOUND) { break; }
         let over = height(corner);
         var place = i32(sign(over));
-        if (abs(over) <= blurs[corner]) {
+        if (abs(over) <= blur_at(corner)) {
             in_doubt = known_place == NOT_KNOWN;
             if (in_doubt) { break; }
             place = known_place;
@@ -170,7 +160,7 @@ fn search() {
 
 // Settles a doubt.
 fn decide() {
-    known_place = in_circle(site_of(side_words[corner]), site_of(side_words[after(corner)]), site);
+    known_place = in_circle(site_of(side_word(corner)), site_of(side_word(after(corner))), site);
     in_doubt = false;
 }
 
@@ -181,9 +171,9 @@ fn cut() {
         overflown = true;
         return;
     }
-    let entry = meeting(site_of(side_words[first]), site);
-    let leaving = meeting(site, site_of(side_words[after(last)]));
-    let first_word = side_words[first];
+    let entry = meeting(site_of(side_word(first)), site);
+    let leaving = meeting(site, site_of(side_word(after(last))));
+    let first_word = side_word(first);
     // What follows the cut moves up or down to leave room for two corners.
     let wrapped = last < first;
     let up = !wrapped && gone == 1u;
@@ -193,9 +183,8 @@ fn cut() {
     let way = select(1, -1, up);
     for (var i = 0u; i < moved; i++) {
         let place = u32(origin + shift);
-        side_words[place] = side_words[origin];
-        corners[place] = corners[origin];
-        blurs[place] = blurs[origin];
+        let from_there = u32(origin);
+        set_side(place, side_word(from_there), vec3<f32>(corner_at(from_there), blur_at(from_there)));
         origin += way;
     }
     if (wrapped) { first = first - last - 1u; }

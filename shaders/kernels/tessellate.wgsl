@@ -100,6 +100,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     home = fraction_of(particles[slot].position);
+    begin_at(slot);
     begin_polygon(slot);
     loop {
         loop {
@@ -131,17 +132,20 @@ fn loops_go_on() -> bool {
 
 fn store_faces(slot: u32) {
     var volume = 0.0;
+    var begin = corner_at(sides - 1u);
     for (var i = 0u; i < sides; i++) {
-        let there = site_of(side_words[i]).away * scale();
+        let word = side_word(i);
+        let corner = corner_at(i);
+        let there = site_of(word).away * scale();
         let distance = length(there);
         let normal = there / distance;
-        let begin = corners[before(i)];
-        let face_length = max(dot(corners[i] - begin, Vector(-normal.y, normal.x)), 0.0);
+        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
         let element = i * PARTICLES + slot;
-        face_words[element] = side_words[i];
+        face_words[element] = word;
         face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(corners[i] + begin, Vector(normal.y, -normal.x)) * SPACING;
+        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
         volume += 0.25 * face_length * distance;
+        begin = corner;
     }
     face_counts[slot] = sides;
     volumes[slot] = volume * SPACING * SPACING;
