@@ -107,15 +107,26 @@ var<private> in_doubt: bool;
 var<private> known_place: i32;
 const NOT_KNOWN: i32 = 2;
 
+// Of many corners it looks at all first, which `may_cut` has not done.
 fn begin_search() {
     let many = sides > FEW;
     var surest = -4.0 * UNKNOWN;
+    var highest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
     for (var i = 0u; many && i < sides; i++) {
-        let sure = height(i) - blur_at(i);
-        corner = select(corner, i, sure > surest);
-        surest = max(surest, sure);
+        let place = corner_at(i);
+        let blur = blur_at(i);
+        let over = dot(place, direction) - half;
+        corner = select(corner, i, over - blur > surest);
+        surest = max(surest, over - blur);
+        highest = max(highest, over + blur);
+        farthest = max(farthest, dot(place, place));
+        widest = max(widest, blur);
     }
-    phase = SEARCHING;
+    let far = sqrt(farthest) + widest;
+    reach = select(reach, 4.00001 * far * far, many);
+    phase = select(SEARCHING, FOUND, many && highest <= 0.0);
     tried = 0u;
     gone = 0u;
     known_place = NOT_KNOWN;
