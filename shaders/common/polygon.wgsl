@@ -1,10 +1,6 @@
 // A convex polygon around a particle that is cut along bisectors. Side i, counter-clockwise, ends at corner i, where side
-// i + 1 begins.
+// i + 1 begins. With every corner goes its blur: the radius of the circle around it within which the true one certainly is.
 var<private> sides: u32;
-var<private> side_words: array<u32, CORNERS>;
-var<private> corners: array<Vector, CORNERS>;
-// Radius of the circle around a computed corner within which the true one certainly is.
-var<private> blurs: array<f32, CORNERS>;
 // Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
 // brought up to date as corners are looked at.
 var<private> reach: f32;
@@ -37,12 +33,6 @@ fn meeting(first: Site, second: Site) -> vec3<f32> {
     return vec3<f32>(corner, select(blur, UNKNOWN, turned <= least));
 }
 
-fn set_side(index: u32, word: u32, corner: vec3<f32>) {
-    side_words[index] = word;
-    corners[index] = corner.xy;
-    blurs[index] = corner.z;
-}
-
 fn after(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == sides); }
 fn before(index: u32) -> u32 { return select(index, sides, index == 0u) - 1u; }
 
@@ -56,116 +46,145 @@ fn begin_polygon(slot: u32) {
     set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half.x, -half.y, blur));
     set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half.x, -half.y, blur));
     overflown = false;
+    in_doubt = false;
+    known_place = NOT_KNOWN;
     reach = EVERYWHERE * EVERYWHERE;
 }
 
-fn measure_reach() {
-    reach = 0.0;
-    for (var i = 0u; i < sides; i++) {
-        let far = length(corners[i]) + blurs[i];
-        reach = max(reach, 4.00001 * far * far);
+// The bisector that is looked at: its site, the unit vector towards it, and half the way.
+var<private> site: Site;
+var<private> direction: Vector;
+var<private> half: f32;
+
+fn height(index: u32) -> f32 { return dot(corner_at(index), direction) - half; }
+
+// Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
+const FEW: u32 = 12u;
+
+// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date, and finds the corner
+// that is surest beyond, if there are few.
+fn may_cut(there: Site, squared: f32) -> bool {
+    site = there;
+    let inverse = inverseSqrt(squared);
+    direction = there.away * scale() * inverse;
+    half = 0.5 * squared * inverse;
+    var highest = -4.0 * UNKNOWN;
+    var surest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
+    corner = 0u;
+    for (var i = 0u; i < FEW; i++) {
+        let exists = i < sides;
+        let blur = blur_at(i);
+        let over = dot(corner_at(i), direction);
+        let sure = select(-4.0 * UNKNOWN, over - blur, exists);
+        corner = select(corner, i, sure > surest);
+        surest = max(surest, sure);
+        highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
+        farthest = max(farthest, select(0.0, dot(corner_at(i), corner_at(i)), exists));
+        widest = max(widest, select(0.0, blur, exists));
     }
+    let far = sqrt(farthest) + widest;
+    let all = sides <= FEW;
+    reach = select(reach, 4.00001 * far * far, all);
+    return !all || highest > half;
 }
 
-// A bisector: the unit vector towards its site, and half the way.
-struct Bisector {
-    direction: Vector,
-    half: f32,
-}
+// A search along the corners for those to cut: first for one beyond the bisector, from the surest on, then to both sides of
+// it for more, among them those on it, so that no side without length is left.
+const SEARCHING: u32 = 0u;
+const FORWARD: u32 = 1u;
+const BACKWARD: u32 = 2u;
+const FOUND: u32 = 3u;
+var<private> phase: u32;
+var<private> corner: u32;
+var<private> tried: u32;
+var<private> first: u32;
+var<private> last: u32;
+var<private> gone: u32;
+// Single precision cannot tell where the corner is; where it is, once that is known.
+var<private> in_doubt: bool;
+var<private> known_place: i32;
+const NOT_KNOWN: i32 = 2;
 
-fn beyond(bisector: Bisector, index: u32) -> f32 { return dot(corners[index], bisector.direction) - bisector.half; }
-
-// The corner that is surest beyond a bisector, and how far any may be.
-struct Survey {
-    surest: u32,
-    farthest: f32,
-}
-
-// Looks at all corners, four at a time, and brings the reach up to date.
-fn survey(bisector: Bisector) -> Survey {
-    var surely = vec4<f32>(-4.0 * UNKNOWN);
-    var possibly = vec4<f32>(-4.0 * UNKNOWN);
-    var indices = vec4<u32>(0u);
-    var squares = vec4<f32>(0.0);
-    var widest = vec4<f32>(0.0);
-    for (var i = 0u; i < sides; i += 4u) {
-        let four = min(vec4<u32>(i, i + 1u, i + 2u, i + 3u), vec4<u32>(sides - 1u));
-        let a = corners[four.x];
-        let b = corners[four.y];
-        let c = corners[four.z];
-        let d = corners[four.w];
-        let x = vec4<f32>(a.x, b.x, c.x, d.x);
-        let y = vec4<f32>(a.y, b.y, c.y, d.y);
-        let blur = vec4<f32>(blurs[four.x], blurs[four.y], blurs[four.z], blurs[four.w]);
-        let height = x * bisector.direction.x + y * bisector.direction.y - bisector.half;
-        indices = select(indices, four, height - blur > surely);
-        surely = max(surely, height - blur);
-        possibly = max(possibly, height + blur);
-        squares = max(squares, x * x + y * y);
+// Of many corners it looks at all first, which `may_cut` has not done.
+fn begin_search() {
+    let many = sides > FEW;
+    var surest = -4.0 * UNKNOWN;
+    var highest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
+    for (var i = 0u; many && i < sides; i++) {
+        let place = corner_at(i);
+        let blur = blur_at(i);
+        let over = dot(place, direction) - half;
+        corner = select(corner, i, over - blur > surest);
+        surest = max(surest, over - blur);
+        highest = max(highest, over + blur);
+        farthest = max(farthest, dot(place, place));
         widest = max(widest, blur);
     }
-    let far = sqrt(largest_of(squares)) + largest_of(widest);
-    reach = 4.00001 * far * far;
-    let left = select(indices.x, indices.y, surely.y > surely.x);
-    let right = select(indices.z, indices.w, surely.w > surely.z);
-    let surest = select(left, right, max(surely.z, surely.w) > max(surely.x, surely.y));
-    return Survey(surest, largest_of(possibly));
-}
-fn largest_of(v: vec4<f32>) -> f32 { return max(max(v.x, v.y), max(v.z, v.w)); }
-
-// Cuts the polygon along the bisector of a site, unless no corner is beyond it.
-fn cut(site: Site, squared: f32) {
-    let inverse = inverseSqrt(squared);
-    let bisector = Bisector(site.away * scale() * inverse, 0.5 * squared * inverse);
-    let found = survey(bisector);
-    for (var pending = found.farthest > 0.0; pending; pending = false) { cut_corners(site, bisector, found.surest); }
+    let far = sqrt(farthest) + widest;
+    reach = select(reach, 4.00001 * far * far, many);
+    phase = select(SEARCHING, FOUND, many && highest <= 0.0);
+    tried = 0u;
+    gone = 0u;
+    known_place = NOT_KNOWN;
 }
 
-// Cuts corners beyond a bisector, and with them those next to them that are on it, so that no side without length is left.
-// Searches from the surest one, then goes on to both sides.
-fn cut_corners(site: Site, bisector: Bisector, surest: u32) {
-    var corner = surest;
-    var tried = 0u;
-    var first = 0u;
-    var last = 0u;
-    var gone = 0u;
-    for (var phase = 0u; phase < 3u && tried < sides && gone < sides;) {
-        let height = beyond(bisector, corner);
-        var place = i32(sign(height));
-        for (var pending = abs(height) <= blurs[corner]; pending; pending = false) {
-            place = in_circle(site_of(side_words[corner]), site_of(side_words[after(corner)]), site);
+// Goes on until corners are found or there are none, or one is in doubt.
+fn search() {
+    loop {
+        if (phase == FOUND) { break; }
+        let over = height(corner);
+        var place = i32(sign(over));
+        if (abs(over) <= blur_at(corner)) {
+            in_doubt = known_place == NOT_KNOWN;
+            if (in_doubt) { break; }
+            place = known_place;
+            known_place = NOT_KNOWN;
         }
-        if (phase == 0u) {
+        if (phase == SEARCHING) {
             tried += 1u;
             if (place > 0) {
                 first = corner;
                 last = corner;
                 gone = 1u;
-                phase = 1u;
-                tried = 0u;
+                phase = FORWARD;
+            } else if (tried == sides) {
+                phase = FOUND;
             }
             corner = after(corner);
+        } else if (place >= 0) {
+            gone += 1u;
+            first = select(first, corner, phase == BACKWARD);
+            last = select(last, corner, phase == FORWARD);
+            corner = select(after(corner), before(corner), phase == BACKWARD);
+            // Never in exact arithmetic: the particle is not beyond.
+            if (gone == sides) { phase = FOUND; }
         } else {
-            if (place >= 0) {
-                gone += 1u;
-                first = select(first, corner, phase == 2u);
-                last = select(last, corner, phase == 1u);
-                corner = select(after(corner), before(corner), phase == 2u);
-            } else {
-                phase += 1u;
-                corner = before(first);
-            }
+            phase += 1u;
+            corner = before(first);
         }
     }
-    // No corner is beyond. Not all are: the particle itself never is.
+}
+
+// Settles a doubt.
+fn decide() {
+    known_place = in_circle(site_of(side_word(corner)), site_of(side_word(after(corner))), site);
+    in_doubt = false;
+}
+
+// Cuts the corners that were found off the polygon.
+fn cut() {
     if (gone == 0u || gone == sides) { return; }
     if (sides + 2u - gone > CORNERS) {
         overflown = true;
         return;
     }
-    let entry = meeting(site_of(side_words[first]), site);
-    let leaving = meeting(site, site_of(side_words[after(last)]));
-    let first_word = side_words[first];
+    let entry = meeting(site_of(side_word(first)), site);
+    let leaving = meeting(site, site_of(side_word(after(last))));
+    let first_word = side_word(first);
     // What follows the cut moves up or down to leave room for two corners.
     let wrapped = last < first;
     let up = !wrapped && gone == 1u;
@@ -175,9 +194,8 @@ fn cut_corners(site: Site, bisector: Bisector, surest: u32) {
     let way = select(1, -1, up);
     for (var i = 0u; i < moved; i++) {
         let place = u32(origin + shift);
-        side_words[place] = side_words[origin];
-        corners[place] = corners[origin];
-        blurs[place] = blurs[origin];
+        let from_there = u32(origin);
+        set_side(place, side_word(from_there), vec3<f32>(corner_at(from_there), blur_at(from_there)));
         origin += way;
     }
     if (wrapped) { first = first - last - 1u; }

@@ -5,8 +5,8 @@ use super::Builder;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_ROWS: u64 = 1024;
 
-/// Room for the corners of a cell, with the module that says so: taken in turn as a run finds it too little.
-const TIERS: [(u64, &str); 3] = [(24, "common/corners24"), (128, "common/corners128"), (1024, "common/corners1024")];
+/// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
+const PRIVATE_CORNERS: u64 = 24;
 
 /// What an ordering of the particles is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,8 @@ impl Builder<'_> {
         kernels.push(self.shared_kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
         let groups = self.groups(self.particles);
         kernels.push(self.shared_kernel("order_cells", &[&sorted[..], &["kernels/order_cells"]].concat(), groups));
-        let (_, corners) = self.tier();
+        let stored = self.options.list_growth > 0;
+        let corners = if stored { "common/corners_stored" } else { "common/corners_private" };
         let polygon = ["common/face", corners, "common/sites", "common/polygon", "common/in_circle"];
         let cells = ["common/grid2", "common/cells_plain"];
         let tessellate =
@@ -49,6 +50,7 @@ impl Builder<'_> {
         let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
         self.plan.kernels[tessellate].constants = vec![
             ("SPACING", self.spacing()),
+            ("CORNERS", self.face_capacity() as f64),
             ("WEIGHT_X_LOW", low(x_weight)),
             ("WEIGHT_X_HIGH", high(x_weight)),
             ("WEIGHT_Y_LOW", low(y_weight)),
@@ -84,9 +86,15 @@ impl Builder<'_> {
         self.grid.rows() <= SINGLE_SCAN_ROWS && !self.options.many_level_scan
     }
 
-    /// Room for the faces of a cell, and the module that says so.
-    fn tier(&self) -> (u64, &'static str) {
-        TIERS[(self.options.list_growth as usize).min(TIERS.len() - 1)]
+    /// Room for the faces of a cell: more each time that a run has found it too little, but not for more than there can be.
+    fn face_capacity(&self) -> u64 {
+        let growth = self.options.list_growth;
+        if growth == 0 {
+            return PRIVATE_CORNERS;
+        }
+        // Every face ends at two corners, where at least three cells meet; and on the way there are two more.
+        let most = (6 * self.particles + 2).max(PRIVATE_CORNERS);
+        128_u64.saturating_mul(4_u64.saturating_pow(growth - 1)).min(most)
     }
 
     /// Mean distance of particles: the unit of length of a cell's polygon.
@@ -119,10 +127,12 @@ impl Builder<'_> {
         if !self.scans_at_once() {
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
-        let faces = self.tier().0 * particles;
+        let faces = self.face_capacity() * particles;
+        // With many faces a cell's polygon is where its faces will be, and takes more room.
+        let lengths = if self.options.list_growth > 0 { 2 * faces } else { faces };
         self.buffer("face_counts", "number of faces of each cell", 4 * particles);
         self.buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
-        self.buffer("face_lengths", "length of each face", 4 * faces);
+        self.buffer("face_lengths", "length of each face", 4 * lengths);
         self.buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
         self.buffer("volumes", "area of each cell", 4 * particles);
     }
