@@ -26,7 +26,10 @@ fn scenes() -> Vec<Scene> {
     let more: [(u32, &[&str]); 4] = [
         (300, &[]),
         (2116, &["interactions.0.energy={}"]),
-        (300, &[r#"interactions.0.form="consistent""#, "interactions.0.energy={}", "interactions.0.molecular_mass=0.1"]),
+        (
+            300,
+            &[r#"interactions.0.form="consistent""#, "interactions.0.energy={}", "interactions.0.molecular_mass=0.1"],
+        ),
         (300, &[r#"interactions.0.form="paper""#, r#"integrator.type="euler""#, "time.step=0.002"]),
     ];
     more.into_iter().map(|(count, changes)| cells(count, &[&sampled[..], changes].concat())).collect()

@@ -87,7 +87,8 @@ fn viscosities_from_nothing_to_much() {
     for (viscosity, step) in [("0", "0.01"), ("1e-6", "0.01"), ("100", "0.01"), ("1e6", "1e-7")] {
         for more in [None, Some(ENERGY)] {
             let (viscosity, step) = (format!("interactions.0.viscosity={viscosity}"), format!("time.step={step}"));
-            let changes: Vec<&str> = [viscosity.as_str(), &step, "interactions.0.molecular_mass=0.5"].into_iter().chain(more).collect();
+            let changes: Vec<&str> =
+                [viscosity.as_str(), &step, "interactions.0.molecular_mass=0.5"].into_iter().chain(more).collect();
             let scene = cells(400, &changes);
             let (_, state) = start(&scene);
             let mut run = Device::from_state(&scene, &state, Options::default());
@@ -147,8 +148,11 @@ fn a_huge_and_a_tiny_temperature() {
 
 #[test]
 fn dense_and_dilute_and_long_boxes() {
-    for (count, lengths, mass) in [(300, "[0.01,0.01]", 1e-6), (300, "[1e4,1e4]", 1e6), (300, "[300,1]", 5.0), (64, "[1,64]", 5.0)] {
-        let volume: f64 = lengths.trim_matches(['[', ']']).split(',').map(|edge| edge.parse::<f64>().unwrap()).product();
+    for (count, lengths, mass) in
+        [(300, "[0.01,0.01]", 1e-6), (300, "[1e4,1e4]", 1e6), (300, "[300,1]", 5.0), (64, "[1,64]", 5.0)]
+    {
+        let volume: f64 =
+            lengths.trim_matches(['[', ']']).split(',').map(|edge| edge.parse::<f64>().unwrap()).product();
         let width = (volume / f64::from(count)).sqrt();
         // In units of a cell's width and its thermal velocity.
         let velocity = 1.0 / f64::sqrt(mass);
@@ -195,7 +199,10 @@ fn lattices_keep_their_balance() {
     let still = r#"particles=[{"species":"A","count":144,"mass":5,"placement":{"type":"lattice"},"velocities":{"type":"rest"}}]"#;
     for more in [None, Some(ENERGY)] {
         let changes: Vec<&str> = ["interactions.0.viscosity=0", still].into_iter().chain(more).collect();
-        let changes: Vec<&str> = changes.into_iter().map(|change| if change == ENERGY { r#"interactions.0.energy={"conductivity":0}"# } else { change }).collect();
+        let changes: Vec<&str> = changes
+            .into_iter()
+            .map(|change| if change == ENERGY { r#"interactions.0.energy={"conductivity":0}"# } else { change })
+            .collect();
         let scene = cells(144, &changes);
         let (_, state) = start(&scene);
         let mut run = Device::from_state(&scene, &state, Options::default());
@@ -209,7 +216,14 @@ fn lattices_keep_their_balance() {
 /// More heat than there is must not cross a face: the limit acts, and temperatures stay positive.
 #[test]
 fn a_huge_conductivity() {
-    let scene = cells(400, &[r#"interactions.0.energy={"conductivity":1e6}"#, "interactions.0.molecular_mass=0.05", "interactions.0.exchange_limit=0.02"]);
+    let scene = cells(
+        400,
+        &[
+            r#"interactions.0.energy={"conductivity":1e6}"#,
+            "interactions.0.molecular_mass=0.05",
+            "interactions.0.exchange_limit=0.02",
+        ],
+    );
     let (_, state) = start(&scene);
     let mut run = Device::from_state(&scene, &state, Options::default());
     run.step(100);
