@@ -23,8 +23,8 @@ const FAILURE_CROWDING: u32 = 16u; // more mass around a mesh node than its inte
 const FAILURE_DEPTH: u32 = 32u;    // no depth left at a mesh node
 const FAILURE_BOND: u32 = 64u;     // a bond longer than its potential allows
 <<<<<<< HEAD
-const FAILURE_MASS: u32 = 128u;    // a Voronoi cell that has given away all of its mass, or has far too much
-const FAILURE_ENERGY: u32 = 256u;  // a Voronoi cell with less than no internal energy
+const FAILURE_MASS: u32 = 256u;    // a Voronoi cell that has given away all of its mass, or has far too much
+const FAILURE_ENERGY: u32 = 512u;  // a Voronoi cell with less than no internal energy
 =======
 const FAILURE_LOOPS: u32 = 128u;   // the adapter left a loop before its end
 >>>>>>> vtessellation

@@ -78,13 +78,7 @@ fn shallow_water(
 /// The residual of the solver of the friction is counted in these.
 const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
 
-fn voronoi(
-    sample: &Sample,
-    sum: impl Fn(usize) -> f64,
-    plan: &Plan,
-    model: &Model,
-    cells: &Voronoi,
-) -> Observables {
+fn voronoi(sample: &Sample, sum: impl Fn(usize) -> f64, plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
     let whole = |index: usize| sample.sums.get(index).copied().unwrap_or(0);
     let quanta = plan.quanta;
     let mass_units = whole(3);

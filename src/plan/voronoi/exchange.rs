@@ -94,8 +94,7 @@ impl Builder<'_> {
 
     /// Modules of friction and its noise, but for the words.
     pub(super) fn rubbing(&self) -> Vec<&'static str> {
-        let random =
-            if self.rubs_at_random() { "common/random_impulse_on" } else { "common/random_impulse_off" };
+        let random = if self.rubs_at_random() { "common/random_impulse_on" } else { "common/random_impulse_off" };
         vec!["common/rubbing_on", random]
     }
 

@@ -146,9 +146,13 @@ impl Builder<'_> {
                 "common/turning_consistent",
                 "common/limit_on",
             ],
-            VoronoiForm::Paper => {
-                &["common/twist", "common/sweep_free", "common/form_exchange", "common/turning_paper", "common/limit_on"]
-            }
+            VoronoiForm::Paper => &[
+                "common/twist",
+                "common/sweep_free",
+                "common/form_exchange",
+                "common/turning_paper",
+                "common/limit_on",
+            ],
         }
     }
 
