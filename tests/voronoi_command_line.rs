@@ -128,7 +128,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
         .with("/output/snapshot/every", json!(20));
     let said = place.run("out", &[]);
     assert!(said.contains("small foam: 144 particles in 2 dimensions"), "{said}");
-    for part in ["temperature", "pressure", "neighbours of a cell  6.000000", "3 numbered snapshots"] {
+    for part in ["temperature", "pressure", "neighbours of a cell", "shear viscosity (wave)", "3 numbered snapshots"] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     let expected = [
@@ -308,9 +308,9 @@ fn check_says_what_the_scene_requires() {
     for part in [
         "search grid",
         "gradient: constant masses",
-        "ideal gas, 50 molecules a cell",
-        "kept account of in every cell, heat conductivity 50",
-        "1 of friction at faces, about 1.235 of the network of cells",
+        "ideal gas, 125 molecules a cell",
+        "kept account of in every cell, heat conductivity 1000",
+        "5 of friction at faces, about 6.175 of the network of cells",
         "conjugate gradients, at most",
         "neighbours.csv, neighbours.png",
         "snapshot-….png",
@@ -332,7 +332,11 @@ fn sweeps_see_the_quantities_of_cells() {
     let place = Place::new().with("/time/steps", json!(20));
     fs::write(place.path("scene.json"), place.scene.to_string()).unwrap();
     let (scene, out) = (place.argument("scene.json"), place.argument("sweep"));
+    let quantities = ["--plot", "temperature", "--plot", "mean_neighbours", "--plot", "solver_iterations"];
     let said =
-        succeeds(&["tradeoff", &scene, "--vary", "time.step=0.01,0.02", "--target", "temperature=1", "--out", &out]);
+        succeeds(&[&["sweep", &scene, "--vary", "time.step=0.01,0.02", "--out", &out], &quantities[..]].concat());
     assert!(said.contains("0.01") && said.contains("0.02"), "{said}");
+    for variant in ["step=0.01", "step=0.02"] {
+        assert!(place.path("sweep").join(variant).join(files::SUMMARY).exists(), "{:?}", listing(&place.path("sweep")));
+    }
 }

@@ -327,6 +327,11 @@ fn fluids_that_the_model_does_not_describe_well() {
         "interactions[0].molecular_mass",
         "a cell holds 5 molecules, and its temperature varies by 45 %",
     );
+    warned(
+        &[r#"interactions.0.energy={"conductivity":200}"#, "interactions.0.molecular_mass=0.1"],
+        "time.step",
+        "the random heat through a face is 0.04 of the energy of a cell in one step",
+    );
     warned(&["temperature=0"], "temperature", "no pressure at any time");
     warned(
         &["temperature=0", "interactions.0.energy={}", "interactions.0.molecular_mass=0.1"],

@@ -85,7 +85,9 @@ fn voronoi(sample: &Sample, sum: impl Fn(usize) -> f64, plan: &Plan, model: &Mod
     let mass = mass_units as f64 * cells.mass_unit;
     // What one molecule has of both, as an ideal gas of two dimensions, and with it the product of pressure and volume.
     let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
-        (0.0, sum(6) * quanta.energy, sum(8) * quanta.energy / plan.particles as f64)
+        // Kinetic and internal energy together are integers, whose sum says whether any is lost.
+        let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
+        (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
     } else {
         // Zero where there is no potential.
         (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)

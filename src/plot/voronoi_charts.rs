@@ -1,33 +1,29 @@
 //! The charts of Voronoi DPD, made from the tables of a run.
 
-use super::chart::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
 use super::presets::EnergyTable;
 
-/// Energies and temperatures of cells that keep account of their internal energy, over time: the kinetic energy per cell,
-/// both temperatures, the pressure, and the change of the total energy relative to its first value.
+/// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures, and what has
+/// been added to the energies of a cell since the first row.
 ///
-/// The columns are `time`, `kinetic_energy`, `temperature`, `internal_temperature`, `pressure` and `total_energy`.
+/// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
 #[must_use]
 pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64) -> Chart {
-    let points = |column: &str, divisor: f64| table.points(column, divisor).unwrap_or_default();
     let time = "Time (time units)";
+    let temperature = |column: &str| table.points(column, 1.0).unwrap_or_default();
     let temperatures = Panel::new(time, "Temperature (energy units)")
-        .with(Series::line("of the motion", points("temperature", 1.0)))
-        .with(Series::line("inside", points("internal_temperature", 1.0)));
-    let kinetic = points("kinetic_energy", particle_count.max(1) as f64);
-    let pressure = points("pressure", 1.0);
-    let total = points("total_energy", 1.0);
-    let first = total.first().map_or(f64::NAN, |point| point[1]);
-    let change = total.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
-    let panels = vec![
-        Panel::new(time, "Kinetic energy per cell").with(Series::line("kinetic energy", kinetic)),
-        temperatures,
-        Panel::new(time, "Pressure (reduced units)").with(Series::line("pressure", pressure)),
-        Panel::new(time, "Relative change of total energy")
-            .with(Series::line("total energy", change))
-            .with_reference("none", 0.0),
-    ];
-    Chart { title: title.to_owned(), subtitle: String::new(), panels }
+        .with(Series::line("of the motion", temperature("temperature")))
+        .with(Series::line("inside", temperature("internal_temperature")));
+    let change = |column: &str| {
+        let points = table.points(column, particle_count.max(1) as f64).unwrap_or_default();
+        let first = points.first().map_or(f64::NAN, |point| point[1]);
+        points.iter().map(|point| [point[0], point[1] - first]).collect()
+    };
+    let changes = Panel::new(time, "Change of energy per cell (energy units)")
+        .with(Series::line("kinetic", change("kinetic_energy")))
+        .with(Series::line("internal", change("internal_energy")))
+        .with(Series::line("total", change("total_energy")));
+    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
 }
 
 /// The histogram of the numbers of neighbours of cells, beside that of random points, with the mean of 6 that every
@@ -55,20 +51,19 @@ pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
     let mean = numbers.iter().zip(&fractions).map(|(n, f)| n * f).sum::<f64>();
     let square = numbers.iter().zip(&fractions).map(|(n, f)| n * n * f).sum::<f64>();
     let mut panel = Panel::new("Neighbours of a cell", "Fraction of cells");
-    let measured = Series { style: SeriesStyle::Line, ..Series::line("measured", steps) };
-    panel.series.push(measured);
+    panel.series.push(Series::line("measured", steps));
+    let compared = numbers.iter().zip(&random).map(|(n, f)| [*n, *f]).collect();
+    panel.series.push(Series::markers("random points", compared));
     let points = numbers.iter().zip(&fractions).map(|(n, f)| [*n, *f]).collect();
     if errors.iter().any(|error| error.is_finite() && *error > 0.0) {
         let bars = Series::markers("", points).with_errors(errors).with_ink(SeriesInk::Ink { pattern: 0 });
         panel.series.push(bars);
     }
-    let compared = numbers.iter().zip(&random).map(|(n, f)| [*n, *f]).collect();
-    panel.series.push(Series::markers("random points", compared));
     let top = 1.08 * highest.max(1e-9);
     let exact = Series::line("mean of every tessellation, 6", vec![[6.0, 0.0], [6.0, top]]);
     panel.series.push(exact.with_ink(SeriesInk::Ink { pattern: 1 }));
     panel.y.range = Some([0.0, top]);
-    let subtitle = format!("mean {mean:.4}, variance {:.3}; 1.781 for random points", square - mean * mean);
+    let subtitle = format!("mean {mean:.4}, variance {:.3}; 1.78 for random points", square - mean * mean);
     Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
@@ -118,9 +113,9 @@ mod tests {
             [[4.5, 0.0], [4.5, 0.25], [5.5, 0.25], [6.5, 0.75], [7.5, 0.75], [7.5, 0.0]]
         );
         assert!(chart.subtitle.starts_with("mean 6.5000, variance 0.750"), "{}", chart.subtitle);
-        assert_eq!(panel.series[1].errors, Some(vec![0.01; 2]));
+        assert_eq!(panel.series[2].errors, Some(vec![0.01; 2]));
         let names: Vec<&str> = panel.series.iter().map(|series| series.name.as_str()).collect();
-        assert_eq!(names, ["measured", "", "random points", "mean of every tessellation, 6"]);
+        assert_eq!(names, ["measured", "random points", "", "mean of every tessellation, 6"]);
     }
 
     #[test]
@@ -134,12 +129,13 @@ mod tests {
     }
 
     #[test]
-    fn total_energy_is_shown_as_it_changes() {
-        let columns = ["time", "kinetic_energy", "temperature", "internal_temperature", "pressure", "total_energy"];
-        let rows: [&[f64]; 2] = [&[0.0, 8.0, 1.0, 1.0, 5.0, 100.0], &[1.0, 6.0, 1.0, 1.0, 5.0, 101.0]];
+    fn energies_are_shown_as_they_change() {
+        let columns =
+            ["time", "kinetic_energy", "internal_energy", "temperature", "internal_temperature", "total_energy"];
+        let rows: [&[f64]; 2] = [&[0.0, 8.0, 92.0, 1.0, 1.0, 100.0], &[1.0, 6.0, 94.0, 1.0, 2.0, 100.0]];
         let chart = energetic_cells_chart("t", &table(&columns, &rows), 4);
-        assert_eq!(chart.panels[0].series[0].points[1], [1.0, 1.5]);
-        assert!((chart.panels[3].series[0].points[1][1] - 0.01).abs() < 1e-12);
-        assert_eq!(chart.panels[1].series.len(), 2);
+        let last: Vec<f64> = chart.panels[1].series.iter().map(|series| series.points[1][1]).collect();
+        assert_eq!(last, [-0.5, 0.5, 0.0]);
+        assert_eq!(chart.panels[0].series[1].points[1], [1.0, 2.0]);
     }
 }

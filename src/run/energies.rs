@@ -33,7 +33,8 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
         ("potential_energy", potential, |row, _| row.potential_energy),
         ("internal_energy", kept, |row, _| of_cells(row, |cells| cells.internal_energy)),
-        ("total_energy", !kept, |row, _| row.total_energy()),
+        // The free energy of cells that exchange mass derives no force.
+        ("total_energy", potential || cells.is_none(), |row, _| row.total_energy()),
         ("total_energy", kept, |row, _| row.kinetic_energy + of_cells(row, |cells| cells.internal_energy)),
         ("bath_energy", memory, |row, _| row.bath_energy),
         ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),

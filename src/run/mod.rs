@@ -25,6 +25,7 @@ mod circulations;
 mod conservation;
 mod energies;
 mod error;
+mod exchange_tally;
 mod pace;
 mod pictures;
 mod schedule;

@@ -5,6 +5,7 @@ use super::cells::Cells;
 use super::chain::{self, Chains};
 use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
+use super::exchange_tally::{self, ExchangeTally};
 use super::pace::Pace;
 use super::pictures::Pictures;
 use super::schedule::Schedule;
@@ -230,6 +231,7 @@ struct Run<'a> {
     analyses: Analyses,
     chains: Option<Chains>,
     cells: Cells,
+    tally: ExchangeTally,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
@@ -273,6 +275,7 @@ impl<'a> Run<'a> {
             analyses: Analyses::new(scene, model, plan, &start.sections),
             chains: chains_of(scene, model, &start.sections),
             cells: Cells::new(scene, &start.sections),
+            tally: ExchangeTally::new(step, &start.sections),
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
@@ -328,6 +331,9 @@ impl<'a> Run<'a> {
                 sections.push((chain::SECTION.to_owned(), chains.section()));
             }
             sections.extend(self.cells.sections());
+            if self.model.voronoi.is_some() {
+                sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
+            }
             checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
             self.saved_step = step;
             self.momentum = state.total_momentum();
@@ -372,7 +378,9 @@ impl<'a> Run<'a> {
     fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
         for sample in samples {
             if sample.sampler == 0 {
-                self.energies.add(&observables_of(sample, plan, self.model))?;
+                let mut observables = observables_of(sample, plan, self.model);
+                self.tally.complete(&mut observables);
+                self.energies.add(&observables)?;
             } else {
                 self.analyses.add(sample);
             }

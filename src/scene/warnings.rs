@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use super::error::Warning;
 use super::{
-    ColouredNoiseInteraction, Integrator, Interaction, NoiseProcess, Scene, Velocities, VoronoiForm, VoronoiInteraction,
+    ColouredNoiseInteraction, InitialMasses, Integrator, Interaction, NoiseProcess, Scene, Velocities, VoronoiForm,
+    VoronoiInteraction,
 };
 use crate::model::{CLEAN_SHARE, Model, PairForce, ShallowWater, Species, Voronoi};
 
@@ -176,6 +177,9 @@ const HOT: f64 = 0.02;
 /// Friction of a step, dt η/M, up to which the implicit solver of `splitting` has been seen to keep the temperature.
 const FRICTION_OF_CELLS: f64 = 0.05;
 
+/// A limit at so many deviations acts rarely.
+const RARELY: f64 = 3.0;
+
 /// A cell of fewer molecules has an internal temperature that noise may take to zero.
 const FEWEST_MOLECULES: f64 = 20.0;
 
@@ -255,6 +259,24 @@ fn warn_of_fluid(
             100.0 / fewest.sqrt()
         );
         warn(warnings, format!("{path}.molecular_mass"), message);
+    }
+    if let Some(conductivity) = cells.conductivity {
+        // Hot cells have fewer molecules at the same pressure.
+        let thinned = match voronoi.initial_masses {
+            InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
+            InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
+        };
+        let random = (2.0 * conductivity * scene.time.step).sqrt() * thinned / fewest;
+        if RARELY * random > cells.exchange_limit {
+            let message = format!(
+                "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \
+                 it often; a step of {:.2e} or less is advisable",
+                random,
+                cells.exchange_limit,
+                scene.time.step * (cells.exchange_limit / (RARELY * random)).powi(2)
+            );
+            warn(warnings, "time.step", message);
+        }
     }
     if voronoi.hottest(scene.temperature) == 0.0 {
         let how = if cells.keeps_energy() { "until friction has heated them" } else { "at any time" };
