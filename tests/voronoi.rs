@@ -16,6 +16,7 @@ use support::{Device, Implementation, Measured, cells, engine, start};
 const FORMS: [&str; 3] = ["gradient", "consistent", "paper"];
 const INTEGRATORS: [&str; 2] = ["splitting", "euler"];
 const ENERGY: &str = "interactions.0.energy={}";
+const REST: &str = r#"particles.0.velocities={"type":"rest"}"#;
 
 fn form(name: &str) -> String {
     format!(r#"interactions.0.form="{name}""#)
@@ -85,18 +86,19 @@ fn mass_momentum_and_energy_are_constant_over_many_steps() {
 #[test]
 fn pressures_derive_from_the_free_energy() {
     let mut drift = Vec::new();
-    for (step, steps) in [(0.1, 10), (0.05, 20)] {
-        let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0"];
+    // From rest, so that no two cells come so close that a step is long for them.
+    for (step, steps) in [(0.08, 10), (0.04, 20)] {
+        let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0", REST];
         let mut run = Device::new(&cells(400, &changes));
         let first = run.observe();
         let rows = run.series(1, steps);
-        let scale = first.kinetic_energy;
+        let scale = first.potential_energy;
         let worst =
             rows.iter().map(|row| (row.total_energy() - first.total_energy()).abs() / scale).fold(0.0, f64::max);
         let exchanged =
             rows.iter().map(|row| (row.potential_energy - first.potential_energy).abs()).fold(0.0, f64::max);
         assert!(exchanged > 0.1 * scale, "{exchanged} of {scale}");
-        println!("dt {step}: {worst:.2e} of the kinetic energy");
+        println!("dt {step}: {worst:.2e} of the free energy");
         drift.push((step, worst));
     }
     assert!(drift[1].1 < 5e-3);
@@ -106,8 +108,8 @@ fn pressures_derive_from_the_free_energy() {
 
 /// ln(EV) of every cell is constant where nothing rubs and nothing conducts: the square of its change, and its mean.
 fn adiabatic_error(step: f64, steps: u64) -> (f64, f64) {
-    let changes =
-        [&format!("time.step={step}"), "interactions.0.viscosity=0", r#"interactions.0.energy={"conductivity":0}"#];
+    let insulated = r#"interactions.0.energy={"conductivity":0}"#;
+    let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0", insulated, REST];
     let scene = cells(400, &changes);
     let (model, state) = start(&scene);
     let mut run = Device::from_state(&scene, &state, Options::default());
@@ -136,11 +138,9 @@ fn adiabats(model: &Model, state: &State) -> Vec<f64> {
 
 #[test]
 fn cells_without_friction_are_adiabatic() {
-    let (coarse, coarse_mean) = adiabatic_error(0.02, 50);
-    let (fine, fine_mean) = adiabatic_error(0.01, 100);
-    println!(
-        "ln EV after one unit of time: dt .02 {coarse:.2e}, mean {coarse_mean:.2e}; dt .01 {fine:.2e}, {fine_mean:.2e}"
-    );
+    let (coarse, coarse_mean) = adiabatic_error(0.08, 10);
+    let (fine, fine_mean) = adiabatic_error(0.04, 20);
+    println!("ln EV: dt .08 {coarse:.2e}, mean {coarse_mean:.2e}; dt .04 {fine:.2e}, {fine_mean:.2e}");
     assert!(coarse < 5e-3 && coarse_mean.abs() < 1e-3);
     let order = (coarse / fine).log2();
     assert!((order - 2.0).abs() < 0.6, "order {order}");
@@ -184,7 +184,7 @@ fn temperature(rows: &[Observables]) -> Measured {
 /// The rows of temperature against the time step, with the form of a gradient at density 5 and viscosity 1.
 #[test]
 fn temperatures_at_large_steps() {
-    for (scheme, step, expected, allowance) in [("splitting", 0.08, 1.001, 0.01), ("euler", 0.02, 1.09, 0.02)] {
+    for (scheme, step, expected, allowance) in [("splitting", 0.08, 1.001, 0.01), ("euler", 0.005, 1.018, 0.02)] {
         let (step_change, scheme_change) = (format!("time.step={step}"), integrator(scheme));
         let changes = [step_change.as_str(), &scheme_change, "output.energies.every=10"];
         let rows = equilibrium(&cells(400, &changes), 100, 10, 100);
@@ -298,7 +298,7 @@ fn failures_name_the_cell() {
     let greedy = ["time.step=0.5", "interactions.0.exchange_limit=0.5", r#"interactions.0.form="consistent""#];
     let scene = cells(400, &[&greedy[..], &[r#"particles.0.placement={"type":"random"}"#]].concat());
     let told = failure(&scene, &start(&scene).1, 50);
-    assert!(told.contains("mass of cell") || told.contains("cell "), "{told}");
+    assert!(told.contains("given away all of its mass"), "{told}");
     let scene = cells(100, &["time.step=100"]);
     let told = failure(&scene, &start(&scene).1, 3);
     assert!(told.contains("moves further") || told.contains("impulses"), "{told}");
@@ -433,7 +433,7 @@ fn steps_are_those_of_the_reference() {
             r#"particles=[{"species":"A","count":100,"mass":5},{"species":"B","count":125,"mass":1}]"#,
             "time.step=0.002",
         ],
-        &["interactions.0.molecular_mass=0.05", ENERGY],
+        &["interactions.0.molecular_mass=0.05", ENERGY, "time.step=0.005"],
     ] {
         let scene = cells(225, &[&[TIGHT], changes].concat());
         compare(&format!("{changes:?}"), &scene, &start(&scene).1);
