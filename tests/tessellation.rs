@@ -222,18 +222,17 @@ fn a_hundred_thousand_random_cells() {
 
 #[test]
 fn few_cells_border_themselves() {
-    let now = std::time::Instant::now();
-    tessellate([1.0, 1.0], &random(1, 1), Options::default()).unwrap();
-    println!("TIME {:?}", now.elapsed());
-    let now = std::time::Instant::now();
-    tessellate([1.0, 1.0], &random(1, 1), Options::default()).unwrap();
-    println!("TIME {:?}", now.elapsed());
     for lengths in [[10.0, 10.0], [10.0, 3.0], [0.7, 2.0]] {
         for count in 1..=9 {
+            let (scene, mut state) = placed(lengths, &random(count, 0));
+            let mut engine = engine(&scene, &state, Options::default());
             for seed in 0..20 {
                 let places = random(count, 100 * count as u64 + seed);
                 let what = format!("{count} cells in {lengths:?}, seed {seed}");
-                let cells = tessellate(lengths, &places, Options::default()).unwrap();
+                state.positions.clone_from(&places);
+                engine.upload(&state).unwrap();
+                engine.reported().unwrap();
+                let cells = read(&mut engine, count);
                 assert_consistent(&what, lengths, &cells);
                 assert_like_reference(&what, lengths, &places, &cells, 1e-5, 2e-5 * lengths[0]);
                 // One cell is a rectangle: its neighbours are lattice points.
@@ -305,9 +304,6 @@ fn many_points_on_a_circle() {
     for cell in &cells {
         assert!(cell.faces.len() >= 3);
     }
-    // Each has its two neighbours on the ring, and those outside are in general position: faces of a graph on a torus with
-    // one vertex of the degree of the ring, by Euler's formula.
-    assert_eq!(face_count(&cells), 2 * (3 * 324 - (324 - 3)));
     let mut wheel = ring;
     wheel.push([1 << 31, 1 << 31, 0]);
     let small = Options { list_growth: 0, ..Options::default() };
@@ -319,7 +315,6 @@ fn many_points_on_a_circle() {
     let cells = tessellate_all(lengths, &wheel);
     assert_consistent("wheel", lengths, &cells);
     assert_eq!(cells[324].faces.len(), 324);
-    assert_eq!(face_count(&cells), 6 * 325);
 }
 
 #[test]

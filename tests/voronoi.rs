@@ -16,6 +16,7 @@ use support::{Device, Implementation, Measured, cells, engine, start};
 const FORMS: [&str; 3] = ["gradient", "consistent", "paper"];
 const INTEGRATORS: [&str; 2] = ["splitting", "euler"];
 const ENERGY: &str = "interactions.0.energy={}";
+const REST: &str = r#"particles.0.velocities={"type":"rest"}"#;
 
 fn form(name: &str) -> String {
     format!(r#"interactions.0.form="{name}""#)
@@ -85,26 +86,30 @@ fn mass_momentum_and_energy_are_constant_over_many_steps() {
 #[test]
 fn pressures_derive_from_the_free_energy() {
     let mut drift = Vec::new();
-    for (step, steps) in [(0.02, 50), (0.01, 100)] {
-        let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0"];
+    // From rest, so that no two cells come so close that a step is long for them.
+    for (step, steps) in [(0.08, 10), (0.04, 20)] {
+        let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0", REST];
         let mut run = Device::new(&cells(400, &changes));
         let first = run.observe();
         let rows = run.series(1, steps);
-        let scale = first.kinetic_energy;
-        let worst = rows.iter().map(|row| (row.total_energy() - first.total_energy()).abs() / scale).fold(0.0, f64::max);
-        let exchanged = rows.iter().map(|row| (row.potential_energy - first.potential_energy).abs()).fold(0.0, f64::max);
+        let scale = first.potential_energy;
+        let worst =
+            rows.iter().map(|row| (row.total_energy() - first.total_energy()).abs() / scale).fold(0.0, f64::max);
+        let exchanged =
+            rows.iter().map(|row| (row.potential_energy - first.potential_energy).abs()).fold(0.0, f64::max);
         assert!(exchanged > 0.1 * scale, "{exchanged} of {scale}");
-        println!("dt {step}: {worst:.2e} of the kinetic energy");
+        println!("dt {step}: {worst:.2e} of the free energy");
         drift.push((step, worst));
     }
-    assert!(drift[0].1 < 5e-3);
+    assert!(drift[1].1 < 5e-3);
     let order = support::order(&drift);
-    assert!((order - 2.0).abs() < 0.5, "order {order}");
+    assert!((order - 2.0).abs() < 0.8, "order {order}");
 }
 
 /// ln(EV) of every cell is constant where nothing rubs and nothing conducts: the square of its change, and its mean.
 fn adiabatic_error(step: f64, steps: u64) -> (f64, f64) {
-    let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0", r#"interactions.0.energy={"conductivity":0}"#];
+    let insulated = r#"interactions.0.energy={"conductivity":0}"#;
+    let changes = [&format!("time.step={step}"), "interactions.0.viscosity=0", insulated, REST];
     let scene = cells(400, &changes);
     let (model, state) = start(&scene);
     let mut run = Device::from_state(&scene, &state, Options::default());
@@ -133,9 +138,9 @@ fn adiabats(model: &Model, state: &State) -> Vec<f64> {
 
 #[test]
 fn cells_without_friction_are_adiabatic() {
-    let (coarse, coarse_mean) = adiabatic_error(0.02, 50);
-    let (fine, fine_mean) = adiabatic_error(0.01, 100);
-    println!("ln EV after one unit of time: dt .02 {coarse:.2e}, mean {coarse_mean:.2e}; dt .01 {fine:.2e}, {fine_mean:.2e}");
+    let (coarse, coarse_mean) = adiabatic_error(0.08, 10);
+    let (fine, fine_mean) = adiabatic_error(0.04, 20);
+    println!("ln EV: dt .08 {coarse:.2e}, mean {coarse_mean:.2e}; dt .04 {fine:.2e}, {fine_mean:.2e}");
     assert!(coarse < 5e-3 && coarse_mean.abs() < 1e-3);
     let order = (coarse / fine).log2();
     assert!((order - 2.0).abs() < 0.6, "order {order}");
@@ -147,9 +152,8 @@ fn the_solver_reports_what_it_leaves() {
     for count in [400, 2116] {
         let mut residuals = Vec::new();
         for (iterations, tolerance) in [(1, 1e-6), (40, 1e-3), (40, 1e-6)] {
-            let solver = format!(
-                r#"interactions.0.friction_solver={{"iterations":{iterations},"tolerance":{tolerance}}}"#
-            );
+            let solver =
+                format!(r#"interactions.0.friction_solver={{"iterations":{iterations},"tolerance":{tolerance}}}"#);
             let scene = cells(count, &["time.step=0.1", &solver]);
             let (_, state) = start(&scene);
             let mut run = Device::from_state(&scene, &state, Options::default());
@@ -180,11 +184,10 @@ fn temperature(rows: &[Observables]) -> Measured {
 /// The rows of temperature against the time step, with the form of a gradient at density 5 and viscosity 1.
 #[test]
 fn temperatures_at_large_steps() {
-    for (scheme, step, expected, allowance) in
-        [("splitting", 0.08, 1.001, 0.01), ("splitting", 0.16, 0.999, 0.01), ("euler", 0.02, 1.09, 0.02)]
-    {
-        let changes = [&format!("time.step={step}"), integrator(scheme).as_str(), "output.energies.every=10"];
-        let rows = equilibrium(&cells(400, &changes), 200, 10, 150);
+    for (scheme, step, expected, allowance) in [("splitting", 0.08, 1.001, 0.01), ("euler", 0.005, 1.018, 0.02)] {
+        let (step_change, scheme_change) = (format!("time.step={step}"), integrator(scheme));
+        let changes = [step_change.as_str(), &scheme_change, "output.energies.every=10"];
+        let rows = equilibrium(&cells(400, &changes), 100, 10, 100);
         temperature(&rows).assert(&format!("{scheme} dt {step}"), expected, allowance, 0.02);
     }
 }
@@ -202,8 +205,8 @@ fn temperatures_at_every_step() {
         ("euler", 0.08, 1.93, 0.05),
     ] {
         let every = (0.2_f64 / step).round() as u64;
-        let changes =
-            [&format!("time.step={step}"), integrator(scheme).as_str(), &format!("output.energies.every={every}")];
+        let (step_change, scheme_change) = (format!("time.step={step}"), integrator(scheme));
+        let changes = [step_change.as_str(), &scheme_change, &format!("output.energies.every={every}")];
         let rows = equilibrium(&cells(400, &changes), 50 * every, every, 2000);
         temperature(&rows).assert(&format!("{scheme} dt {step}"), expected, allowance, 0.01);
     }
@@ -223,7 +226,8 @@ fn motion_and_heat_share_a_temperature() {
     let inside = Measured::of(&rows.iter().map(|row| row.cells.unwrap().internal_temperature).collect::<Vec<f64>>());
     let ratio = temperature(&rows).mean / inside.mean;
     println!("kinetic over internal temperature: {ratio:.4} ± {:.4}", temperature(&rows).error);
-    assert!((ratio - 1.0).abs() < 0.02 + 4.0 * temperature(&rows).error);
+    // The energy of a cell of n molecules has the weight E^n exp(-E/kT): kT inside is (1 + 1/n) of that outside.
+    assert!((ratio - 50.0 / 51.0).abs() < 0.005 + 4.0 * temperature(&rows).error);
     assert!(temperature(&rows).error < 0.02);
 }
 
@@ -262,7 +266,7 @@ fn reports_add_up() {
 /// The limit acts where cells start at random, its count is one of the whole run, and cells of constant mass have none.
 #[test]
 fn limited_exchanges_are_counted() {
-    let random = r#"particles.0.placement.type="random""#;
+    let random = r#"particles.0.placement={"type":"random"}"#;
     for (name, acts) in [("consistent", true), ("gradient", false)] {
         let mut run = Device::new(&cells(400, &[random, &form(name)]));
         run.step(30);
@@ -292,7 +296,7 @@ fn failures_name_the_cell() {
     let told = failure(&scene, &state, 1);
     assert!(told.contains("internal energy of cell 37") && told.contains("step 0"), "{told}");
     let greedy = ["time.step=0.5", "interactions.0.exchange_limit=0.5", r#"interactions.0.form="consistent""#];
-    let scene = cells(400, &[&greedy[..], &[r#"particles.0.placement.type="random""#]].concat());
+    let scene = cells(400, &[&greedy[..], &[r#"particles.0.placement={"type":"random"}"#]].concat());
     let told = failure(&scene, &start(&scene).1, 50);
     assert!(told.contains("mass of cell") || told.contains("cell "), "{told}");
     let scene = cells(100, &["time.step=100"]);
@@ -312,7 +316,9 @@ fn plans_hold_what_a_scene_asks_for() {
     let has = |modules: &[&str], module: &str| modules.contains(&module);
     let plain = modules(&[]);
     assert!(has(&plain, "common/face_noise") && has(&plain, "kernels/friction_solve"));
-    for module in ["common/limit_on", "common/conduction_on", "common/gas_energy", "kernels/predict", "common/note_by_id"] {
+    for module in
+        ["common/limit_on", "common/conduction_on", "common/gas_energy", "kernels/predict", "common/note_by_id"]
+    {
         assert!(!has(&plain, module), "{module}");
     }
     let inviscid = modules(&["interactions.0.viscosity=0"]);
@@ -334,16 +340,16 @@ fn analyses_know_the_masses_of_cells() {
             r#"interactions.0.form="consistent""#,
             ENERGY,
             "time.steps=1000",
-            r#"output.diffusion={"every":1,"window":4}"#,
-            r#"output.viscosity={"every":1,"window":4}"#,
-            r#"output.autocorrelations=[{"quantity":"velocity","every":1,"window":4,"frame":"centre-of-mass"}]"#,
+            r#"output.diffusion={"every":1,"window":8}"#,
+            r#"output.viscosity={"every":1,"window":8}"#,
+            r#"output.autocorrelations=[{"quantity":"velocity","every":1,"window":8,"frame":"centre-of-mass"}]"#,
             r#"output.histograms=[{"quantity":"speed","every":1}]"#,
         ],
     );
     let (model, state) = start(&scene);
     let own = model.voronoi.as_ref().unwrap();
     let mut engine = engine(&scene, &state, Options::default());
-    engine.advance(8, 8).unwrap();
+    engine.advance(16, 8).unwrap();
     let after = engine.state().unwrap();
     let samples = engine.finish().unwrap();
     let squares: f64 = (0..after.len())
@@ -354,11 +360,11 @@ fn analyses_know_the_masses_of_cells() {
         })
         .sum();
     assert_ne!(after.masses, state.masses);
-    // Step 8 begins the third window.
+    // Step 16 begins the third window.
     let plan = engine.plan();
     let sums = |name: &str| {
         let sampler = plan.samplers.iter().position(|sampler| sampler.name == name).unwrap();
-        samples.iter().find(|sample| sample.sampler == sampler && sample.step == 8).unwrap().sums.clone()
+        samples.iter().find(|sample| sample.sampler == sampler && sample.step == 16).unwrap().sums.clone()
     };
     for (name, index) in [("diffusion", 1), ("velocity_autocorrelation", 0)] {
         let found = sums(name)[index] as f64 * plan.quanta.velocity_squared;
@@ -423,8 +429,11 @@ fn steps_are_those_of_the_reference() {
         &["temperature=0", r#"particles.0.velocities={"type":"shear-wave","amplitude":1,"periods":1}"#],
         &["space.box=[45,5]"],
         &[r#"noise={"generator":"threefry2x32-20"}"#],
-        &[r#"particles=[{"species":"A","count":100,"mass":5},{"species":"B","count":125,"mass":1}]"#, "time.step=0.002"],
-        &["interactions.0.molecular_mass=0.05", ENERGY],
+        &[
+            r#"particles=[{"species":"A","count":100,"mass":5},{"species":"B","count":125,"mass":1}]"#,
+            "time.step=0.002",
+        ],
+        &["interactions.0.molecular_mass=0.05", ENERGY, "time.step=0.005"],
     ] {
         let scene = cells(225, &[&[TIGHT], changes].concat());
         compare(&format!("{changes:?}"), &scene, &start(&scene).1);

@@ -1,20 +1,20 @@
 // Whether a particle is within the circle through three others, exactly: integers of several words, in two's complement.
 //
-// Displacements are integers of 34 bits, and so are all terms up to one thing: a unit of y is not as long as one of x. Of
-// their squares the lengths are in the ratio of WEIGHT_Y to WEIGHT_X, whole numbers of two words each.
+// Separations are integers of 34 bits, and so are all terms up to one thing: a unit of y is not as long as one of x. Of
+// their squares the lengths are in the ratio of WEIGHT_Y to WEIGHT_X, whole numbers of two words each. A cross product then
+// has 67 bits with its sign, a squared length 130, and the sum of three of their products 199. No loops but one: software
+// adapters count them.
 override WEIGHT_X_LOW: u32;
 override WEIGHT_X_HIGH: u32;
 override WEIGHT_Y_LOW: u32;
 override WEIGHT_Y_HIGH: u32;
 
-// A cross product has 67 bits with its sign, a squared length 130, and their products, summed, 199.
-const CROSS_WORDS: u32 = 3u;
-const NORM_WORDS: u32 = 5u;
-const WORDS: u32 = 7u;
-alias Long = array<u32, WORDS>;
+// Five words; seven words.
+alias Norm = array<u32, 5>;
+alias Sum = array<u32, 7>;
 
-// Both words of a product.
-fn product(a: u32, b: u32) -> vec2<u32> {
+// sum + a b + carry, and what is carried on.
+fn multiply_add(sum: u32, a: u32, b: u32, carry: u32) -> vec2<u32> {
     let a_high = a >> 16u;
     let b_high = b >> 16u;
     let a_low = a & 65535u;
@@ -22,86 +22,98 @@ fn product(a: u32, b: u32) -> vec2<u32> {
     let low = a_low * b_low;
     let middle = a_high * b_low + (low >> 16u);
     let other = a_low * b_high + (middle & 65535u);
-    return vec2<u32>((other << 16u) | (low & 65535u), a_high * b_high + (middle >> 16u) + (other >> 16u));
+    let high = a_high * b_high + (middle >> 16u) + (other >> 16u);
+    let first = ((other << 16u) | (low & 65535u)) + sum;
+    let total = first + carry;
+    return vec2<u32>(total, high + select(0u, 1u, first < sum) + select(0u, 1u, total < carry));
 }
 
-// Loops over words are not to be unrolled, for compilers would take seconds: they cannot know that no polygon has as many
-// sides as it would take to change a number of words.
-fn opaque(words: u32) -> u32 { return words + (sides >> 16u); }
-
-// The product of two numbers modulo 2 to the power of so many words.
-fn multiply(first: Long, second: Long, words: u32) -> Long {
-    var a = first;
-    var b = second;
-    var result = Long();
-    for (var i = 0u; i < words; i++) {
-        var carry = 0u;
-        for (var j = 0u; i + j < words; j++) {
-            let both = product(a[i], b[j]);
-            let sum = result[i + j] + both.x;
-            let total = sum + carry;
-            carry = both.y + select(0u, 1u, sum < both.x) + select(0u, 1u, total < carry);
-            result[i + j] = total;
-        }
-    }
-    return result;
+// a + b + carry, and what is carried on.
+fn add_carried(a: u32, b: u32, carry: u32) -> vec2<u32> {
+    let first = a + b;
+    let total = first + carry;
+    return vec2<u32>(total, select(0u, 1u, first < a) + select(0u, 1u, total < first));
 }
 
-// A sum, or a difference if `sign` is all ones: a + ~b + 1.
-fn combine(first: Long, second: Long, sign: u32) -> Long {
-    var a = first;
-    var b = second;
-    var carry = sign & 1u;
-    for (var i = 0u; i < opaque(WORDS); i++) {
-        let sum = a[i] + (b[i] ^ sign);
-        let total = sum + carry;
-        carry = select(0u, 1u, sum < a[i]) + select(0u, 1u, total < sum);
-        a[i] = total;
-    }
-    return a;
+// A product modulo 2^96.
+fn multiply(a: vec3<u32>, b: vec3<u32>) -> vec3<u32> {
+    let x = multiply_add(0u, a.x, b.x, 0u);
+    let y = multiply_add(0u, a.x, b.y, x.y);
+    let z = multiply_add(y.x, a.y, b.x, 0u);
+    return vec3<u32>(x.x, z.x, y.y + z.y + a.x * b.z + a.y * b.y + a.z * b.x);
 }
 
-// The first words of a number with its sign in all that follow.
-fn extended(number: Long, words: u32) -> Long {
-    var result = number;
-    let sign = bitcast<u32>(bitcast<i32>(result[words - 1u]) >> 31u);
-    for (var i = words; i < opaque(WORDS); i++) { result[i] = sign; }
-    return result;
+fn subtract(a: vec3<u32>, b: vec3<u32>) -> vec3<u32> {
+    let x = add_carried(a.x, ~b.x, 1u);
+    let y = add_carried(a.y, ~b.y, x.y);
+    return vec3<u32>(x.x, y.x, a.z + ~b.z + y.y);
+}
+
+// The sum and a square times its weight.
+fn add_weighted(sum: Norm, weight: vec2<u32>, square: vec3<u32>) -> Norm {
+    let a = multiply_add(sum[0], weight.x, square.x, 0u);
+    let b = multiply_add(sum[1], weight.x, square.y, a.y);
+    let c = multiply_add(sum[2], weight.x, square.z, b.y);
+    let d = multiply_add(b.x, weight.y, square.x, 0u);
+    let e = multiply_add(c.x, weight.y, square.y, d.y);
+    let f = multiply_add(sum[3], weight.y, square.z, e.y);
+    let g = add_carried(f.x, c.y, 0u);
+    return Norm(a.x, d.x, e.x, g.x, sum[4] + f.y + g.y);
+}
+
+fn add_row(sum: Norm, norm: Norm, factor: u32) -> array<u32, 6> {
+    let a = multiply_add(sum[0], norm[0], factor, 0u);
+    let b = multiply_add(sum[1], norm[1], factor, a.y);
+    let c = multiply_add(sum[2], norm[2], factor, b.y);
+    let d = multiply_add(sum[3], norm[3], factor, c.y);
+    let e = multiply_add(sum[4], norm[4], factor, d.y);
+    return array<u32, 6>(a.x, b.x, c.x, d.x, e.x, e.y);
+}
+
+// The sum and the product of a squared length with a cross product, modulo 2^224.
+fn add_product(sum: Sum, norm: Norm, factor: vec3<u32>) -> Sum {
+    let a = add_row(Norm(sum[0], sum[1], sum[2], sum[3], sum[4]), norm, factor.x);
+    let b_high = add_carried(sum[5], a[5], 0u);
+    let b = add_row(Norm(a[1], a[2], a[3], a[4], b_high.x), norm, factor.y);
+    let c_high = sum[6] + b_high.y + b[5];
+    let c = add_row(Norm(b[1], b[2], b[3], b[4], c_high), norm, factor.z);
+    // Taken as unsigned, a negative factor is 2^96 too large.
+    let negative = (factor.z >> 31u) == 1u;
+    let d = add_carried(c[1], select(0u, ~norm[0], negative), select(0u, 1u, negative));
+    let e = add_carried(c[2], select(0u, ~norm[1], negative), d.y);
+    let f = add_carried(c[3], select(0u, ~norm[2], negative), e.y);
+    return Sum(a[0], b[0], c[0], d.x, e.x, f.x, c[4] + select(0u, ~norm[3], negative) + f.y);
 }
 
 // A component of the separation from a site: a circle turned half round is still one.
-fn component(site: Site, axis: u32) -> Long {
-    let steps = site.steps[axis];
-    let high = bitcast<u32>((steps >> 31u) - image_of(site.word)[axis]);
-    return extended(Long(bitcast<u32>(steps), high, 0u, 0u, 0u, 0u, 0u), 2u);
+fn component(steps: i32, image: i32) -> vec3<u32> {
+    let high = (steps >> 31u) - image;
+    return vec3<u32>(bitcast<u32>(steps), bitcast<u32>(high), bitcast<u32>(high >> 31u));
 }
 
 // 1 if `c` is within the circle through the particle of the cell, `a` and, counter-clockwise of it, `b`; 0 if it is on it;
 // else -1: the sign of |a|^2 c x b + |b|^2 a x c + |c|^2 b x a.
 fn in_circle(a: Site, b: Site, c: Site) -> i32 {
-    var sum = Long();
-    var at = a;
+    var sum = Sum();
+    var here = a;
     var next = b;
     var previous = c;
-    for (var term = 0u; term < opaque(3u); term++) {
-        var norm = Long();
-        var cross_product = Long();
-        for (var axis = 0u; axis < opaque(2u); axis++) {
-            let along = component(at, axis);
-            let square = multiply(along, along, opaque(CROSS_WORDS));
-            let weight = select(vec2<u32>(WEIGHT_Y_LOW, WEIGHT_Y_HIGH), vec2<u32>(WEIGHT_X_LOW, WEIGHT_X_HIGH), axis == 0u);
-            let weighted = multiply(Long(weight.x, weight.y, 0u, 0u, 0u, 0u, 0u), square, opaque(NORM_WORDS));
-            norm = combine(norm, weighted, 0u);
-            let part = multiply(component(previous, axis), component(next, 1u - axis), opaque(CROSS_WORDS));
-            cross_product = combine(cross_product, part, select(0xffffffffu, 0u, axis == 0u));
-        }
-        sum = combine(sum, multiply(extended(cross_product, CROSS_WORDS), norm, opaque(WORDS)), 0u);
-        let first = at;
-        at = next;
+    for (var term = 0u; term < 3u; term++) {
+        let here_image = image_of(here.word);
+        let here_x = component(here.steps.x, here_image.x);
+        let here_y = component(here.steps.y, here_image.y);
+        var norm = add_weighted(Norm(), vec2<u32>(WEIGHT_X_LOW, WEIGHT_X_HIGH), multiply(here_x, here_x));
+        norm = add_weighted(norm, vec2<u32>(WEIGHT_Y_LOW, WEIGHT_Y_HIGH), multiply(here_y, here_y));
+        let next_image = image_of(next.word);
+        let previous_image = image_of(previous.word);
+        let forward = multiply(component(previous.steps.x, previous_image.x), component(next.steps.y, next_image.y));
+        let backward = multiply(component(previous.steps.y, previous_image.y), component(next.steps.x, next_image.x));
+        sum = add_product(sum, norm, subtract(forward, backward));
+        let first = here;
+        here = next;
         next = previous;
         previous = first;
     }
-    var any = 0u;
-    for (var i = 0u; i < opaque(WORDS); i++) { any |= sum[i]; }
-    return select(select(1, 0, any == 0u), -1, (sum[WORDS - 1u] >> 31u) == 1u);
+    let any = sum[0] | sum[1] | sum[2] | sum[3] | sum[4] | sum[5] | sum[6];
+    return select(select(1, 0, any == 0u), -1, (sum[6] >> 31u) == 1u);
 }

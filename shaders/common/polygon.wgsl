@@ -5,13 +5,14 @@ var<private> side_words: array<u32, CORNERS>;
 var<private> corners: array<Vector, CORNERS>;
 // Radius of the circle around a computed corner within which the true one certainly is.
 var<private> blurs: array<f32, CORNERS>;
-// Where the corners are at a cut: 1 beyond the bisector, 0 on it, -1 on this side.
-var<private> corner_places: array<i32, CORNERS>;
-// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner.
+// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
+// brought up to date as corners are looked at.
 var<private> reach: f32;
 var<private> overflown: bool;
 
 const UNKNOWN: f32 = 1e15;
+// Further than any corner, however blurred, and its square.
+const EVERYWHERE: f32 = 1e18;
 // Half the distance from 1 to the next larger number.
 const ROUNDING: f32 = 5.9604645e-8;
 
@@ -55,56 +56,127 @@ fn begin_polygon(slot: u32) {
     set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half.x, -half.y, blur));
     set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half.x, -half.y, blur));
     overflown = false;
-    measure_reach();
+    in_doubt = false;
+    known_place = NOT_KNOWN;
+    reach = EVERYWHERE * EVERYWHERE;
 }
 
-fn measure_reach() {
-    reach = 0.0;
-    for (var i = 0u; i < sides; i++) {
-        let far = length(corners[i]) + blurs[i];
-        reach = max(reach, far * far);
-    }
-    reach *= 4.00001;
-}
+// The bisector that is looked at: its site, the unit vector towards it, and half the way.
+var<private> site: Site;
+var<private> direction: Vector;
+var<private> half: f32;
 
-// A bisector: the unit vector towards its site, and half the way.
-struct Bisector {
-    direction: Vector,
-    half: f32,
-}
+fn height(index: u32) -> f32 { return dot(corners[index], direction) - half; }
 
-fn beyond(bisector: Bisector, index: u32) -> f32 { return dot(corners[index], bisector.direction) - bisector.half; }
+// Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
+const FEW: u32 = 12u;
 
-// Cuts the polygon along the bisector of a site, unless no corner is beyond it. Corners on it go only with ones beyond, so
-// that no side without length is left.
-fn cut(site: Site, squared: f32) {
+// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date, and finds the corner
+// that is surest beyond, if there are few.
+fn may_cut(there: Site, squared: f32) -> bool {
+    site = there;
     let inverse = inverseSqrt(squared);
-    let bisector = Bisector(site.away * scale() * inverse, 0.5 * squared * inverse);
-    var highest = -1.0;
-    for (var i = 0u; i < sides; i++) { highest = max(highest, beyond(bisector, i) + blurs[i]); }
-    for (var pending = highest > 0.0; pending; pending = false) { cut_corners(site, bisector); }
+    direction = there.away * scale() * inverse;
+    half = 0.5 * squared * inverse;
+    var highest = -4.0 * UNKNOWN;
+    var surest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
+    corner = 0u;
+    for (var i = 0u; i < FEW; i++) {
+        let exists = i < sides;
+        let blur = blurs[i];
+        let over = dot(corners[i], direction);
+        let sure = select(-4.0 * UNKNOWN, over - blur, exists);
+        corner = select(corner, i, sure > surest);
+        surest = max(surest, sure);
+        highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
+        farthest = max(farthest, select(0.0, dot(corners[i], corners[i]), exists));
+        widest = max(widest, select(0.0, blur, exists));
+    }
+    let far = sqrt(farthest) + widest;
+    let all = sides <= FEW;
+    reach = select(reach, 4.00001 * far * far, all);
+    return !all || highest > half;
 }
 
-fn cut_corners(site: Site, bisector: Bisector) {
-    var found = false;
-    var first = 0u;
-    for (var i = 0u; i < sides; i++) {
-        let far = beyond(bisector, i);
-        var place = i32(sign(far));
-        for (var pending = abs(far) <= blurs[i]; pending; pending = false) {
-            place = in_circle(site_of(side_words[i]), site_of(side_words[after(i)]), site);
-        }
-        corner_places[i] = place;
-        found = found || place > 0;
-        first = select(first, i, place > 0);
+// A search along the corners for those to cut: first for one beyond the bisector, from the surest on, then to both sides of
+// it for more, among them those on it, so that no side without length is left.
+const SEARCHING: u32 = 0u;
+const FORWARD: u32 = 1u;
+const BACKWARD: u32 = 2u;
+const FOUND: u32 = 3u;
+var<private> phase: u32;
+var<private> corner: u32;
+var<private> tried: u32;
+var<private> first: u32;
+var<private> last: u32;
+var<private> gone: u32;
+// Single precision cannot tell where the corner is; where it is, once that is known.
+var<private> in_doubt: bool;
+var<private> known_place: i32;
+const NOT_KNOWN: i32 = 2;
+
+fn begin_search() {
+    let many = sides > FEW;
+    var surest = -4.0 * UNKNOWN;
+    for (var i = 0u; many && i < sides; i++) {
+        let sure = height(i) - blurs[i];
+        corner = select(corner, i, sure > surest);
+        surest = max(surest, sure);
     }
-    if (!found) { return; }
-    var last = first;
-    var gone = 1u;
-    for (; gone < sides && corner_places[after(last)] >= 0; gone++) { last = after(last); }
-    for (; gone < sides && corner_places[before(first)] >= 0; gone++) { first = before(first); }
-    // The particle itself is never beyond, and neither is the whole polygon.
-    if (gone == sides) { return; }
+    phase = SEARCHING;
+    tried = 0u;
+    gone = 0u;
+    known_place = NOT_KNOWN;
+}
+
+// Goes on until corners are found or there are none, or one is in doubt.
+fn search() {
+    loop {
+        if (phase == FOUND) { break; }
+        let over = height(corner);
+        var place = i32(sign(over));
+        if (abs(over) <= blurs[corner]) {
+            in_doubt = known_place == NOT_KNOWN;
+            if (in_doubt) { break; }
+            place = known_place;
+            known_place = NOT_KNOWN;
+        }
+        if (phase == SEARCHING) {
+            tried += 1u;
+            if (place > 0) {
+                first = corner;
+                last = corner;
+                gone = 1u;
+                phase = FORWARD;
+            } else if (tried == sides) {
+                phase = FOUND;
+            }
+            corner = after(corner);
+        } else if (place >= 0) {
+            gone += 1u;
+            first = select(first, corner, phase == BACKWARD);
+            last = select(last, corner, phase == FORWARD);
+            corner = select(after(corner), before(corner), phase == BACKWARD);
+            // Never in exact arithmetic: the particle is not beyond.
+            if (gone == sides) { phase = FOUND; }
+        } else {
+            phase += 1u;
+            corner = before(first);
+        }
+    }
+}
+
+// Settles a doubt.
+fn decide() {
+    known_place = in_circle(site_of(side_words[corner]), site_of(side_words[after(corner)]), site);
+    in_doubt = false;
+}
+
+// Cuts the corners that were found off the polygon.
+fn cut() {
+    if (gone == 0u || gone == sides) { return; }
     if (sides + 2u - gone > CORNERS) {
         overflown = true;
         return;
@@ -130,5 +202,4 @@ fn cut_corners(site: Site, bisector: Bisector) {
     sides = sides + 2u - gone;
     set_side(first, first_word, entry);
     set_side(first + 1u, site.word, leaving);
-    measure_reach();
 }

@@ -6,7 +6,7 @@ override MASS_STEPS: f32;    // units of mass in one
 override ENERGY_STEPS: f32;  // units of energy in one
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
-const UNITS_LIMIT: f32 = 134217728.0; // 2^27
+const UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -27,7 +27,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         if (!owns_face(me.position.w, they.position.w)) { continue; }
         let theirs = side_of(other, they);
         let facet = facet_of(face, word, me.position, they.position);
-        let twist = twist_of(face, facet);
+        let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
         let mass = transferred_mass(facet, twist, mine, theirs);
         let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
             + rubbing_impulse(facet, mine, theirs);

@@ -24,7 +24,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let they = particles[other];
         let theirs = side_of(other, they);
         let facet = facet_of(face, word, me.position, they.position);
-        let twist = twist_of(face, facet);
+        let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
         let mass = transferred_mass(facet, twist, mine, theirs);
         let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
             + rubbing_impulse(facet, mine, theirs);

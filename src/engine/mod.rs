@@ -423,11 +423,14 @@ impl<'a> Engine<'a> {
             bits if bits & 64 != 0 => {
                 format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
             }
-            bits if bits & 128 != 0 => format!(
+            bits if bits & 128 != 0 => {
+                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
+            }
+            bits if bits & 256 != 0 => format!(
                 "cell {} has given away all of its mass, or has gathered 64 times that of the heaviest species",
                 control.failure_place
             ),
-            bits if bits & 256 != 0 => {
+            bits if bits & 512 != 0 => {
                 format!("the internal energy of cell {} is less than none", control.failure_place)
             }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),

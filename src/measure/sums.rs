@@ -89,6 +89,7 @@ fn voronoi(sample: &Sample, sum: impl Fn(usize) -> f64, plan: &Plan, model: &Mod
         let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
         (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
     } else {
+        // Zero where there is no potential.
         (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
     };
     Observables {

@@ -33,7 +33,7 @@ impl Builder<'_> {
             Part::Heat => ["common/side_warm"],
         });
         modules.extend(self.forces(part, heat));
-        let limits = heat || (pressure && self.cells.exchanges_mass());
+        let limits = heat || (pressure && self.has_limits());
         if limits && !modules.contains(&"common/limit_on") {
             modules.push("common/limit_on");
         }
@@ -80,7 +80,7 @@ impl Builder<'_> {
         };
         let mut modules = match part {
             Part::Pressure | Part::Everything => self.form().to_vec(),
-            Part::Friction | Part::Heat => vec!["common/form_off"],
+            Part::Friction | Part::Heat => vec!["common/form_off", "common/sweep_free"],
         };
         modules.extend(if rubs { self.rubbing() } else { vec!["common/rubbing_off"] });
         if heat || (rubs && self.rubs_at_random()) {
@@ -94,8 +94,7 @@ impl Builder<'_> {
 
     /// Modules of friction and its noise, but for the words.
     pub(super) fn rubbing(&self) -> Vec<&'static str> {
-        let random =
-            if self.rubs_at_random() { "common/random_impulse_on" } else { "common/random_impulse_off" };
+        let random = if self.rubs_at_random() { "common/random_impulse_on" } else { "common/random_impulse_off" };
         vec!["common/rubbing_on", random]
     }
 

@@ -15,11 +15,11 @@ impl Builder<'_> {
     /// Kernels that find the mean velocities of a whole step of friction.
     pub(super) fn solve_friction(&mut self) -> Vec<usize> {
         let groups = self.particles.div_ceil(LANES).max(1);
-        let iterations =
-            if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
+        let iterations = if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
         let begin = vec!["common/control", "common/solver", iterations, "kernels/friction_begin"];
         let begin = self.bare_kernel("friction_begin", begin, 1);
-        let mut setup = vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
+        let mut setup =
+            vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
         setup.extend(self.cell());
         setup.extend(["common/side"]);
         setup.extend(self.rubbing());
@@ -45,7 +45,8 @@ impl Builder<'_> {
             self.plan.kernels[solve].constants = verdict;
             return vec![begin, setup, solve];
         }
-        let image = self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
+        let image =
+            self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
         let judge = [&sums[..], &["common/friction_verdict", "kernels/friction_judge"]].concat();
         let judge = self.bare_kernel("friction_judge", judge, 1);
         self.plan.kernels[judge].constants = verdict;

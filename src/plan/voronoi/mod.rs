@@ -105,7 +105,7 @@ impl Builder<'_> {
 
     /// Whether anything that crosses faces can run out.
     fn has_limits(&self) -> bool {
-        self.cells.exchanges_mass() || self.conducts()
+        self.cells.exchanges_mass() || self.cells.keeps_energy()
     }
 
     fn is_explicit(&self) -> bool {
@@ -135,11 +135,24 @@ impl Builder<'_> {
     /// Modules of the form of pressures and mass exchange.
     fn form(&self) -> &'static [&'static str] {
         match self.cells.form {
-            VoronoiForm::Gradient => &["common/twist", "common/form_gradient"],
-            VoronoiForm::Consistent => {
-                &["common/twist", "common/form_exchange", "common/turning_consistent", "common/limit_on"]
+            VoronoiForm::Gradient if self.cells.keeps_energy() => {
+                &["common/twist", "common/sweep_limited", "common/form_gradient", "common/limit_on"]
             }
-            VoronoiForm::Paper => &["common/twist", "common/form_exchange", "common/turning_paper", "common/limit_on"],
+            VoronoiForm::Gradient => &["common/twist", "common/sweep_free", "common/form_gradient"],
+            VoronoiForm::Consistent => &[
+                "common/twist",
+                "common/sweep_free",
+                "common/form_exchange",
+                "common/turning_consistent",
+                "common/limit_on",
+            ],
+            VoronoiForm::Paper => &[
+                "common/twist",
+                "common/sweep_free",
+                "common/form_exchange",
+                "common/turning_paper",
+                "common/limit_on",
+            ],
         }
     }
 

@@ -30,7 +30,11 @@ impl Builder<'_> {
     pub(super) fn report(&mut self, output: &Output) {
         let mut modules = self.cell().to_vec();
         modules.extend(["common/face", "common/sum64", "common/sum64_signed", "common/reduce", "common/totals"]);
-        modules.push(if self.cells.keeps_energy() { "common/report_energy" } else { "common/report_isothermal" });
+        modules.push(match (self.cells.keeps_energy(), self.cells.exchanges_mass()) {
+            (true, _) => "common/report_energy",
+            (false, false) => "common/report_isothermal",
+            (false, true) => "common/report_gas_off",
+        });
         modules.extend(match (self.solves(), self.has_limits()) {
             (true, _) => &["common/report_solver", "common/solver"][..],
             (false, true) => &["common/report_limits"],

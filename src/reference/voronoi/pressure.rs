@@ -19,13 +19,23 @@ pub(super) fn exchange(cells: &Voronoi, now: &Cells, face: &Face, time: f64) -> 
         [0, 1].map(|axis| time * face.length * (normal * face.normal[axis] + tangential * face.tangent[axis]))
     };
     if cells.form == VoronoiForm::Gradient {
+        let (turning, limited) = limited_turning(cells, now, face, time, turning);
         let momentum = mix(0.5 * sum, difference * turning);
         let skew = mix(-0.25 * difference, -0.5 * sum * turning);
-        return (Exchange { momentum, skew, ..Exchange::default() }, false);
+        return (Exchange { momentum, skew, ..Exchange::default() }, limited);
     }
     let mut exchange = Exchange { momentum: mix(0.5 * sum, 0.0), ..Exchange::default() };
     let limited = sweep(cells, now, face, time, &mut exchange);
     (exchange, limited)
+}
+
+/// c/r as cells that keep account of their energy see it, and whether the limit cut it: a face that turns fast must not
+/// sweep over more than a part of the cell that it takes from, or a step could take more internal energy than there is.
+fn limited_turning(cells: &Voronoi, now: &Cells, face: &Face, time: f64, turning: f64) -> (f64, bool) {
+    let swept = time * face.length * turning * dot(face.tangent, face.relative(&now.velocities));
+    let donor = if swept > 0.0 { face.l } else { face.k };
+    let most = cells.exchange_limit * now.volumes[donor];
+    if cells.keeps_energy() && swept.abs() > most { (turning * most / swept.abs(), true) } else { (turning, false) }
 }
 
 /// Adds the fluid that a face sweeps over as it turns; says whether the limit cut it.
