@@ -252,7 +252,7 @@ fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
             }
         }
         let limited = column(&place.table("whole", files::ENERGIES), "limited_exchanges");
-        assert!(limited[2] > 0.0 && limited[10] > limited[5], "{limited:?}");
+        assert!(limited[5] > 0.0 && limited[10] > limited[5], "{limited:?}");
         let [whole, parts] = ["whole", "parts"].map(|run| place.summary(run));
         assert_eq!((whole.means, whole.results), (parts.means, parts.results));
     }
