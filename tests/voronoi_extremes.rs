@@ -178,7 +178,7 @@ fn dense_and_dilute_and_long_boxes() {
 
 #[test]
 fn coincident_cells_part() {
-    let positions = vec!["[1,1]"; 4].join(",");
+    let positions = ["[1,1]"; 4].join(",");
     let particles = format!(
         r#"particles=[{{"species":"A","mass":5,"placement":{{"type":"listed","positions":[{positions},[3,3],[1,3],[3,1]]}}}}]"#
     );
