@@ -41,7 +41,7 @@ pub struct ShownValues<'a> {
 /// Colours leave this part of the cells beyond each end of their scale, if that makes it much shorter.
 const BEYOND: f64 = 0.005;
 /// A scale this many times as long as that without the cells beyond hides all others.
-const MUCH_LONGER: f64 = 2.0;
+const MUCH_LONGER: f64 = 1.3;
 /// Width of the lines between cells in their mean width; no line is drawn where it could not be seen.
 const LINE: f64 = 0.06;
 const THINNEST_LINE: f64 = 0.2;

@@ -131,7 +131,7 @@ impl Cells {
     }
 }
 
-/// The amplitude of the wave of the velocity, 2 Σ P_x sin(2πny/L) / ΣM.
+/// The amplitude of the wave of the velocity along x, 2 Σ P sin(2πny/L) / ΣM.
 fn amplitude(state: &State, model: &Model, periods: f64) -> f64 {
     let each = state.momenta.iter().zip(&state.positions).map(|(momentum, position)| {
         let turns = f64::from(position[1]) / 4_294_967_296.0 * periods;

@@ -118,7 +118,8 @@ impl<'a> Pictures<'a> {
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
         let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
-        if temperatures.is_some_and(show_settled) {
+        // Cells that warm up from rest are what their scene is about.
+        if model.voronoi.is_none() && temperatures.is_some_and(show_settled) {
             chart.subtitle.push_str("; temperatures at the start are off the scale");
         }
         self.chart(files::ENERGIES_PLOT, &chart)

@@ -165,7 +165,10 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
 }
 
 /// A sound wave that passes more than this part of a cell in one step is not resolved.
-const SOUND_LIMIT: f64 = 0.3;
+const SOUND_LIMIT: f64 = 0.2;
+
+/// A flow faster than this part of the speed of sound compresses the fluid.
+const FLOW_LIMIT: f64 = 0.3;
 
 /// Euler's scheme is hot by about this many times the friction of a step: at density 5, η = 1 and steps of 0.005 and 0.02 in
 /// cells of volume 1 by 1.8 and 9 %.
@@ -286,9 +289,9 @@ fn warn_of_fluid(
     let coldest = scene.temperature;
     for (index, amplitude, _) in super::voronoi::shear_waves(scene) {
         let sound = (if cells.keeps_energy() { 2.0 } else { 1.0 } * coldest / cells.molecular_mass).sqrt();
-        if amplitude.abs() > SOUND_LIMIT * sound {
+        if amplitude.abs() > FLOW_LIMIT * sound {
             let message = format!(
-                "the wave is {:.2} times as fast as sound; up to {SOUND_LIMIT} it does not compress the fluid",
+                "the wave is {:.2} times as fast as sound; up to {FLOW_LIMIT} it does not compress the fluid",
                 amplitude.abs() / sound
             );
             warn(warnings, format!("particles[{index}].velocities.amplitude"), message);
