@@ -41,8 +41,10 @@ pub struct Control {
     pub failure_place: u32,
     /// 1 when the neighbours of particles have to be listed again.
     pub demand: u32,
-    /// Exchanges between Voronoi cells that a limit has cut, low and high word.
-    pub limited: [u32; 2],
+    /// Exchanges between Voronoi cells that a limit has cut, low word.
+    pub limited: u32,
+    /// The high word.
+    pub limited_high: u32,
 }
 
 /// One row of a sampler.
