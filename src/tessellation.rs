@@ -38,20 +38,20 @@ pub struct Cell {
 pub struct Face {
     /// The index of l. In a small box l may be k itself, and the same for several faces.
     pub neighbour: usize,
-    /// r_k - r_l, to the image of l that is behind the face.
+    /// rₖ - rₗ, to the image of l that is behind the face.
     pub separation: [f64; 2],
     /// The length of the face.
     pub length: f64,
     /// How far the middle of the face is from the middle between the points, along t = (-e.y, e.x), where
-    /// e = (r_k - r_l)/|r_k - r_l|. Of the other sign from the other side, as t is.
+    /// e = (rₖ - rₗ)/|rₖ - rₗ|. Of the other sign from the other side, as t is.
     pub offset: f64,
     /// Whole box edges s between the image of l behind the face and that nearest to k: `separation` is the minimal image
-    /// of r_k - r_l, which is in [-½, ½) of the box, less s of them. Each is -1, 0 or 1.
+    /// of rₖ - rₗ, which is in [-½, ½) of the box, less s of them. Each is -1, 0 or 1.
     pub image: [i8; 2],
 }
 
 impl Face {
-    /// |r_k - r_l|.
+    /// |rₖ - rₗ|.
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.separation[0].hypot(self.separation[1])
@@ -64,7 +64,7 @@ impl Face {
         self.separation.map(|component| component / distance)
     }
 
-    /// [`Self::image`] as a number, (s_x + 1) + 3 (s_y + 1).
+    /// [`Self::image`] as a number, (s.x + 1) + 3 (s.y + 1).
     #[must_use]
     pub fn image_code(&self) -> u32 {
         ((self.image[0] + 1) + 3 * (self.image[1] + 1)) as u32

@@ -581,13 +581,13 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
     (scene, state)
 }
 
-#[test]
-fn pairs_with_memory_reach_the_stationary_law() {
+/// Holds listed pairs to the law of one linear coupling, on the device alone where there are many.
+fn check_pairs(count: usize, largest_error: f64) {
     for (scheme, a) in [("cotter-reich", 0.3), ("symmetric", 1.5), ("exponential", 1.0)] {
         let (persistence, factor) = family(scheme, a);
         let law = Linear { mass: 1.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.0, spring: 0.5 };
         let (scene, state) = touching_pairs(
-            12_000,
+            count,
             &[&format!(
                 r#"interactions.0.bath={{"type":"memory","rate":{},"coupling":{},"scheme":"{scheme}"}}"#,
                 a / law.time_step,
@@ -608,13 +608,29 @@ fn pairs_with_memory_reach_the_stationary_law() {
             };
             after.pair_baths.iter().enumerate().map(pair).collect()
         };
-        for mut run in runs(&scene, &state) {
+        let mut both = runs(&scene, &state);
+        if count > 20_000 {
+            both.retain(|run| run.name() != "reference");
+        }
+        for mut run in both {
             run.step(60);
             let what = format!("pairs {scheme} {a}");
-            check_law(&what, &scene, run.as_mut(), &law, &coordinates, [12, 8], 0.005);
+            check_law(&what, &scene, run.as_mut(), &law, &coordinates, [12, 8], largest_error);
             assert_eq!(run.state().total_momentum(), [0; 3], "{what}");
         }
     }
+}
+
+/// Four standard errors are 2 %; [`pairs_with_memory_reach_the_stationary_law_within_one_per_cent`] takes longer.
+#[test]
+fn pairs_with_memory_reach_the_stationary_law() {
+    check_pairs(12_000, 0.005);
+}
+
+#[test]
+#[ignore = "a minute on a software adapter: run by `make validate`"]
+fn pairs_with_memory_reach_the_stationary_law_within_one_per_cent() {
+    check_pairs(48_000, 0.0025);
 }
 
 /// ⟨v²⟩ = (kT/m) 2/(2 + (2λ - 1)(γdt/m + Kdt²/m)) for Groot and Warren's λ, and kT/m for the discrete gradient.

@@ -21,14 +21,14 @@ fn remembering(edge: f64, rate: f64, scheme: &str, changes: &[&str]) -> Scene {
 }
 
 /// A state in equilibrium, from a fluid with a fast bath: a slow one would take long to get there. Since a slow one does
-/// not change the energy much either, the state is one whose energy is near the mean.
-fn settled(edge: f64, changes: &[&str]) -> State {
+/// not change the energy much either, the state is one whose energy is near the mean over so many samples.
+fn settled(edge: f64, changes: &[&str], samples: u64) -> State {
     let lattice = [&[r#"particles.0.placement.type="lattice""#], changes].concat();
     let mut run = Device::new(&remembering(edge, 1000.0, "exponential", &lattice));
     run.step(800);
-    let energies: Vec<f64> = run.series(10, 300).iter().map(Observables::total_energy).collect();
+    let energies: Vec<f64> = run.series(10, samples).iter().map(Observables::total_energy).collect();
     let mean = energies.iter().sum::<f64>() / energies.len() as f64;
-    while (run.observe().total_energy() / mean - 1.0).abs() > 5e-4 {
+    while (run.observe().total_energy() / mean - 1.0).abs() > 2e-4 {
         run.step(10);
     }
     let state = run.reported();
@@ -36,7 +36,8 @@ fn settled(edge: f64, changes: &[&str]) -> State {
 }
 
 fn check_statics(edge: f64, rates: &[f64], steps: u64, changes: &[&str], [allowance, error]: [f64; 2]) {
-    let state = settled(edge, changes);
+    // 3 000 particles and 160 time units leave the mean temperature of the start uncertain by about 0.3 %.
+    let state = settled(edge, changes, steps / 5 * 2);
     for (rate, scheme) in rates.iter().zip(["exponential", "cotter-reich", "exponential"].into_iter().cycle()) {
         let scene = remembering(edge, *rate, scheme, changes);
         let mut run = Device::from_state(&scene, &state, Options::default());
@@ -65,7 +66,7 @@ fn the_pressure_is_the_same_at_every_rate() {
 #[test]
 #[ignore = "minutes"]
 fn diffusion_comes_down_to_that_without_memory() {
-    let state = settled(8.0, &[]);
+    let state = settled(8.0, &[], 300);
     let mut last = f64::INFINITY;
     for rate in [0.3, 3.0, 1000.0] {
         let scene = remembering(8.0, rate, "exponential", &[]);
@@ -164,7 +165,7 @@ fn a_pair_alone_has_the_discrete_velocity_autocorrelation() {
 /// A list of another margin carries pairs for another time: other random numbers, the same statistics.
 #[test]
 fn the_margin_of_the_list_changes_no_statistics() {
-    let state = settled(4.0, &[]);
+    let state = settled(4.0, &[], 300);
     let found: Vec<[Measured; 3]> = ["interactions.0.skin=0.1", "interactions.0.skin=0.6"]
         .iter()
         .map(|skin| {

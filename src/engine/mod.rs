@@ -41,10 +41,8 @@ pub struct Control {
     pub failure_place: u32,
     /// 1 when the neighbours of particles have to be listed again.
     pub demand: u32,
-    /// Exchanges between Voronoi cells that a limit has cut, low word.
-    pub limited: u32,
-    /// The high word.
-    pub limited_high: u32,
+    /// Exchanges between Voronoi cells that a limit has cut, low and high word.
+    pub limited: [u32; 2],
 }
 
 /// One row of a sampler.
@@ -425,15 +423,15 @@ impl<'a> Engine<'a> {
             bits if bits & 64 != 0 => {
                 format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
             }
-            bits if bits & 128 != 0 => {
-                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
-            }
-            bits if bits & 256 != 0 => format!(
+            bits if bits & 128 != 0 => format!(
                 "cell {} has given away all of its mass, or has gathered 64 times that of the heaviest species",
                 control.failure_place
             ),
-            bits if bits & 512 != 0 => {
+            bits if bits & 256 != 0 => {
                 format!("the internal energy of cell {} is less than none", control.failure_place)
+            }
+            bits if bits & 512 != 0 => {
+                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
             }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => {

@@ -17,7 +17,7 @@ pub(super) struct Exchange {
     pub(super) mass: f64,
     /// Heat, and energy that goes with mass.
     pub(super) energy: f64,
-    /// The part of the work that is not shared equally is this times Ū_k - Ū_l.
+    /// The part of the work that is not shared equally is this times Ūₖ - Ūₗ.
     pub(super) skew: [f64; 2],
 }
 
@@ -34,7 +34,7 @@ impl Exchange {
     /// The total energy that crosses into k, from velocities U before and U' after.
     ///
     /// With Ū = (U + U')/2 the kinetic energy of both cells together grows by
-    /// W = ΔP·(Ū_k - Ū_l) - ½ΔM (U_k·U_k' - U_l·U_l'), exactly; half of it is taken from each internal energy.
+    /// W = ΔP·(Ūₖ - Ūₗ) - ½ΔM (Uₖ·Uₖ' - Uₗ·Uₗ'), exactly; half of it is taken from each internal energy.
     pub(super) fn total_energy(&self, face: &Face, before: &[[f64; 2]], after: &[[f64; 2]]) -> f64 {
         let middle = |cell: usize| [0, 1].map(|axis| 0.5 * (before[cell][axis] + after[cell][axis]));
         let [middle_k, middle_l] = [middle(face.k), middle(face.l)];

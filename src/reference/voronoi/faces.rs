@@ -73,7 +73,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// U = U_k - U_l.
+    /// U = Uₖ - Uₗ.
     pub(super) fn relative(&self, velocities: &[[f64; 2]]) -> [f64; 2] {
         [0, 1].map(|axis| velocities[self.k][axis] - velocities[self.l][axis])
     }

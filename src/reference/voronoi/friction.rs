@@ -1,4 +1,4 @@
-//! Friction and noise between cells, -η(l/r)(U + (U·e)e) and √(2kΘη l/r)(√2 e dW₁ + t dW₂) with 1/Θ = (1/T_k + 1/T_l)/2:
+//! Friction and noise between cells, -η(l/r)(U + (U·e)e) and √(2kΘη l/r)(√2 e dW₁ + t dW₂) with 1/Θ = (1/Tₖ + 1/Tₗ)/2:
 //! Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140, (39) and (62).
 
 use super::faces::{Cells, Face, dot};

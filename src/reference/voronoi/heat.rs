@@ -1,5 +1,5 @@
-//! Conduction of heat between cells that keep account of their energy, λ(l/r)(kT_l - kT_k), and the random flux that goes
-//! with it, √(2 kT_k kT_l λ l/r) dW₃, with λ in units of k: Flekkøy, Coveney and De Fabritiis,
+//! Conduction of heat between cells that keep account of their energy, λ(l/r)(kTₗ - kTₖ), and the random flux that goes
+//! with it, √(2 kTₖ kTₗ λ l/r) dW₃, with λ in units of k: Flekkøy, Coveney and De Fabritiis,
 //! doi:10.1103/PhysRevE.62.2140, (43) and (62).
 
 use super::faces::{Cells, Face};

@@ -1,19 +1,19 @@
 //! Voronoi DPD: Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 //!
-//! A particle is the cell k of a Voronoi tessellation, of mass M_k, momentum P_k = M_k U_k and internal energy E_k. With
-//! e = (r_k - r_l)/r, l the length of the face between k and l, c from the middle between the points to that of the face
-//! and U = U_k - U_l,
+//! A particle is the cell k of a Voronoi tessellation, of mass Mₖ, momentum Pₖ = Mₖ Uₖ and internal energy Eₖ. With
+//! e = (rₖ - rₗ)/r, l the length of the face between k and l, c from the middle between the points to that of the face
+//! and U = Uₖ - Uₗ,
 //!
 //! ```text
-//! dM_k = Σ (l/r) ρ̄ c·U dt                                                               (33)
-//! dP_k = Σ dM (U_k + U_l)/2 + l (p_k + p_l)/2 e dt
+//! dMₖ = Σ (l/r) ρ̄ c·U dt                                                               (33)
+//! dPₖ = Σ dM (Uₖ + Uₗ)/2 + l (pₖ + pₗ)/2 e dt
 //!          - η (l/r)(U + (U·e)e) dt + √(2kΘη l/r)(√2 e dW₁ + t dW₂)                     (39), (62)
-//! dE_k = Σ λ (l/r)(T_l - T_k) dt + √(2kT_kT_l λ l/r) dW₃ + (l/r) c·U (E_k/V_k + E_l/V_l)/2 dt
+//! dEₖ = Σ λ (l/r)(Tₗ - Tₖ) dt + √(2kTₖTₗ λ l/r) dW₃ + (l/r) c·U (Eₖ/Vₖ + Eₗ/Vₗ)/2 dt
 //!          + dM|U|²/8 - work/2                                                          (43), (62)
 //! ```
 //! Every term is odd in k and l. The printed coefficient of the mass exchange is half of this, and the printed pressure
 //! term of (39) even: [`crate::scene::VoronoiForm`] has the choices. The form `gradient` keeps masses and pushes with
-//! l [(p_k + p_l)/2 e + (p_k - p_l) c/r].
+//! l [(pₖ + pₗ)/2 e + (pₖ - pₗ) c/r].
 //!
 //! The state is that of a full step: positions, momenta, masses, and kinetic and internal energy together. A step is
 //!

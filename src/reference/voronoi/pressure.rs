@@ -8,8 +8,8 @@ use crate::scene::VoronoiForm;
 
 /// What crosses a face in a time, and whether the limit cut it.
 ///
-/// Pressures push along e with l (p_k + p_l)/2. In the form `gradient` the force is the exact gradient of a free energy,
-/// which has l (p_k - p_l) c/r on top, and the work of cell k is p_k l (e/2 + c/r)·U, so that dE_k = -p_k dV_k. In the
+/// Pressures push along e with l (pₖ + pₗ)/2. In the form `gradient` the force is the exact gradient of a free energy,
+/// which has l (pₖ - pₗ) c/r on top, and the work of cell k is pₖ l (e/2 + c/r)·U, so that dEₖ = -pₖ dVₖ. In the
 /// others the fluid that a turning face sweeps over changes cells, with its momentum and energy.
 pub(super) fn exchange(cells: &Voronoi, now: &Cells, face: &Face, time: f64) -> (Exchange, bool) {
     let [k, l] = [face.k, face.l];
