@@ -368,7 +368,7 @@ fn strips_and_clusters() {
     }
 }
 
-/// dV/dt = Σ l [e·U/2 + (c·U)/r] for velocities U = U_k - U_l, PHYSICS: the coefficient of the second term is twice that
+/// dV/dt = Σ l [e·U/2 + (c·U)/r] for differences U of velocities: the coefficient of the second term is twice that
 /// printed in the article.
 #[test]
 fn volumes_change_as_the_faces_say() {

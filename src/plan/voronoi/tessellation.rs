@@ -15,8 +15,6 @@ pub(super) enum Occasion {
     Report,
     /// Within a step: the drift before has counted the particles.
     Midway,
-    /// The beginning of a step: the particles are counted, and the clock moves on.
-    Beginning,
 }
 
 impl Builder<'_> {
@@ -33,7 +31,7 @@ impl Builder<'_> {
             let groups = self.groups(self.particles);
             kernels.push(self.shared_kernel("bin", &["common/grid2", "kernels/bin"], groups));
         }
-        self.scan(occasion, &mut kernels);
+        self.scan(&mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
         let sorted = ["common/grid2", "common/cells_plain", "common/sorted_plain"];
@@ -62,20 +60,16 @@ impl Builder<'_> {
     }
 
     /// Kernels of the prefix sum over grid cells.
-    fn scan(&mut self, occasion: Occasion, kernels: &mut Vec<usize>) {
+    fn scan(&mut self, kernels: &mut Vec<usize>) {
         let rows = self.grid.rows();
-        let clock: &[&'static str] = match occasion {
-            Occasion::Beginning => &["common/threefry", "common/begin_step"],
-            Occasion::Report | Occasion::Midway => &["common/same_step"],
-        };
         let scan = ["common/grid2", "common/cells_plain", "common/row_scan"];
         if self.scans_at_once() {
-            let all = [&scan[..], &["common/workgroup_scan"], clock, &["kernels/scan"]].concat();
+            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
             kernels.push(self.shared_kernel("scan", &all, 1));
         } else {
             let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
             kernels.push(self.shared_kernel("scan_blocks", &blocks, rows.div_ceil(256)));
-            let tops = [&["common/grid2", "common/workgroup_scan"], clock, &["kernels/scan_tops"]].concat();
+            let tops = ["common/grid2", "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
             kernels.push(self.shared_kernel("scan_tops", &tops, 1));
             let groups = self.groups(rows);
             kernels.push(self.shared_kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
