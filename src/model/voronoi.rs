@@ -59,6 +59,13 @@ impl Voronoi {
         self.form != VoronoiForm::Gradient
     }
 
+    /// Whether the limit on what crosses a face may act, on mass, heat or the volume that a turning face sweeps over:
+    /// always, but for cells without any pressure.
+    #[must_use]
+    pub fn has_limits(&self, temperature: f64) -> bool {
+        self.exchanges_mass() || self.keeps_energy() || temperature > 0.0
+    }
+
     /// Whether cells keep account of their internal energy; else all are at the temperature of the scene.
     #[must_use]
     pub fn keeps_energy(&self) -> bool {

@@ -26,7 +26,7 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     // Harmonic chains are at temperature zero and at that of the scene side by side.
     let one_temperature = model.chains.is_none();
     let kept = cells.is_some_and(Voronoi::keeps_energy);
-    let limited = cells.is_some_and(|cells| cells.exchanges_mass() || cells.keeps_energy());
+    let limited = cells.is_some_and(|cells| cells.has_limits(model.temperature));
     let solved = cells.is_some_and(|cells| cells.viscosity > 0.0) && model.integrator == Integrator::Splitting {};
     let all: [(&'static str, bool, Cell); 26] = [
         ("time", true, |row, step| row.step as f64 * step),

@@ -103,9 +103,9 @@ impl Builder<'_> {
         self.cells.conductivity.is_some_and(|conductivity| conductivity > 0.0)
     }
 
-    /// Whether anything that crosses faces can run out.
+    /// Whether the limit on what crosses a face may act: on mass, heat and the volume that a turning face sweeps over.
     fn has_limits(&self) -> bool {
-        self.cells.exchanges_mass() || self.cells.keeps_energy()
+        self.cells.has_limits(self.model.temperature)
     }
 
     fn is_explicit(&self) -> bool {
@@ -135,9 +135,20 @@ impl Builder<'_> {
     /// Modules of the form of pressures and mass exchange.
     fn form(&self) -> &'static [&'static str] {
         match self.cells.form {
-            VoronoiForm::Gradient if self.cells.keeps_energy() => {
-                &["common/twist", "common/sweep_limited", "common/form_gradient", "common/limit_on"]
-            }
+            VoronoiForm::Gradient if self.cells.keeps_energy() => &[
+                "common/twist",
+                "common/turn_bounded",
+                "common/sweep_limited",
+                "common/form_gradient",
+                "common/limit_on",
+            ],
+            VoronoiForm::Gradient if self.has_limits() => &[
+                "common/twist",
+                "common/turn_bounded",
+                "common/sweep_bounded",
+                "common/form_gradient",
+                "common/limit_on",
+            ],
             VoronoiForm::Gradient => &["common/twist", "common/sweep_free", "common/form_gradient"],
             VoronoiForm::Consistent => &[
                 "common/twist",

@@ -29,13 +29,20 @@ pub(super) fn exchange(cells: &Voronoi, now: &Cells, face: &Face, time: f64) -> 
     (exchange, limited)
 }
 
-/// c/r as cells that keep account of their energy see it, and whether the limit cut it: a face that turns fast must not
-/// sweep over more than a part of the cell that it takes from, or a step could take more internal energy than there is.
+/// c/r, and whether the limit cut it. The push that comes of it must not turn the face, within the time, over more than a
+/// part of the smaller cell. And where cells keep account of their energy, a face must not sweep over more than a part of
+/// the cell that it takes from, or a step could take more internal energy than there is.
 fn limited_turning(cells: &Voronoi, now: &Cells, face: &Face, time: f64, turning: f64) -> (f64, bool) {
-    let swept = time * face.length * turning * dot(face.tangent, face.relative(&now.velocities));
-    let donor = if swept > 0.0 { face.l } else { face.k };
-    let most = cells.exchange_limit * now.volumes[donor];
-    if cells.keeps_energy() && swept.abs() > most { (turning * most / swept.abs(), true) } else { (turning, false) }
+    let [k, l] = [face.k, face.l];
+    let push = time * face.length * turning * (now.pressures[k] - now.pressures[l]);
+    let velocity = push * (1.0 / now.masses[k] + 1.0 / now.masses[l]);
+    let pushed = (time * face.length * turning * velocity).abs();
+    let most = cells.exchange_limit * now.volumes[k].min(now.volumes[l]);
+    let bounded = if pushed > most { turning * (most / pushed).sqrt() } else { turning };
+    let swept = time * face.length * bounded * dot(face.tangent, face.relative(&now.velocities));
+    let most = cells.exchange_limit * now.volumes[if swept > 0.0 { l } else { k }];
+    let part = if cells.keeps_energy() && swept.abs() > most { most / swept.abs() } else { 1.0 };
+    (part * bounded, pushed > 0.0 && part * bounded != turning)
 }
 
 /// Adds the fluid that a face sweeps over as it turns; says whether the limit cut it.
