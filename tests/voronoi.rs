@@ -263,12 +263,13 @@ fn reports_add_up() {
     }
 }
 
-/// The limit acts where cells start at random, its count is one of the whole run, and cells of constant mass have none.
+/// The limit acts where cells start at random, and its count is one of the whole run. Without pressure nothing is limited.
 #[test]
 fn limited_exchanges_are_counted() {
     let random = r#"particles.0.placement={"type":"random"}"#;
-    for (name, acts) in [("consistent", true), ("gradient", false)] {
-        let mut run = Device::new(&cells(400, &[random, &form(name)]));
+    for (name, temperature, acts) in [("consistent", 1, true), ("gradient", 1, true), ("gradient", 0, false)] {
+        let temperature = format!("temperature={temperature}");
+        let mut run = Device::new(&cells(400, &[random, &form(name), &temperature]));
         run.step(30);
         let some = run.observe().cells.unwrap().limited_exchanges;
         run.step(100);
@@ -316,9 +317,7 @@ fn plans_hold_what_a_scene_asks_for() {
     let has = |modules: &[&str], module: &str| modules.contains(&module);
     let plain = modules(&[]);
     assert!(has(&plain, "common/face_noise") && has(&plain, "kernels/friction_solve"));
-    for module in
-        ["common/limit_on", "common/conduction_on", "common/gas_energy", "kernels/predict", "common/note_by_id"]
-    {
+    for module in ["common/conduction_on", "common/gas_energy", "kernels/predict", "common/note_by_id"] {
         assert!(!has(&plain, module), "{module}");
     }
     let inviscid = modules(&["interactions.0.viscosity=0"]);
@@ -326,7 +325,10 @@ fn plans_hold_what_a_scene_asks_for() {
         assert!(!has(&inviscid, module), "{module}");
     }
     let cold = modules(&["temperature=0"]);
-    assert!(has(&cold, "common/rubbing_on") && !has(&cold, "common/face_noise"));
+    assert!(has(&cold, "common/rubbing_on"));
+    for module in ["common/face_noise", "common/limit_on", "common/turn_bounded"] {
+        assert!(!has(&cold, module), "{module}");
+    }
     let warm = modules(&[r#"interactions.0.energy={"conductivity":0}"#]);
     assert!(has(&warm, "kernels/predict") && !has(&warm, "common/conduction_on"));
 }
