@@ -1,4 +1,4 @@
-//! What the cells of Voronoi DPD cost: the tessellation by itself, beside a Delaunay triangulation on one core.
+//! What Voronoi DPD costs: the tessellation by itself, beside a Delaunay triangulation on one core, and whole steps.
 //!
 //! `cargo bench --bench voronoi` prints tables in Markdown. What is compared is measured in turns within one run, and ratios
 //! are taken round by round. The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
@@ -26,6 +26,17 @@ use timed::Run;
 
 type Failure = Box<dyn std::error::Error>;
 
+/// Changes of a scene, and their name in a table.
+type Variant = (&'static str, &'static [&'static str]);
+
+/// Steps that are compared.
+const STEPS: [Variant; 4] = [
+    ("`gradient`, `splitting`", &[]),
+    ("`gradient`, `euler`", &[r#"integrator={"type":"euler"}"#]),
+    ("`consistent`, `splitting`", &[r#"interactions.0.form="consistent""#]),
+    ("`gradient`, `splitting`, with energy", &["interactions.0.molecular_mass=0.02", "interactions.0.energy={}"]),
+];
+
 /// Cost of Voronoi cells.
 #[derive(Debug, Parser)]
 struct Settings {
@@ -48,7 +59,7 @@ fn main() -> Result<(), Failure> {
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;
     for &size in &settings.sizes {
-        largest_buffer = largest_buffer.max(tessellation(&cells(size)?).largest_buffer());
+        largest_buffer = largest_buffer.max(plan_of(&cells(size, &[])?).largest_buffer());
     }
     let requirements = Requirements { largest_buffer, ..Requirements::default() };
     let gpu = Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements)?;
@@ -63,6 +74,16 @@ fn main() -> Result<(), Failure> {
     for &size in &settings.sizes {
         compare(&gpu, size, &settings)?;
     }
+    println!(
+        "\nMillion cell-steps/s from a jittered lattice, dt = .002, and the tessellation by itself beside them.\n"
+    );
+    println!("| cells | step | rate | tessellation / step |");
+    println!("|--:|:--|--:|--:|");
+    for &size in &settings.sizes {
+        for variant in &STEPS {
+            step(&gpu, size, variant, &settings)?;
+        }
+    }
     println!();
     others("after");
     Ok(())
@@ -75,21 +96,25 @@ fn others(when: &str) {
     }
 }
 
-/// Cells of mean area 1.
-fn cells(count: usize) -> Result<Scene, Failure> {
+/// Cells of mean area 1, with changes.
+fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
     let edge = (count as f64).sqrt();
     let text = format!(
-        r#"{{"title": "cells", "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.01, "steps": 1}}, "temperature": 1,
-        "particles": [{{"species": "A", "count": {count}}}], "interactions": [{{"type": "voronoi"}}],
+        r#"{{"title": "cells", "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.002, "steps": 1}}, "temperature": 1,
+        "particles": [{{"species": "A", "count": {count}, "mass": 5}}], "interactions": [{{"type": "voronoi"}}],
         "output": {{"energies": {{"every": 1000000}}}}}}"#
     );
-    Ok(scene::parse("cells", &text, &[])?)
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    Ok(scene::parse("cells", &text, &changes)?)
+}
+
+fn plan_of(scene: &Scene) -> Plan {
+    plan::plan(&Model::new(scene), 0, &scene.output, Hardware { subgroup_size: None }, Options::default())
 }
 
 /// The plan of a scene with nothing in a step but the tessellation.
 fn tessellation(scene: &Scene) -> Plan {
-    let model = Model::new(scene);
-    let mut plan = plan::plan(&model, 0, &scene.output, Hardware { subgroup_size: None }, Options::default());
+    let mut plan = plan_of(scene);
     let geometry = ["bin", "scan", "scan_blocks", "scan_tops", "scan_rows", "arrange", "order_cells", "tessellate"];
     plan.advance =
         plan.report.iter().copied().filter(|&kernel| geometry.contains(&plan.kernels[kernel].name)).collect();
@@ -103,10 +128,9 @@ fn tessellation(scene: &Scene) -> Plan {
 }
 
 fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
-    let scene = cells(size)?;
+    let scene = cells(size, &[])?;
     let model = Model::new(&scene);
-    let mut state = placement::initial_state(&scene, &model);
-    state.masses.resize(size, 1);
+    let state = placement::initial_state(&scene, &model);
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let points: Vec<Point2<f64>> = state
         .positions
@@ -140,5 +164,22 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
         spread(&crate_cells, 2),
         spread(&ratios(&own, &crate_cells), 2),
     );
+    Ok(())
+}
+
+/// A whole step, beside the tessellation of the same cells.
+fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, settings: &Settings) -> Result<(), Failure> {
+    let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
+    let scene = cells(size, &[&[lattice], *changes].concat())?;
+    let state = placement::initial_state(&scene, &Model::new(&scene));
+    let mut whole = Run::new(Engine::new(gpu, plan_of(&scene), &state)?, size)?;
+    let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?), &state)?, size)?;
+    let (mut rates, mut shares) = (Vec::new(), Vec::new());
+    for _ in 0..settings.rounds {
+        let rate = 1e-6 * whole.rate(settings.seconds)?;
+        shares.push(rate / (1e-6 * alone.rate(settings.seconds)?));
+        rates.push(rate);
+    }
+    println!("| {} | {name} | {} | {} |", grouped(size), spread(&rates, 3), spread(&shares, 2));
     Ok(())
 }
