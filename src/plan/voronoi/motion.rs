@@ -43,6 +43,18 @@ impl Builder<'_> {
         }
         self.plan.finish_report.clone_from(&self.plan.advance);
         self.report(output);
+        self.plan.operations_per_particle = self.operations();
+    }
+
+    /// Some thirty candidates and a dozen cuts of a cell; three owned faces in every exchange, twice as many in those that
+    /// look ahead; and six faces in each of some five iterations of the solver.
+    fn operations(&self) -> f64 {
+        let count = |name: &str| {
+            let named = |kernel: &&usize| self.plan.kernels[**kernel].name == name;
+            self.plan.advance.iter().filter(named).count() as f64
+        };
+        let solver = if self.rubs() && !self.is_explicit() { 5.0 * 6.0 * 25.0 } else { 0.0 };
+        30.0 * 60.0 + 12.0 * 250.0 + 3.0 * 100.0 * (count("exchange") + 2.0 * count("predict")) + solver
     }
 
     /// Everything from what there is at the beginning of the step, as printed.
