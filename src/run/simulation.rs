@@ -129,8 +129,6 @@ impl Simulation {
                     let reason = if task.model.shallow_water.is_some() {
                         "the particles crowd in one cell of the mesh"
                     } else if task.model.voronoi.is_some() {
-                        "a cell has more faces than there is room for"
-                    } else if task.model.voronoi.is_some() {
                         "a cell has more corners than there is room for"
                     } else if task.model.is_coupled() {
                         "a particle has more neighbours than the list has room for"
