@@ -90,7 +90,17 @@ fn cells(count: usize) -> Result<Scene, Failure> {
 fn tessellation(scene: &Scene) -> Plan {
     let model = Model::new(scene);
     let mut plan = plan::plan(&model, 0, &scene.output, Hardware { subgroup_size: None }, Options::default());
-    let geometry = ["bin", "scan", "scan_blocks", "scan_tops", "scan_rows", "arrange", "order_cells", "tessellate"];
+    let geometry = [
+        "bin",
+        "scan",
+        "scan_blocks",
+        "scan_tops",
+        "scan_rows",
+        "arrange",
+        "order_cells",
+        "tessellate",
+        "tessellate_exactly",
+    ];
     plan.advance =
         plan.report.iter().copied().filter(|&kernel| geometry.contains(&plan.kernels[kernel].name)).collect();
     for kernels in
