@@ -115,7 +115,17 @@ fn plan_of(scene: &Scene) -> Plan {
 /// The plan of a scene with nothing in a step but the tessellation.
 fn tessellation(scene: &Scene) -> Plan {
     let mut plan = plan_of(scene);
-    let geometry = ["bin", "scan", "scan_blocks", "scan_tops", "scan_rows", "arrange", "order_cells", "tessellate"];
+    let geometry = [
+        "bin",
+        "scan",
+        "scan_blocks",
+        "scan_tops",
+        "scan_rows",
+        "arrange",
+        "order_cells",
+        "tessellate",
+        "tessellate_exactly",
+    ];
     plan.advance =
         plan.report.iter().copied().filter(|&kernel| geometry.contains(&plan.kernels[kernel].name)).collect();
     for kernels in

@@ -13,11 +13,10 @@ var<private> home: Fraction;
 
 fn scale() -> Vector { return unit_lengths() / SPACING; }
 
-fn site_at(word: u32, fraction: Fraction) -> Site {
-    let steps = signed(home - fraction);
+fn site_with(word: u32, steps: Steps) -> Site {
     return Site(word, steps, 4294967296.0 * Vector(image_of(word)) - Vector(steps));
 }
-fn site_of(word: u32) -> Site { return site_at(word, fraction_of(particles[neighbour_of(word)].position)); }
+fn site_of(word: u32) -> Site { return site_with(word, signed(home - place_of(neighbour_of(word)))); }
 
 // From one site to another, to full relative precision however close they are: low words of integers, and as many boxes as
 // are missing.

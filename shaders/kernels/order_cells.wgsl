@@ -1,6 +1,5 @@
 // Brings the particles of every grid cell into the order of their numbers, so that nothing depends on the order in which they
 // came, and parts those at the same place: Voronoi cells have none in common.
-override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
@@ -26,4 +25,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let apart = Fraction(same, (same * same) & 65535u);
     particle.position = vec4<u32>(fraction + apart, particle.position.zw);
     particles[begin + rank] = particle;
+    places.elements[begin + rank] = fraction_of(particle.position);
+    for (var first = index == 0u; first; first = false) { atomicStore(&places.doubtful, 0u); }
 }

@@ -8,6 +8,9 @@ const SINGLE_SCAN_ROWS: u64 = 1024;
 /// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
 
+/// Cells of which one is expected to be in doubt at most: where there are more, invocations make several one after another.
+const DOUBTFUL_SHARE: u64 = 8;
+
 /// What an ordering of the particles is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Occasion {
@@ -37,16 +40,24 @@ impl Builder<'_> {
         let sorted = ["common/grid2", "common/cells_plain", "common/sorted_plain"];
         kernels.push(self.shared_kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
         let groups = self.groups(self.particles);
-        kernels.push(self.shared_kernel("order_cells", &[&sorted[..], &["kernels/order_cells"]].concat(), groups));
+        kernels.push(self.shared_kernel(
+            "order_cells",
+            &[&sorted[..], &["common/places", "kernels/order_cells"]].concat(),
+            groups,
+        ));
         let stored = self.options.list_growth > 0;
         let corners = if stored { "common/corners_stored" } else { "common/corners_private" };
-        let polygon = ["common/face", corners, "common/sites", "common/polygon", "common/in_circle"];
-        let cells = ["common/grid2", "common/cells_plain"];
-        let tessellate =
-            self.shared_kernel("tessellate", &[&cells[..], &polygon, &["kernels/tessellate"]].concat(), groups);
+        let cells =
+            ["common/grid2", "common/cells_plain", "common/face", "common/places", "common/sites", "common/meeting"];
+        let few = ["common/few_corners", "common/rows_around", "kernels/tessellate"];
+        let quickly = self.shared_kernel("tessellate", &[&cells[..], &few].concat(), groups);
+        self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
+        let polygon = [corners, "common/polygon", "common/in_circle", "kernels/tessellate_exactly"];
+        let groups = self.groups(self.particles.div_ceil(DOUBTFUL_SHARE));
+        let exactly = self.shared_kernel("tessellate_exactly", &[&cells[..], &polygon].concat(), groups);
         let [x_weight, y_weight] = weights(self.model.units.lengths);
         let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
-        self.plan.kernels[tessellate].constants = vec![
+        self.plan.kernels[exactly].constants = vec![
             ("SPACING", self.spacing()),
             ("CORNERS", self.face_capacity() as f64),
             ("WEIGHT_X_LOW", low(x_weight)),
@@ -54,7 +65,7 @@ impl Builder<'_> {
             ("WEIGHT_Y_LOW", low(y_weight)),
             ("WEIGHT_Y_HIGH", high(y_weight)),
         ];
-        kernels.push(tessellate);
+        kernels.extend([quickly, exactly]);
         self.geometry_buffers();
         kernels
     }
@@ -118,6 +129,7 @@ impl Builder<'_> {
         self.buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
         self.buffer("counts", "particles in each grid cell", 4 * cells);
         self.buffer("ranks", "place of each particle in its grid cell", 4 * particles);
+        self.buffer("places", "where particles are, and which cells are in doubt", 8 + 16 * particles);
         if !self.scans_at_once() {
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
