@@ -4,7 +4,7 @@
 // Side i, counter-clockwise, ends at corner i, where side i + 1 begins. With every corner goes its blur: the radius of the
 // circle around it within which the true one certainly is. Beyond the last corner all is zero, which no bisector cuts off.
 const MOST: u32 = 12u;
-// One word of every corner.
+// A word of every corner.
 struct Twelve { a: vec4<u32>, b: vec4<u32>, c: vec4<u32> }
 var<private> xs: Twelve;
 var<private> ys: Twelve;
