@@ -19,6 +19,7 @@ pub mod run;
 pub mod scene;
 pub mod state;
 pub mod sweep;
+pub mod tessellation;
 
 /// The Rust example of the README compiles.
 #[cfg(doctest)]

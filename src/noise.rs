@@ -23,6 +23,8 @@ pub mod stream {
     pub const BOND: u32 = 8;
     /// Directions of bonds at the start.
     pub const CHAIN: u32 = 9;
+    /// Noise of a face of two Voronoi cells.
+    pub const FACE: u32 = 10;
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.
@@ -83,6 +85,16 @@ pub fn words(generator: crate::scene::Generator, key: [u32; 2], counters: [u32; 
     }
 }
 
+/// The counters of the words of the face between two Voronoi cells.
+///
+/// In a small box two cells may share several faces, each with another image of the other. `image` is the code of the
+/// face's image as the cell `smaller` sees it, [`crate::tessellation::Face::image_code`]; `part` tells the draws of one
+/// face from each other. There are at most 2²⁸ cells.
+#[must_use]
+pub fn face_counters(smaller: u32, larger: u32, image: u32, part: u32) -> [u32; 2] {
+    [smaller | image << 28, larger | part << 28]
+}
+
 /// A word as a number in (-½, ½): its top 24 bits, centred so that the mean is exactly zero.
 #[must_use]
 pub fn centred_uniform(word: u32) -> f64 {
@@ -95,6 +107,15 @@ pub fn gaussian(words: [u32; 2]) -> f64 {
     let radius_uniform = centred_uniform(words[0]) + 0.5;
     let angle = std::f64::consts::TAU * centred_uniform(words[1]);
     (-2.0 * radius_uniform.ln()).sqrt() * angle.cos()
+}
+
+/// Two words as two independent standard Gaussian numbers; the first is that of [`gaussian`].
+#[must_use]
+pub fn two_gaussians(words: [u32; 2]) -> [f64; 2] {
+    let radius_uniform = centred_uniform(words[0]) + 0.5;
+    let angle = std::f64::consts::TAU * centred_uniform(words[1]);
+    let radius = (-2.0 * radius_uniform.ln()).sqrt();
+    [radius * angle.cos(), radius * angle.sin()]
 }
 
 #[cfg(test)]

@@ -65,8 +65,13 @@ pub struct State {
     pub species: Vec<u32>,
     /// Momenta that the friction sees, where the integrator predicts them (`groot-warren` with λ ≠ ½); else empty.
     pub predicted: Vec<[i32; 3]>,
-    /// Masses in units of [`crate::model::ShallowWater::mass_unit`], zero for tracers, in shallow water; else empty.
+    /// Masses of particles that each have their own; else empty. In shallow water in units of
+    /// [`crate::model::ShallowWater::mass_unit`], zero for tracers; in Voronoi DPD of
+    /// [`crate::model::Voronoi::mass_unit`].
     pub masses: Vec<u32>,
+    /// Kinetic and internal energy together of Voronoi cells that keep account of it, in units of
+    /// [`crate::model::Voronoi::energy_unit`]; else empty.
+    pub energies: Vec<i32>,
     /// Mass on each mesh node one step before, in the same units, where a bath on the mesh remembers it; empty at step 0.
     pub node_masses: Vec<u32>,
     /// Bath variable of each mesh node, the bits of an `f32`, where there is a bath on the mesh.
@@ -119,10 +124,11 @@ pub struct Hold {
 impl State {
     /// What some states have and others not, by name: arrays of words.
     #[must_use]
-    pub fn arrays(&self) -> [(&'static str, &[u32]); 10] {
+    pub fn arrays(&self) -> [(&'static str, &[u32]); 11] {
         [
             ("predicted", bytemuck::cast_slice(&self.predicted)),
             ("masses", &self.masses),
+            ("energies", bytemuck::cast_slice(&self.energies)),
             ("node_masses", &self.node_masses),
             ("node_bath", &self.node_bath),
             ("pair_baths", bytemuck::cast_slice(&self.pair_baths)),
@@ -148,6 +154,7 @@ impl State {
         match name {
             "predicted" => self.predicted = elements(name, words)?,
             "masses" => self.masses = words.to_vec(),
+            "energies" => self.energies = elements(name, words)?,
             "node_masses" => self.node_masses = words.to_vec(),
             "node_bath" => self.node_bath = words.to_vec(),
             "pair_baths" => self.pair_baths = elements(name, words)?,
@@ -168,6 +175,7 @@ impl State {
         let lengths = [
             ("predicted", self.predicted.len()),
             ("masses", self.masses.len()),
+            ("energies", self.energies.len()),
             ("anchors", self.anchors.len()),
             ("position_baths", self.position_baths.len()),
             ("holds", self.holds.len()),

@@ -5,10 +5,11 @@
 
 use image::RgbaImage;
 use mesoscope::plot::{
-    Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle, correlation_chart,
-    energies_chart, radial_distribution_chart,
+    CellPicture, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle,
+    ShownValues, correlation_chart, energies_chart, radial_distribution_chart,
 };
 use mesoscope::scene::{PlotStyle, Snapshot, SnapshotColor, Theme};
+use mesoscope::tessellation::Tessellation;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::sync::LazyLock;
 use std::time::Instant;
@@ -515,4 +516,49 @@ fn starting_cold_is_quick_enough_to_go_unnoticed() {
     // Printed, not asserted: a loaded machine must not fail a test.
     println!("pipelines {built:?}, with one chart {:?}", start.elapsed());
     assert!(bounds(&picture, BLUE).is_some());
+}
+
+/// Colours of cells by value: the box is filled with them, cells at an edge show on both sides, and faces are lines.
+#[test]
+fn cells_fill_the_box() {
+    // A square lattice centred on the edges of the box; one column has the highest value.
+    let positions: Vec<[f64; 2]> = (0..64).map(|site| [f64::from(site % 8), f64::from(site / 8)]).collect();
+    let tessellation = Tessellation::new([8.0, 8.0], &positions);
+    let values: Vec<f64> = (0..64).map(|site| if site % 8 == 0 { 1.0 } else { 0.0 }).collect();
+    let names = ["A".to_owned()];
+    let picture = CellPicture {
+        lengths: [8.0, 8.0],
+        positions: &positions,
+        tessellation: &tessellation,
+        species: &[0; 64],
+        species_names: &names,
+        shown: Some(ShownValues { label: "value (units)", values: &values }),
+        title: "Cells",
+        subtitle: "",
+    };
+    let (yellow, violet, white) = ([253, 231, 37], [68, 1, 84], [255; 3]);
+    save("cells-captioned", plotter().draw_cells(&picture, &Snapshot::default(), Theme::Light).unwrap());
+    // Too small for a caption, and with it for a colour bar.
+    let style = Snapshot { width: 190, height: 190, ..Snapshot::default() };
+    let drawn = save("cells", plotter().draw_cells(&picture, &style, Theme::Light).unwrap());
+    let [left, top, right, bottom] = bounds(&drawn, yellow).unwrap().map(f64::from);
+    let side = (right - left + 1.0) / 8.0;
+    let at = |x: f64, y: f64| *drawn.get_pixel((left + x * side) as u32, (bottom - y * side) as u32);
+    assert!(((right - left) - (bottom - top)).abs() <= 2.0 && side > 21.0, "{left} {top} {right} {bottom}");
+    for row in 0..8 {
+        let y = f64::from(row) + 0.1;
+        // Half a cell at each edge, and lines half way between the columns.
+        assert!(close(at(0.25, y), yellow) && close(at(7.75, y), yellow), "row {row}: {:?}", at(0.25, y));
+        for column in 1..8 {
+            assert!(close(at(f64::from(column), y), violet), "{row} {column}");
+        }
+        let brightest = (-3..=3).map(|offset| at(0.5 + f64::from(offset) / side, y)[2]).max().unwrap();
+        assert!(brightest > 100, "no line of {white:?} in row {row}: {brightest}");
+    }
+    // By species there is no scale.
+    let species = CellPicture { shown: None, ..picture };
+    let drawn = plotter().draw_cells(&species, &style, Theme::Light).unwrap();
+    assert!(close(*drawn.get_pixel(90, 100), BLUE) || close(*drawn.get_pixel(100, 90), BLUE));
+    let wrong = CellPicture { species: &[0; 3], ..picture };
+    assert!(matches!(plotter().draw_cells(&wrong, &style, Theme::Light), Err(PlotError::Input(_))));
 }

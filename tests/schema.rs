@@ -78,7 +78,7 @@ fn both_validators_agree() {
         ("/integrator", json!({"type": "splitting", "lambda": 0.5})),
         ("/integrator", json!({"type": "groot-warren", "lambda": 0.5})),
         ("/integrator", json!({"type": "groot-warren", "lambda": 1.5})),
-        ("/integrator", json!({"type": "euler"})),
+        ("/integrator", json!({"type": "leapfrog"})),
         ("/integrator", json!({})),
         ("/integrator", json!("splitting")),
         ("/particles/0/mass", json!(-1)),

@@ -14,7 +14,7 @@ use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::Hold;
-use support::{INTEGRATORS, PREDICTED, fluid, water};
+use support::{INTEGRATORS, PREDICTED, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -87,6 +87,7 @@ fn plans() -> &'static [(String, Plan)] {
         plans.extend(coupled_plans());
         plans.extend(noise_plans());
         plans.extend(bond_plans());
+        plans.extend(voronoi_plans());
         plans
     })
 }
@@ -224,6 +225,46 @@ fn noise_plans() -> Vec<(String, Plan)> {
     }
     plans
 }
+
+/// The same of Voronoi cells.
+fn voronoi_plans() -> Vec<(String, Plan)> {
+    let choices: [&[&[&str]]; 6] = [
+        &[&["interactions.0.form=gradient"], &["interactions.0.form=consistent"], &["interactions.0.form=paper"]],
+        &[&["integrator.type=splitting"], &["integrator.type=euler"]],
+        &[&[], &["interactions.0.energy={}"], &[r#"interactions.0.energy={"conductivity":0}"#]],
+        &[&[], &["interactions.0.viscosity=0"]],
+        &[&[], &["temperature=0"], &[r#"noise={"generator":"threefry2x32-20"}"#]],
+        &[&[], VORONOI_SAMPLERS],
+    ];
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        combinations = combinations
+            .iter()
+            .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more].concat()))
+            .collect();
+    }
+    let mut plans = Vec::new();
+    for changes in combinations {
+        // One workgroup solves for the friction of few cells.
+        for (count, many_level_scan, list_growth) in [(200, false, 0), (5000, true, 1)] {
+            let options = Options { many_level_scan, list_growth, ..Options::default() };
+            let name = format!("{count} Voronoi cells {} {options:?}", changes.join(" "));
+            plans.push((name, plan_of(&cells(count, &changes), options)));
+        }
+    }
+    let options = Options { list_growth: 2, ..Options::default() };
+    plans.push(("Voronoi cells of many corners".to_owned(), plan_of(&cells(200, &[]), options)));
+    plans
+}
+
+const VORONOI_SAMPLERS: &[&str] = &[
+    "time.steps=1000",
+    r#"output.diffusion={"every":2,"window":8}"#,
+    r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},
+        {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
+];
 
 /// The same of shallow water.
 fn water_plans() -> Vec<(String, Plan)> {
@@ -495,6 +536,8 @@ fn host_structs_lie_as_in_the_shaders() {
         ("failure_elapsed", offset_of!(Control, failure_elapsed)),
         ("failure_place", offset_of!(Control, failure_place)),
         ("demand", offset_of!(Control, demand)),
+        ("limited", offset_of!(Control, limited)),
+        ("limited_high", offset_of!(Control, limited_high)),
         ("", size_of::<Control>()),
     ];
     let mut tables = 0;
@@ -505,12 +548,13 @@ fn host_structs_lie_as_in_the_shaders() {
                 (predicted, if predicted { 48 } else { 32 })
             }
             Layout::Water { .. } => (false, 24),
+            Layout::Cells { .. } => (false, 32),
         };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
         if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
             let particles = match plan.layout {
                 Layout::Water { carriers, .. } => carriers as u64,
-                Layout::Particles { .. } | Layout::Coupled { .. } => plan.particles,
+                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => plan.particles,
             };
             let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
             assert_eq!(bytes("particles").unwrap(), expected, "{scene}");

@@ -8,8 +8,10 @@ struct Control {
     elapsed: u32,                // sorts since the state was uploaded
     failures: atomic<u32>,       // FAILURE_ bits
     failure_elapsed: atomic<u32>,// `elapsed` when the first of them was raised
-    failure_place: atomic<u32>,  // the first mesh node or bond with a failure
+    failure_place: atomic<u32>,  // the first mesh node, bond or cell with a failure
     demand: atomic<u32>,        // 1 when the neighbours of particles have to be listed again
+    limited: atomic<u32>,       // exchanges between Voronoi cells that a limit has cut, low and high word
+    limited_high: atomic<u32>,
 }
 @group(0) @binding(0) var<storage, read_write> control: Control;
 
@@ -20,6 +22,9 @@ const FAILURE_FRAMES: u32 = 8u; // more particles in the end cells of rows than 
 const FAILURE_CROWDING: u32 = 16u; // more mass around a mesh node than its integers hold
 const FAILURE_DEPTH: u32 = 32u;    // no depth left at a mesh node
 const FAILURE_BOND: u32 = 64u;     // a bond longer than its potential allows
+const FAILURE_MASS: u32 = 128u;    // a Voronoi cell that has given away all of its mass, or has far too much
+const FAILURE_ENERGY: u32 = 256u;  // a Voronoi cell with less than no internal energy
+const FAILURE_LOOPS: u32 = 512u;   // the adapter left a loop before its end
 
 // What fails in later steps than the first failure is its consequence, and not to be told.
 fn no_failure_before() -> bool { return atomicLoad(&control.failure_elapsed) >= control.elapsed; }

@@ -2,6 +2,6 @@
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>; // by id
 
 fn sampled(id: u32) -> vec3<f32> {
-    let momentum = particles[id].momentum;
-    return in_frame(vec3<f32>(momentum.xyz) * inverse_mass_of(momentum.w));
+    let particle = particles[id];
+    return in_frame(vec3<f32>(particle.momentum.xyz) * inverse_mass_at(particle.position, particle.momentum));
 }

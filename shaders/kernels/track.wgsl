@@ -45,8 +45,9 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         squared = sum64_of_f32(dot(travelled, travelled) * DISPLACEMENT);
         let now = Vector(steps_of(particle.momentum));
         let then = Vector(steps_of(tracker.momentum));
-        let inverse_mass = inverse_mass_of(particle.momentum.w);
-        kept = sum64_of_f32(dot(now, then) * inverse_mass * inverse_mass * VELOCITY);
+        let inverse_mass = inverse_mass_at(particle.position, particle.momentum);
+        let inverse_mass_then = inverse_mass_at(tracker.origin, tracker.momentum);
+        kept = sum64_of_f32(dot(now, then) * inverse_mass * inverse_mass_then * VELOCITY);
     }
     reduce_quantity(group, lane, 0u, squared);
     reduce_quantity(group, lane, 1u, kept);

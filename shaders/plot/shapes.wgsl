@@ -13,12 +13,13 @@ const KIND_CAPSULE: u32 = 0u;
 const KIND_RECTANGLE: u32 = 1u;
 const KIND_POLYGON: u32 = 2u;
 const KIND_GLYPH: u32 = 3u;
+const KIND_TRIANGLE: u32 = 4u;
 
 struct Instance {
     // Capsule: both ends. Rectangle: two corners. Polygon: centre, then (angle, sides). Glyph: the texture's corner,
-    // then the unit vector along a line of text.
+    // then the unit vector along a line of text. Triangle: two corners.
     @location(0) ends: vec4f,
-    // Glyph: corner and size in the atlas, in texels.
+    // Glyph: corner and size in the atlas, in texels. Triangle: the third corner.
     @location(1) texels: vec4f,
     // Half width of a capsule, circumradius of a polygon.
     @location(2) radius: f32,
@@ -64,6 +65,10 @@ fn vertex_shape(@builtin(vertex_index) vertex: u32, instance: Instance) -> Varyi
         }
         case KIND_POLYGON: {
             pixel = instance.ends.xy + (corner * 2.0 - 1.0) * (instance.radius + 1.0);
+        }
+        case KIND_TRIANGLE: {
+            // The second triangle of the strip is empty.
+            pixel = select(select(instance.texels.xy, instance.ends.zw, vertex == 1u), instance.ends.xy, vertex == 0u);
         }
         default: {
             let along = instance.ends.zw;
@@ -132,6 +137,9 @@ fn fragment_shape(in: Varying) -> @location(0) vec4f {
         }
         case KIND_RECTANGLE: {
             coverage = rectangle_coverage(pixel, in.ends);
+        }
+        case KIND_TRIANGLE: {
+            coverage = 1.0;
         }
         case KIND_POLYGON: {
             coverage = polygon_coverage(pixel, in.ends.xy, in.ends.z, in.ends.w, in.radius);

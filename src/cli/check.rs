@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use mesoscope::gpu::{self, AdapterChoice, Gpu, GpuError, Requirements};
-use mesoscope::model::{Model, ShallowWater};
+use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, FieldQuantity, Integrator, Interaction,
-    LaplacianSymbol, MeshBath, Scene, SmoothingSolver,
+    LaplacianSymbol, MeshBath, Scene, SmoothingSolver, VoronoiForm,
 };
 
 use super::table::{aligned, bytes, grouped};
@@ -89,11 +89,8 @@ fn interval(first: u64, every: u64) -> String {
 fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
-        Integrator::Splitting {} => "splitting".to_owned(),
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
-        Integrator::CotterReich {} => "cotter-reich".to_owned(),
-        Integrator::Gyro {} => "gyro".to_owned(),
-        Integrator::Rotate {} => "rotate".to_owned(),
+        _ => scene.integrator.name().to_owned(),
     };
     let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
     let particles = match &model.shallow_water {
@@ -112,8 +109,10 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     if let (Some(water), [Interaction::ShallowWater(asked)]) = (&model.shallow_water, scene.interactions.as_slice()) {
         rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
     } else {
-        rows.push(("cells", cells));
+        let bins = if model.voronoi.is_some() { "search grid" } else { "cells" };
+        rows.push((bins, cells));
         rows.extend(list(model, plan));
+        rows.extend(fluid_of_cells(model));
     }
     rows.extend([
         ("adapter", adapter.to_owned()),
@@ -146,6 +145,45 @@ fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
         listed.capacity
     );
     Some(("list", text))
+}
+
+/// What a scene says of Voronoi cells.
+fn fluid_of_cells(model: &Model) -> Vec<(&'static str, String)> {
+    let Some(cells) = &model.voronoi else { return Vec::new() };
+    let form = match cells.form {
+        VoronoiForm::Gradient => "gradient: constant masses, pressures that follow from a free energy",
+        VoronoiForm::Consistent => "consistent: cells exchange mass as their faces turn",
+        VoronoiForm::Paper => "paper: cells exchange mass at half the rate that the geometry asks for",
+    };
+    let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
+    let molecules = mass / model.particle_count().max(1) as f64 / cells.molecular_mass;
+    let energy = match cells.conductivity {
+        Some(conductivity) => format!("kept account of in every cell, heat conductivity {}", short(conductivity)),
+        None => "all cells at the temperature of the scene".to_owned(),
+    };
+    let mut rows = vec![
+        ("form", form.to_owned()),
+        ("fluid", format!("ideal gas, {} molecules a cell", short(molecules))),
+        ("energy", energy),
+    ];
+    if cells.viscosity > 0.0 {
+        let network = NETWORK_VISCOSITY * cells.viscosity;
+        let text = format!(
+            "{} of friction at faces, about {} of the network of cells; what cells carry by moving comes on top",
+            short(cells.viscosity),
+            short(network)
+        );
+        rows.push(("viscosity", text));
+        if model.integrator == (Integrator::Splitting {}) {
+            let solver = cells.solver;
+            let text = format!(
+                "conjugate gradients, at most {} iterations, tolerance {}",
+                solver.iterations, solver.tolerance
+            );
+            rows.push(("solver", text));
+        }
+    }
+    rows
 }
 
 /// What a scene of shallow water does on its mesh.
@@ -372,6 +410,12 @@ fn analyses(scene: &Scene) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     if let Some(asked) = &output.radial_distribution {
         rows.push(("radial_distribution", since(scene, asked.every)));
+    }
+    if let Some(asked) = &output.neighbours {
+        rows.push(("neighbours", since(scene, asked.every)));
+    }
+    if let Some(asked) = &output.shear_wave {
+        rows.push(("shear_wave", since(scene, asked.every)));
     }
     if let Some(asked) = &output.diffusion {
         rows.push(("diffusion", windows(asked.every, asked.window)));

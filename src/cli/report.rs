@@ -173,14 +173,15 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     let water = is_of_water(&summary.scene);
     // Water that flows has no temperature to speak of.
     let columns = if water {
-        [
+        vec![
             ("kinetic_energy", "kinetic energy"),
             ("potential_energy", "potential energy"),
             ("total_energy", "total energy"),
         ]
     } else {
-        [
+        vec![
             ("temperature", "temperature"),
+            ("internal_temperature", "internal temperature"),
             ("configurational_temperature", "configurational temperature"),
             ("pressure", "pressure"),
         ]
@@ -195,6 +196,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         ("diffusion (Einstein)", ["diffusion", "diffusion_einstein"]),
         ("diffusion (Green-Kubo)", ["diffusion", "diffusion_green_kubo"]),
         ("shear viscosity", ["viscosity", "shear_viscosity"]),
+        ("shear viscosity (wave)", ["shear_wave", "shear_viscosity"]),
     ] {
         let Some(found) = summary.results.get(path[0]).and_then(|result| result.get(path[1])) else { continue };
         let value = match (found.as_f64(), found["value"].as_f64()) {
@@ -206,6 +208,11 @@ fn results(outcome: &Outcome, directory: &str) -> String {
             (None, None) => continue,
         };
         rows.push(vec![label.to_owned(), value]);
+    }
+    for (label, column) in [("neighbours of a cell", "mean"), ("their variance", "variance")] {
+        if let Some(value) = summary.results.get("neighbours").and_then(|found| mean(found.as_object()?, column)) {
+            rows.push(vec![label.to_owned(), value]);
+        }
     }
     for (name, circulation) in summary.results.get("circulation").and_then(Value::as_object).into_iter().flatten() {
         let Some(initial) = circulation["initial"].as_f64() else { continue };

@@ -37,10 +37,14 @@ pub struct Control {
     pub failures: u32,
     /// `elapsed` at the first failure.
     pub failure_elapsed: u32,
-    /// The first mesh node or bond with a failure.
+    /// The first mesh node, bond or Voronoi cell with a failure.
     pub failure_place: u32,
     /// 1 when the neighbours of particles have to be listed again.
     pub demand: u32,
+    /// Exchanges between Voronoi cells that a limit has cut, low word.
+    pub limited: u32,
+    /// The high word.
+    pub limited_high: u32,
 }
 
 /// One row of a sampler.
@@ -421,12 +425,22 @@ impl<'a> Engine<'a> {
             bits if bits & 64 != 0 => {
                 format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
             }
+            bits if bits & 128 != 0 => format!(
+                "cell {} has given away all of its mass, or has gathered 64 times that of the heaviest species",
+                control.failure_place
+            ),
+            bits if bits & 256 != 0 => {
+                format!("the internal energy of cell {} is less than none", control.failure_place)
+            }
+            bits if bits & 512 != 0 => {
+                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
+            }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
             }
             _ => match self.plan.layout {
-                Layout::Particles { .. } | Layout::Coupled { .. } => {
+                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => {
                     "a momentum is more than 64 times its natural scale".to_owned()
                 }
                 Layout::Water { .. } => {

@@ -7,11 +7,13 @@ pub mod fit;
 pub mod harmonic_chain;
 pub mod histogram;
 mod mesh_fields;
+pub mod neighbours;
 mod observables;
+pub mod shear_wave;
 pub mod statistics;
 mod sums;
 
 pub use field::{Field, FieldError};
 pub use mesh_fields::MeshFlow;
-pub use observables::Observables;
+pub use observables::{CellObservables, Observables};
 pub use sums::observables_of;

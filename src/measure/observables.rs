@@ -37,6 +37,31 @@ pub struct Observables {
     pub bath_energy: f64,
     /// Mean square of the bath variables.
     pub bath_square: f64,
+    /// What is measured of Voronoi cells, in Voronoi DPD.
+    pub cells: Option<CellObservables>,
+}
+
+/// What is measured of Voronoi cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellObservables {
+    /// Σ V, which is the volume of the box.
+    pub volume: f64,
+    /// Number of faces, each counted once; of a generic tessellation of N cells 3N.
+    pub faces: u64,
+    /// Σ M in integer units.
+    pub mass_units: i64,
+    /// Σ E, of internal energies.
+    pub internal_energy: f64,
+    /// Mean temperature kT inside the cells.
+    pub internal_temperature: f64,
+    /// Σ pV over the volume of the box.
+    pub pressure: f64,
+    /// Exchanges that the limit has cut since the state was uploaded.
+    pub limited_exchanges: u64,
+    /// Iterations of the last solution for the friction.
+    pub iterations: u64,
+    /// Its residual, relative to the right-hand side.
+    pub residual: f64,
 }
 
 impl Observables {
@@ -54,6 +79,9 @@ impl Observables {
 
     /// Kinetic temperature kT, about the velocity of the centre of mass where that is none of heat; NaN for too few
     /// particles.
+    ///
+    /// Σp²/2m - (Σp)²/2Σm is chi-squared with d(N - 1) degrees of freedom whatever the masses, and whether or not they are
+    /// exchanged: in equilibrium momenta are Gaussian for any masses at hand.
     #[must_use]
     pub fn kinetic_temperature(&self) -> f64 {
         if !self.about_centre_of_mass {
@@ -75,10 +103,14 @@ impl Observables {
         self.gradient_squared / self.laplacian
     }
 
-    /// Pressure from all forces; NaN for fewer than two particles.
+    /// Pressure from all forces; NaN for fewer than two particles. Of Voronoi cells that inside of them and that of their
+    /// motion: friction and noise add nothing to it on average in equilibrium.
     #[must_use]
     pub fn pressure(&self) -> f64 {
-        self.pressure_of(self.total_virial)
+        match self.cells {
+            Some(cells) => self.pressure_of(0.0) + cells.pressure,
+            None => self.pressure_of(self.total_virial),
+        }
     }
 
     /// Pressure from conservative forces alone: friction and noise add nothing to it on average in equilibrium, but
@@ -115,6 +147,7 @@ mod tests {
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        cells: None,
     };
 
     #[test]
@@ -128,6 +161,23 @@ mod tests {
         assert!((on_a_mesh.kinetic_temperature() - 10.0 / 6.0).abs() < 1e-15);
         assert!((PAIR.conservative_pressure() - (7.0 / 15.0 + 0.2)).abs() < 1e-15);
         assert!((PAIR.pressure() - (7.0 / 15.0 + 0.4)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn voronoi_cells_have_a_pressure_inside() {
+        let cells = CellObservables {
+            volume: 10.0,
+            faces: 6,
+            mass_units: 1,
+            internal_energy: 30.0,
+            internal_temperature: 1.5,
+            pressure: 2.0,
+            limited_exchanges: 0,
+            iterations: 0,
+            residual: 0.0,
+        };
+        let cells = Observables { cells: Some(cells), ..PAIR };
+        assert!((cells.pressure() - (7.0 / 15.0 + 2.0)).abs() < 1e-15);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! From the integer sums of a report to observables in real units.
 
-use super::Observables;
+use super::{CellObservables, Observables};
 use crate::engine::Sample;
-use crate::model::{Model, ShallowWater};
+use crate::model::{Model, ShallowWater, Voronoi};
 use crate::plan::Plan;
 
 /// The observables of one sample of the first sampler of a plan.
@@ -12,6 +12,9 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
     let quanta = plan.quanta;
     if let Some(water) = &model.shallow_water {
         return shallow_water(sample.step, sum, plan, model, water);
+    }
+    if let Some(cells) = &model.voronoi {
+        return voronoi(sample, sum, plan, model, cells);
     }
     // Energy, square and number of the baths come last, where there are any that remember.
     let remembering = sample.sums.len() > 9;
@@ -32,6 +35,7 @@ pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observable
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
         bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        cells: None,
     }
 }
 
@@ -62,10 +66,60 @@ fn shallow_water(
         potential_energy: sum(3) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
+        cells: None,
         about_centre_of_mass: false,
         gradient_squared: 0.0,
         laplacian: 0.0,
         conservative_virial: f64::NAN,
         total_virial: f64::NAN,
+    }
+}
+
+/// The residual of the solver of the friction is counted in these.
+const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
+
+fn voronoi(sample: &Sample, sum: impl Fn(usize) -> f64, plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
+    let whole = |index: usize| sample.sums.get(index).copied().unwrap_or(0);
+    let quanta = plan.quanta;
+    let mass_units = whole(3);
+    let mass = mass_units as f64 * cells.mass_unit;
+    // What one molecule has of both, as an ideal gas of two dimensions, and with it the product of pressure and volume.
+    let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
+        // Kinetic and internal energy together are integers, whose sum says whether any is lost.
+        let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
+        (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
+    } else {
+        // Zero where there is no potential.
+        (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
+    };
+    Observables {
+        step: sample.step,
+        particles: plan.particles,
+        mobile: plan.particles,
+        dimension: 2,
+        volume: model.units.volume(),
+        mass,
+        kinetic_energy: sum(0) * quanta.energy,
+        momentum: [sum(1), sum(2), 0.0].map(|sum| sum * model.units.momentum),
+        potential_energy: free_energy,
+        conservative_virial: 2.0 * internal_energy,
+        total_virial: f64::NAN,
+        gradient_squared: 0.0,
+        laplacian: 0.0,
+        about_centre_of_mass: true,
+        bath_energy: 0.0,
+        bath_square: 0.0,
+        cells: Some(CellObservables {
+            volume: sum(4) * quanta.length_squared,
+            // Every face has two sides.
+            faces: whole(5) as u64 / 2,
+            mass_units,
+            internal_energy,
+            internal_temperature,
+            pressure: internal_energy / model.units.volume(),
+            limited_exchanges: whole(9) as u64,
+            iterations: whole(10) as u64,
+            residual: whole(11) as f64 * RESIDUAL,
+        }),
     }
 }

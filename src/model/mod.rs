@@ -10,6 +10,7 @@ mod harmonic_chain;
 mod position;
 mod shallow_water;
 mod topology;
+mod voronoi;
 
 pub use angles::{Angle, Angles};
 pub use bath::BathStep;
@@ -22,6 +23,7 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 pub use topology::ChainGroup;
+pub use voronoi::{NETWORK_VISCOSITY, Voronoi};
 
 use crate::scene::{ColouredNoiseInteraction, Distribution, Generator, Integrator, Interaction, NoiseProcess, Scene};
 use crate::state::Units;
@@ -76,6 +78,8 @@ pub struct Model {
     pub chains: Option<ChainTrios>,
     /// Shallow water on a mesh, if the scene has it; the momenta of its particles are per unit of mass.
     pub shallow_water: Option<ShallowWater>,
+    /// Voronoi DPD, if the scene is of it.
+    pub voronoi: Option<Voronoi>,
 }
 
 impl Model {
@@ -92,7 +96,7 @@ impl Model {
                 species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
             }
         }
-        let (mut pair_force, mut shallow_water) = (None, None);
+        let (mut pair_force, mut shallow_water, mut voronoi) = (None, None, None);
         let (mut position_bath, mut coloured_noise, mut tether) = (None, None, None);
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
         let mut chains = None;
@@ -113,6 +117,7 @@ impl Model {
                     chains = Some(trios);
                 }
                 Interaction::ShallowWater(water) => shallow_water = Some(ShallowWater::new(water, scene)),
+                Interaction::Voronoi(interaction) => voronoi = Some(Voronoi::new(interaction, scene, &species)),
             }
         }
         let index = |name: &str| species.iter().position(|species| species.name == name);
@@ -146,6 +151,7 @@ impl Model {
             angles: (!angles.angles.is_empty()).then_some(angles),
             chains,
             shallow_water,
+            voronoi,
         }
     }
 
@@ -154,6 +160,7 @@ impl Model {
     #[must_use]
     pub fn is_coupled(&self) -> bool {
         self.shallow_water.is_none()
+            && self.voronoi.is_none()
             && (self.pair_force.as_ref().is_some_and(PairForce::remembers)
                 || self.position_bath.is_some()
                 || self.coloured_noise.is_some()
@@ -175,6 +182,8 @@ impl Model {
     pub fn has_potential(&self) -> bool {
         let bonds = self.bonds.as_ref();
         self.shallow_water.is_some()
+            // Pressures that follow from the gradient of a free energy.
+            || self.voronoi.as_ref().is_some_and(|cells| !cells.exchanges_mass() && !cells.keeps_energy())
             || self.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0)
             || self.tether.is_some()
             || bonds.is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.potential.is_some()))
@@ -267,6 +276,9 @@ fn momentum_unit(
         if let crate::scene::Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);
+        }
+        if let crate::scene::Velocities::ShearWave { amplitude, .. } = group.velocities {
+            scale = scale.max(group.mass * amplitude.abs() / 8.0);
         }
     }
     for interaction in &scene.interactions {

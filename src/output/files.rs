@@ -81,11 +81,20 @@ pub const CHAIN_EQUILIBRIUM: &str = "chain_equilibrium.csv";
 /// The plot of the variances of the clusters of harmonic chains in equilibrium.
 pub const CHAIN_EQUILIBRIUM_PLOT: &str = "chain_equilibrium.png";
 
+/// The table of the numbers of neighbours of Voronoi cells.
+pub const NEIGHBOURS: &str = "neighbours.csv";
+/// The plot of the numbers of neighbours of Voronoi cells.
+pub const NEIGHBOURS_PLOT: &str = "neighbours.png";
+/// The table of the decay of a shear wave.
+pub const SHEAR_WAVE: &str = "shear_wave.csv";
+/// The plot of the decay of a shear wave.
+pub const SHEAR_WAVE_PLOT: &str = "shear_wave.png";
+
 /// What the names of pictures and arrays of fields on the mesh begin with.
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 44] = [
+pub const ALL: [&str; 48] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -122,6 +131,10 @@ pub const ALL: [&str; 44] = [
     CHAIN_MEMORY_PLOT,
     CHAIN_EQUILIBRIUM,
     CHAIN_EQUILIBRIUM_PLOT,
+    NEIGHBOURS,
+    NEIGHBOURS_PLOT,
+    SHEAR_WAVE,
+    SHEAR_WAVE_PLOT,
     "depth.png",
     "depth.npy",
     "potential_vorticity.png",

@@ -30,8 +30,8 @@ pub(super) struct Reported<'a> {
     pub workgroup: u64,
     /// Modules of the vector space and of the stored particle.
     pub space: Vec<&'static str>,
-    /// The module that knows the masses: `inverse_mass_of`.
-    pub coefficients: &'static str,
+    /// The modules that know the masses: `inverse_mass_at` and, of particles whose species tells it, `inverse_mass_of`.
+    pub masses: Vec<&'static str>,
     /// The buffer of particles by id.
     pub particles: &'static str,
     /// The buffer of momenta by id, where velocities are not to be taken from the particles; there only if
@@ -209,7 +209,8 @@ impl Builder<'_> {
     /// The modules that read a particle, and these.
     fn modules(&self, more: &[&'static str]) -> Vec<&'static str> {
         let mut modules = self.reported.space.clone();
-        modules.extend(["common/sum64", self.reported.coefficients]);
+        modules.push("common/sum64");
+        modules.extend(&self.reported.masses);
         modules.extend(more);
         modules
     }

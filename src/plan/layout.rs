@@ -25,6 +25,11 @@ pub enum Layout {
         /// The bins of particles with mass, if they are not in one array.
         bins: Option<Bins>,
     },
+    /// Voronoi cells: an array `particles` of position, mass and id, momentum, energy and species.
+    Cells {
+        /// Whether cells keep account of their energy.
+        energies: bool,
+    },
     /// Particles whose couplings add their impulses up: an array `particles` in the order of the last list, and by number or
     /// bond whatever else is remembered.
     Coupled {
@@ -141,7 +146,7 @@ impl Layout {
     #[must_use]
     pub fn buffers(&self) -> Vec<&'static str> {
         match *self {
-            Self::Particles { .. } => vec!["particles"],
+            Self::Particles { .. } | Self::Cells { .. } => vec!["particles"],
             Self::Coupled { listed, position_baths, bond_baths, holds, tethers, .. } => {
                 let optional = [
                     ("anchors", listed.is_some()),
@@ -175,6 +180,7 @@ impl Layout {
     pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         match *self {
             Self::Particles { predicted, .. } => Ok(vec![pack_particles(state, order, predicted)?]),
+            Self::Cells { energies } => Ok(vec![pack_cells(state, order, energies)?]),
             Self::Coupled { predicted, listed, position_baths, bond_baths, holds, tethers, .. } => {
                 let mut contents = vec![pack_particles(state, order, predicted)?];
                 if let Some(listed) = listed {
@@ -262,6 +268,7 @@ impl Layout {
             Self::Particles { dimension, predicted } => {
                 unpack_particles(&mut state, contents(0), dimension, predicted, place)?;
             }
+            Self::Cells { energies } => unpack_cells(&mut state, contents(0), energies, place)?,
             Self::Coupled { dimension, predicted, .. } => {
                 unpack_particles(&mut state, contents(0), dimension, predicted, place)?;
                 let width = if predicted { 12 } else { 8 };
@@ -377,6 +384,46 @@ fn unpack_particles(
         state.species[id] = particle[7];
         if predicted {
             state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
+        }
+    }
+    Ok(())
+}
+
+/// Words of all Voronoi cells in an order of their numbers, as `shaders/common/cell.wgsl` declares them.
+fn pack_cells(state: &State, order: &[usize], energies: bool) -> Result<Vec<u32>, Misfit> {
+    if state.masses.len() != state.len() {
+        return Err("masses are".into());
+    }
+    if energies && state.energies.len() != state.len() {
+        return Err("energies are".into());
+    }
+    let words = order.iter().flat_map(|&id| {
+        let ([x, y, _], [px, py, _]) = (state.positions[id], state.momenta[id]);
+        let energy = if energies { state.energies[id] } else { 0 };
+        [x, y, state.masses[id], id as u32, px as u32, py as u32, energy as u32, state.species[id]]
+    });
+    Ok(words.collect())
+}
+
+/// What [`pack_cells`] packed; `place` tells where a number belongs, once.
+fn unpack_cells(
+    state: &mut State,
+    words: &[u32],
+    energies: bool,
+    mut place: impl FnMut(u32) -> Result<usize, String>,
+) -> Result<(), String> {
+    let count = state.positions.len();
+    state.species = vec![0; count];
+    state.masses = vec![0; count];
+    state.energies = vec![0; if energies { count } else { 0 }];
+    for cell in words.chunks_exact(8).take(count) {
+        let id = place(cell[3])?;
+        state.positions[id] = [cell[0], cell[1], 0];
+        state.masses[id] = cell[2];
+        state.momenta[id] = [cell[4] as i32, cell[5] as i32, 0];
+        state.species[id] = cell[7];
+        if energies {
+            state.energies[id] = cell[6] as i32;
         }
     }
     Ok(())

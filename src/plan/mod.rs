@@ -7,6 +7,7 @@ mod layout;
 mod pair;
 mod shallow_water;
 pub mod smoothing;
+mod voronoi;
 
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
@@ -19,10 +20,11 @@ use crate::state::Units;
 /// Makes the plan of a model.
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-    match &model.shallow_water {
-        Some(water) => shallow_water::plan(model, water, output, options),
-        None if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
-        None => pair::plan(model, equilibration, output, hardware, options),
+    match (&model.shallow_water, &model.voronoi) {
+        (Some(water), _) => shallow_water::plan(model, water, output, options),
+        (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
+        _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
+        _ => pair::plan(model, equilibration, output, hardware, options),
     }
 }
 

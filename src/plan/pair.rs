@@ -260,7 +260,9 @@ impl Builder<'_> {
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         modules.push(match self.model.integrator {
             _ if !frictional => "common/friction_off",
-            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} => "common/relaxation",
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                "common/relaxation"
+            }
             Integrator::CotterReich {} => "common/friction_discrete_gradient",
             Integrator::GrootWarren { .. } => "common/friction_velocity",
         });
@@ -444,7 +446,7 @@ impl Builder<'_> {
             equilibration: self.equilibration,
             workgroup: self.workgroup_size(),
             space: space(&self.model.units, self.predicted()),
-            coefficients: self.coefficients(),
+            masses: vec![self.coefficients(), "common/mass_of_species"],
             particles: "particles",
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some("reported_momenta"),

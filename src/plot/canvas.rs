@@ -21,6 +21,7 @@ const KIND_CAPSULE: u32 = 0;
 const KIND_RECTANGLE: u32 = 1;
 const KIND_POLYGON: u32 = 2;
 const KIND_GLYPH: u32 = 3;
+const KIND_TRIANGLE: u32 = 4;
 
 /// A rectangle in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,6 +139,13 @@ impl Canvas {
     pub(super) fn polygon(&mut self, centre: [f64; 2], radius: f64, sides: u32, angle: f64, colour: Colour) {
         let ends = [centre[0] as f32, centre[1] as f32, angle as f32, sides as f32];
         self.push(Shape { ends, texels: [0.0; 4], radius: radius as f32, kind: KIND_POLYGON, colour });
+    }
+
+    /// A filled triangle. Its edges are not smoothed, so that triangles side by side show no seam.
+    pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 2]; 3], colour: Colour) {
+        let ends = [a[0] as f32, a[1] as f32, b[0] as f32, b[1] as f32];
+        let texels = [c[0] as f32, c[1] as f32, 0.0, 0.0];
+        self.push(Shape { ends, texels, radius: 0.0, kind: KIND_TRIANGLE, colour });
     }
 
     /// A horizontal rule whose edges fall on pixel edges.

@@ -1,7 +1,7 @@
-//! Pictures drawn off-screen by the GPU: charts of what was measured, snapshots of the particles, and
-//! fields on a mesh.
+//! Pictures drawn off-screen by the GPU: charts of what was measured, snapshots of the particles or of
+//! Voronoi cells, and fields on a mesh.
 //!
-//! A [`Chart`], a [`ParticlePicture`] or a [`FieldPicture`] is first laid out on the CPU as a list of shapes (lines, markers, letters),
+//! A [`Chart`], a [`ParticlePicture`], a [`CellPicture`] or a [`FieldPicture`] is first laid out on the CPU as a list of shapes (lines, markers, letters),
 //! which needs no device, and then painted by a [`Plotter`] in a few draw calls. Coverage and blending are computed in
 //! linear light, so thin lines keep their weight on light and dark paper. Type and lines are sized for a picture that
 //! is shown 16 cm wide, whatever its number of pixels; [`PlotStyle::scale`](crate::scene::PlotStyle::scale) changes that.
@@ -19,6 +19,7 @@
 //! ```
 
 mod canvas;
+mod cells;
 mod chain_charts;
 mod chart;
 mod chart_layout;
@@ -33,9 +34,12 @@ mod periodic_curve;
 mod presets;
 mod renderer;
 mod series_path;
+mod snapshot_page;
 mod text;
 mod ticks;
+mod voronoi_charts;
 
+pub use cells::{CellPicture, ShownValues};
 pub use chain_charts::{
     chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
 };
@@ -50,6 +54,7 @@ pub use presets::{
     radial_distribution_chart, shallow_water_chart,
 };
 pub use renderer::Plotter;
+pub use voronoi_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 
 use crate::scene::{PlotStyle, Snapshot, Theme};
 use image::RgbaImage;

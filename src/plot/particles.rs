@@ -1,11 +1,11 @@
 //! Pictures of the particles: what is shown, and its layout around the view of the box.
 
-use super::canvas::{Anchor, Area, Canvas, Type};
+use super::canvas::{Area, Canvas};
 use super::chart::Scale;
 use super::error::PlotError;
 use super::palette::{Colour, Inks, inks, scale_colour};
-use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, grouped, nice_length, short_number, ticks};
+use super::snapshot_page::{Key, Page};
+use super::ticks::AxisMap;
 use crate::scene::{Snapshot, SnapshotColor, Theme};
 use bytemuck::{Pod, Zeroable};
 
@@ -125,11 +125,8 @@ pub(super) fn lay_out(
     let inks = inks(theme);
     let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
     let page = Page::new(style);
-    let top = if page.captioned { page.headings(&mut canvas, picture, &inks) } else { page.margin };
-    let bottom = page.height - page.margin;
     let colouring = Colouring::new(picture, style, &inks);
-    let footer = if page.captioned { page.footer_height(&canvas, picture, &colouring) } else { 0.0 };
-    let frame = Area { left: page.margin, top, right: page.width - page.margin, bottom: bottom - footer };
+    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &colouring.key, &inks);
 
     let mut lengths = picture.lengths;
     if picture.dimension == 2 {
@@ -164,9 +161,7 @@ pub(super) fn lay_out(
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
         canvas.line(project(*from), project(*to), rule, inks.ink);
     }
-    if page.captioned {
-        page.footer(&mut canvas, picture, &colouring, &inks, outline, pixels_per_length);
-    }
+    page.footer(&mut canvas, &colouring.key, &inks, outline, pixels_per_length);
 
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
@@ -259,9 +254,10 @@ fn instances(
 }
 
 /// What the colours mean.
-enum Colouring<'a> {
-    Species { colours: [Colour; 8], counts: Vec<u64> },
-    Speed { speeds: &'a [f64], map: AxisMap },
+struct Colouring<'a> {
+    key: Key<'a>,
+    /// Speeds, where they are what colours show.
+    speeds: Option<&'a [f64]>,
 }
 
 impl<'a> Colouring<'a> {
@@ -269,179 +265,16 @@ impl<'a> Colouring<'a> {
         if let (SnapshotColor::Speed, Some(speeds)) = (style.color, picture.speeds) {
             let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
             let high = if fastest > 0.0 { fastest } else { 1.0 };
-            return Self::Speed { speeds, map: AxisMap { scale: Scale::Linear, low: 0.0, high } };
+            let map = AxisMap { scale: Scale::Linear, low: 0.0, high };
+            return Self { key: Key::Scale { name: "speed", map }, speeds: Some(speeds) };
         }
-        let mut counts = vec![0; picture.species_names.len()];
-        for species in picture.species {
-            counts[*species as usize] += 1;
-        }
-        Self::Species { colours: inks.species, counts }
+        Self { key: Key::species(picture.species_names, picture.species, inks), speeds: None }
     }
 
     fn colour(&self, picture: &ParticlePicture<'_>, index: usize) -> Colour {
-        match self {
-            Self::Species { colours, .. } => colours[picture.species[index] as usize % colours.len()],
-            Self::Speed { speeds, map } => scale_colour(map.fraction(speeds[index]).unwrap_or(0.0)),
+        match (&self.key, self.speeds) {
+            (Key::Scale { map, .. }, Some(speeds)) => scale_colour(map.fraction(speeds[index]).unwrap_or(0.0)),
+            (key, _) => key.colour_of(picture.species[index]),
         }
-    }
-}
-
-/// Sizes of everything around the box, in pixels.
-struct Page {
-    width: f64,
-    height: f64,
-    margin: f64,
-    title: f64,
-    label: f64,
-    rule: f64,
-    gap: f64,
-    /// A thumbnail has no text: nobody could read it.
-    captioned: bool,
-}
-
-impl Page {
-    fn new(style: &Snapshot) -> Self {
-        let (width, height) = (f64::from(style.width), f64::from(style.height));
-        let unit = width.min(height) / 1200.0;
-        Self {
-            width,
-            height,
-            margin: 28.0 * unit,
-            title: (42.0 * unit).max(7.0),
-            label: (32.0 * unit).max(6.0),
-            rule: (3.0 * unit).max(1.0),
-            gap: 14.0 * unit,
-            captioned: width.min(height) >= 200.0,
-        }
-    }
-
-    fn text(&self, colour: Colour) -> Type {
-        Type { size: self.label, weight: Weight::Regular, colour }
-    }
-
-    fn headings(&self, canvas: &mut Canvas, picture: &ParticlePicture<'_>, inks: &Inks) -> f64 {
-        let mut y = self.margin;
-        let width = self.width - 2.0 * self.margin;
-        for (text, size, weight, colour) in [
-            (picture.title, self.title, Weight::SemiBold, inks.ink),
-            (picture.subtitle, self.label, Weight::Regular, inks.muted),
-        ] {
-            for line in canvas.typesetter.wrap(text, weight, size, width, 2) {
-                let baseline = [self.margin, y + CAPITAL_HEIGHT * size];
-                canvas.text(&line, baseline, Anchor::Start, Type { size, weight, colour });
-                y += LINE_HEIGHT * size;
-            }
-        }
-        if y > self.margin { y + 0.5 * self.gap } else { y }
-    }
-
-    fn line(&self) -> f64 {
-        1.35 * self.label
-    }
-
-    /// Species in rows that leave room for the scale bar beside the first.
-    fn legend_rows(&self, canvas: &Canvas, picture: &ParticlePicture<'_>, counts: &[u64]) -> Vec<Vec<(String, f64)>> {
-        let room = 0.66 * (self.width - 2.0 * self.margin);
-        let mut rows: Vec<Vec<(String, f64)>> = Vec::new();
-        let mut used = f64::INFINITY;
-        for (name, count) in picture.species_names.iter().zip(counts) {
-            let text = format!("{name} ({})", grouped(*count));
-            let text = canvas.typesetter.shorten(&text, Weight::Regular, self.label, room - 1.2 * self.label);
-            let width = canvas.typesetter.width(&text, Weight::Regular, self.label) + 2.2 * self.label;
-            if used + width > room {
-                rows.push(Vec::new());
-                used = 0.0;
-            }
-            used += width;
-            if let Some(row) = rows.last_mut() {
-                row.push((text, width));
-            }
-        }
-        // A legend must not crowd out the picture.
-        rows.truncate(6);
-        rows
-    }
-
-    fn footer_height(&self, canvas: &Canvas, picture: &ParticlePicture<'_>, colouring: &Colouring<'_>) -> f64 {
-        let lines = match colouring {
-            Colouring::Species { counts, .. } => self.legend_rows(canvas, picture, counts).len().max(1) as f64,
-            Colouring::Speed { .. } => 1.0,
-        };
-        self.gap + (lines * self.line()).max(2.0 * self.line())
-    }
-
-    fn footer(
-        &self,
-        canvas: &mut Canvas,
-        picture: &ParticlePicture<'_>,
-        colouring: &Colouring<'_>,
-        inks: &Inks,
-        outline: Area,
-        pixels_per_length: f64,
-    ) {
-        let top = self.height - self.margin - self.footer_height(canvas, picture, colouring) + self.gap;
-        let style = self.text(inks.ink);
-        match colouring {
-            Colouring::Species { colours, counts } => {
-                let mut species = 0;
-                for (row, entries) in self.legend_rows(canvas, picture, counts).into_iter().enumerate() {
-                    let y = top + (row as f64 + 0.5) * self.line();
-                    let mut x = self.margin;
-                    for (text, width) in entries {
-                        let radius = 0.36 * self.label;
-                        canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
-                        canvas.text_centred(&text, [x + 1.1 * self.label, y], Anchor::Start, style);
-                        x += width;
-                        species += 1;
-                    }
-                }
-            }
-            Colouring::Speed { map, .. } => self.colour_bar(canvas, map, top, style),
-        }
-        self.scale_bar(canvas, top, outline, pixels_per_length, style);
-    }
-
-    fn colour_bar(&self, canvas: &mut Canvas, map: &AxisMap, top: f64, style: Type) {
-        let y = top + 0.5 * self.line();
-        let name = "speed";
-        let left = self.margin + canvas.typesetter.width(name, style.weight, style.size) + self.gap;
-        let width = 0.42 * (self.width - 2.0 * self.margin);
-        let height = 0.8 * self.label;
-        canvas.text_centred(name, [self.margin, y], Anchor::Start, style);
-        let columns = width.ceil().max(1.0) as u32;
-        for column in 0..columns {
-            let from = left.round() + f64::from(column);
-            let colour = scale_colour((f64::from(column) + 0.5) / f64::from(columns));
-            let (top, bottom) = ((y - 0.5 * height).round(), (y + 0.5 * height).round());
-            canvas.rectangle(Area { left: from, top, right: from + 1.0, bottom }, colour);
-        }
-        let marks = ticks(map, 4);
-        for (value, text) in &marks.major {
-            let x = left + map.fraction(*value).unwrap_or(0.0) * width;
-            let foot = y + 0.5 * height;
-            canvas.vertical_rule(x, foot, foot + 0.4 * self.gap, 0.7 * self.rule, style.colour);
-            let baseline = foot + 0.8 * self.gap + CAPITAL_HEIGHT * self.label;
-            canvas.text(text, [x, baseline], Anchor::Middle, style);
-        }
-        if let Some(multiplier) = &marks.multiplier {
-            canvas.text_centred(multiplier, [left + width + self.gap, y], Anchor::Start, style);
-        }
-    }
-
-    fn scale_bar(&self, canvas: &mut Canvas, top: f64, outline: Area, pixels_per_length: f64, style: Type) {
-        let room = 0.25 * (self.width - 2.0 * self.margin).min(outline.width().max(1.0) * 2.0);
-        let length = nice_length(room / pixels_per_length);
-        let unit = if length == 1.0 { "length unit" } else { "length units" };
-        let text = format!("{} {unit}", short_number(length));
-        let right = self.width - self.margin;
-        let (bar, text_width) = (length * pixels_per_length, canvas.typesetter.width(&text, style.weight, style.size));
-        let middle = right - 0.5 * bar.max(text_width);
-        let y = top + 0.3 * self.line();
-        let (from, to) = (middle - 0.5 * bar, middle + 0.5 * bar);
-        canvas.horizontal_rule(from, to, y, 1.3 * self.rule, style.colour);
-        for x in [from, to] {
-            canvas.vertical_rule(x, y - 0.55 * self.gap, y + 0.55 * self.gap, self.rule, style.colour);
-        }
-        canvas.text(&text, [middle, y + self.gap + CAPITAL_HEIGHT * self.label], Anchor::Middle, style);
     }
 }

@@ -14,7 +14,7 @@ pub struct EnergyTable {
 
 impl EnergyTable {
     /// Points (time, value / `divisor`) of a column, or none if there is no such column.
-    fn points(&self, column: &str, divisor: f64) -> Option<Vec<[f64; 2]>> {
+    pub(super) fn points(&self, column: &str, divisor: f64) -> Option<Vec<[f64; 2]>> {
         let find = |name: &str| self.columns.iter().position(|found| found == name);
         let (time, value) = (find("time")?, find(column)?);
         let cell = |row: &Vec<f64>, index: usize| row.get(index).copied().unwrap_or(f64::NAN);

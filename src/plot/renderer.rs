@@ -1,6 +1,7 @@
 //! The device side: pipelines made once, pictures painted into a texture and read back.
 
 use super::canvas::{Area, Batch, Canvas, Shape};
+use super::cells::{self, CellPicture};
 use super::chart::Chart;
 use super::chart_layout;
 use super::error::PlotError;
@@ -124,6 +125,22 @@ impl Plotter {
         self.check_size(style.width, style.height)?;
         let (canvas, scene) = particles::lay_out(picture, style, theme)?;
         self.paint(&canvas, &Content::Particles(&scene))
+    }
+
+    /// Draws Voronoi cells into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
+    /// on one adapter and driver.
+    ///
+    /// # Errors
+    /// [`PlotError::Size`] if the adapter has no texture that large, [`PlotError::Input`] if the lists of the picture
+    /// differ in length or a box edge is not positive, and what the device reports.
+    pub fn draw_cells(
+        &self,
+        picture: &CellPicture<'_>,
+        style: &Snapshot,
+        theme: Theme,
+    ) -> Result<RgbaImage, PlotError> {
+        self.check_size(style.width, style.height)?;
+        self.paint(&cells::lay_out(picture, style, theme)?, &Content::Nothing)
     }
 
     /// Draws a field into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes

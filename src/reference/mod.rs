@@ -17,11 +17,13 @@ mod observables;
 mod pairs;
 mod shallow_water;
 mod splitting;
+mod voronoi;
 
 pub use couplings::CouplingsReference;
 pub use shallow_water::ShallowWaterReference;
 pub(crate) use shallow_water::mesh_splines;
 pub use splitting::Relaxation;
+pub use voronoi::VoronoiReference;
 
 use crate::measure::Observables;
 use crate::model::Model;
@@ -56,6 +58,22 @@ pub enum Unstable {
         step: u64,
         /// The bond's index.
         bond: usize,
+    },
+    /// A Voronoi cell that gave more mass than it had, or took more than the state can hold.
+    #[error("step {step}: the mass of cell {particle} left the range of the integer state")]
+    Mass {
+        /// The step.
+        step: u64,
+        /// The cell's id.
+        particle: usize,
+    },
+    /// An energy of a Voronoi cell beyond 2³¹ units.
+    #[error("step {step}: the energy of cell {particle} left the range of the integer state")]
+    Energy {
+        /// The step.
+        step: u64,
+        /// The cell's id.
+        particle: usize,
     },
     /// A smoothed depth of shallow water that is negative.
     #[error("step {step}: there is no depth left at mesh node ({}, {})", node[0], node[1])]
@@ -222,7 +240,9 @@ impl Reference {
         match self.model.integrator {
             Integrator::GrootWarren { .. } => groot_warren::report(self, found),
             Integrator::CotterReich {} => cotter_reich::report(self, found),
-            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} => splitting::report(self, found),
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                splitting::report(self, found)
+            }
         }
     }
 

@@ -25,6 +25,7 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: 0.0,
         bath_square: 0.0,
+        cells: None,
     };
     let mut total = [0_i64; 3];
     for (momentum, mass) in report.momenta.iter().zip(&reference.masses) {

@@ -1,11 +1,16 @@
 //! What a run conserves exactly, what it does not, and why, in words for its summary.
 
-use crate::model::{BathStep, Model};
+use crate::model::{BathStep, Model, Voronoi};
 use crate::scene::{Integrator, NoiseProcess};
 
 /// What a run conserves to the last bit, or to rounding where that is said.
 pub(super) fn conserved(model: &Model) -> Vec<String> {
+    let cells = model.voronoi.as_ref();
     let kept: &[&str] = match (&model.shallow_water, &model.integrator) {
+        _ if cells.is_some_and(Voronoi::keeps_energy) => {
+            &["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"]
+        }
+        _ if cells.is_some() => &["mass, to the last bit", "total momentum, to the last bit"],
         (None, _) if model.conserves_momentum() => &["mass", "total momentum, to the last bit"],
         (None, _) => &["mass"],
         (Some(_), Integrator::Rotate {}) => &["mass", "mass on the mesh, to the last bit"],
@@ -16,6 +21,9 @@ pub(super) fn conserved(model: &Model) -> Vec<String> {
 
 /// What a run does not conserve, with the reasons.
 pub(super) fn not_conserved(model: &Model) -> Vec<String> {
+    if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
+        return Vec::new();
+    }
     let mut lost = vec![format!("total energy: {}", fate_of_energy(model))];
     let reasons = fate_of_momentum(model);
     if !reasons.is_empty() {
@@ -32,6 +40,9 @@ fn fate_of_energy(model: &Model) -> String {
             Some(_) => "exchanged with the bath on the mesh, which also slows a uniform flow down".to_owned(),
             None => INTEGRATED.to_owned(),
         };
+    }
+    if let Some(cells) = &model.voronoi {
+        return fate_of_energy_in_cells(model, cells).to_owned();
     }
     let baths = baths(model);
     let dissipates = |step: &BathStep| step.coupling > 0.0 && step.persistence.abs() < 1.0;
@@ -56,6 +67,16 @@ fn fate_of_energy(model: &Model) -> String {
         };
     }
     ways.join(", ")
+}
+
+/// What becomes of the kinetic energy of cells at one temperature, and of their free energy.
+fn fate_of_energy_in_cells(model: &Model, cells: &Voronoi) -> &'static str {
+    match (cells.viscosity > 0.0, model.temperature > 0.0) {
+        (true, true) => "exchanged with the fluid inside the cells, which is at the temperature of the scene",
+        (true, false) => "taken away by friction",
+        (false, _) if cells.exchanges_mass() => "exchanging mass is no motion in a potential",
+        (false, _) => INTEGRATED,
+    }
 }
 
 /// The steps of all baths of particles, pairs and bonds, with their temperatures.
@@ -116,6 +137,32 @@ mod tests {
             "particles": [{{"species": "A", "count": 10}} {particles}], "interactions": [{interactions}]}}"#
         );
         Model::new(&scene::parse("test", &text, &[]).expect("a scene"))
+    }
+
+    #[test]
+    fn voronoi_cells_keep_mass_and_momentum_and_with_their_energies_those_too() {
+        let fate = |interaction: &str, temperature: f64| {
+            let text = format!(
+                r#"{{"title": "test", "space": {{"box": [5, 5]}}, "time": {{"step": 0.01, "steps": 1}},
+                "temperature": {temperature}, "particles": [{{"species": "A", "count": 10}}],
+                "interactions": [{{"type": "voronoi", {interaction}}}]}}"#
+            );
+            let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
+            (conserved(&model), not_conserved(&model))
+        };
+        let kept = ["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"];
+        assert_eq!(fate(r#""energy": {}"#, 1.0), (kept.map(str::to_owned).to_vec(), Vec::new()));
+        for (interaction, temperature, energy) in [
+            (r#""viscosity": 1"#, 1.0, "exchanged with the fluid"),
+            (r#""viscosity": 1"#, 0.0, "taken away by friction"),
+            (r#""viscosity": 0"#, 1.0, INTEGRATED),
+            (r#""viscosity": 0, "form": "paper""#, 1.0, "exchanging mass"),
+        ] {
+            let (found, lost) = fate(interaction, temperature);
+            assert_eq!(found, kept[..2]);
+            assert_eq!(lost.len(), 1);
+            assert!(lost[0].starts_with("total energy: ") && lost[0].contains(energy), "{lost:?}");
+        }
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! The table of energies of a run, and the means of its columns.
 
 use super::RunError;
-use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
-use crate::model::Model;
+use crate::measure::{CellObservables, Observables};
+use crate::model::{Model, Voronoi};
 use crate::output::{EnergiesFile, Summary, files, read_table};
 use crate::plot::EnergyTable;
-use crate::scene::Scene;
+use crate::scene::{Integrator, Scene};
 use std::path::Path;
 
 type Cell = fn(&Observables, f64) -> f64;
@@ -16,33 +16,55 @@ fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     let potential = model.has_potential();
     let dimension = model.units.dimension;
     let water = model.shallow_water.as_ref();
+    let cells = model.voronoi.as_ref();
     let memory = model.has_memory();
     // Curvature is summed over all particles, and the force on those that are held is not one of heat.
-    let configurational = potential && water.is_none() && !model.has_fixed_particles() && model.angles.is_none();
+    let configurational =
+        potential && water.is_none() && cells.is_none() && !model.has_fixed_particles() && model.angles.is_none();
     // What is tied to places in space presses on nothing.
     let pressure = water.is_none() && model.tether.is_none() && !model.has_fixed_particles();
     // Harmonic chains are at temperature zero and at that of the scene side by side.
     let one_temperature = model.chains.is_none();
-    let all: [(&'static str, bool, Cell); 17] = [
+    let kept = cells.is_some_and(Voronoi::keeps_energy);
+    let limited = cells.is_some_and(|cells| cells.has_limits(model.temperature));
+    let solved = cells.is_some_and(|cells| cells.viscosity > 0.0) && model.integrator == Integrator::Splitting {};
+    let all: [(&'static str, bool, Cell); 26] = [
         ("time", true, |row, step| row.step as f64 * step),
         ("kinetic_energy", true, |row, _| row.kinetic_energy),
         ("potential_energy", potential, |row, _| row.potential_energy),
-        ("total_energy", true, |row, _| row.total_energy()),
+        ("internal_energy", kept, |row, _| of_cells(row, |cells| cells.internal_energy)),
+        // The free energy of cells that exchange mass derives no force.
+        ("total_energy", potential || cells.is_none(), |row, _| row.total_energy()),
+        ("total_energy", kept, |row, _| row.kinetic_energy + of_cells(row, |cells| cells.internal_energy)),
         ("bath_energy", memory, |row, _| row.bath_energy),
         ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
         ("bath_square", memory || water.is_some_and(|water| water.bath.is_some()), |row, _| row.bath_square),
         ("temperature", one_temperature, |row, _| row.kinetic_temperature()),
+        ("internal_temperature", kept, |row, _| of_cells(row, |cells| cells.internal_temperature)),
         (CONFIGURATIONAL, configurational, |row, _| row.configurational_temperature()),
         ("pressure", pressure, |row, _| row.pressure()),
-        ("pressure_conservative", pressure && potential, |row, _| row.conservative_pressure()),
+        ("pressure_conservative", pressure && potential && cells.is_none(), |row, _| row.conservative_pressure()),
         ("momentum_x", true, |row, _| row.momentum[0]),
         ("momentum_y", dimension >= 2, |row, _| row.momentum[1]),
         ("momentum_z", dimension == 3, |row, _| row.momentum[2]),
         ("center_of_mass_velocity_x", true, |row, _| row.centre_of_mass_velocity()[0]),
         ("center_of_mass_velocity_y", dimension >= 2, |row, _| row.centre_of_mass_velocity()[1]),
         ("center_of_mass_velocity_z", dimension == 3, |row, _| row.centre_of_mass_velocity()[2]),
+        ("mass", cells.is_some(), |row, _| row.mass),
+        ("volume_error", cells.is_some(), |row, _| of_cells(row, |cells| cells.volume / row.volume - 1.0)),
+        ("mean_neighbours", cells.is_some(), |row, _| {
+            of_cells(row, |cells| 2.0 * cells.faces as f64 / row.particles as f64)
+        }),
+        ("limited_exchanges", limited, |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)),
+        ("solver_iterations", solved, |row, _| of_cells(row, |cells| cells.iterations as f64)),
+        ("solver_residual", solved, |row, _| of_cells(row, |cells| cells.residual)),
     ];
     all.into_iter().filter(|(_, applies, _)| *applies).map(|(name, _, cell)| (name, cell)).collect()
+}
+
+/// A quantity of Voronoi cells.
+fn of_cells(row: &Observables, quantity: impl Fn(&CellObservables) -> f64) -> f64 {
+    row.cells.as_ref().map_or(f64::NAN, quantity)
 }
 
 /// Names of the quantities that the table of energies of a model holds.

@@ -19,11 +19,13 @@
 //! ```
 
 mod analyses;
+mod cells;
 mod chain;
 mod circulations;
 mod conservation;
 mod energies;
 mod error;
+mod exchange_tally;
 mod pace;
 mod pictures;
 mod schedule;

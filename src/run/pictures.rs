@@ -6,17 +6,19 @@ use super::simulation::{mesh_depth, open_adapter, plan_for};
 use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
-use crate::model::{Model, ShallowWater};
+use crate::model::{Model, ShallowWater, Voronoi};
 use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
-    Axis, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter, Series,
-    autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart,
-    chain_pulse_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
-    radial_distribution_chart, shallow_water_chart,
+    Axis, CellPicture, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter,
+    Series, ShownValues, autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart,
+    chain_profile_chart, chain_pulse_chart, circulation_chart, correlation_chart, energetic_cells_chart,
+    energies_chart, histogram_chart, neighbours_chart, radial_distribution_chart, shallow_water_chart,
+    shear_wave_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
+use crate::tessellation::Tessellation;
 use image::{
     ExtendedColorType, ImageEncoder, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
@@ -66,7 +68,7 @@ pub fn redraw(
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 14] = [
+const ANALYSES: [(&str, &str); 16] = [
     (files::CHAIN_PROFILES, files::CHAIN_PROFILES_PLOT),
     (files::CHAIN_PULSE, files::CHAIN_PULSE_PLOT),
     (files::CHAIN_CORRELATION, files::CHAIN_CORRELATION_PLOT),
@@ -81,6 +83,8 @@ const ANALYSES: [(&str, &str); 14] = [
     (files::VELOCITY_HISTOGRAM, files::VELOCITY_HISTOGRAM_PLOT),
     (files::SPEED_HISTOGRAM, files::SPEED_HISTOGRAM_PLOT),
     (files::ACCELERATION_HISTOGRAM, files::ACCELERATION_HISTOGRAM_PLOT),
+    (files::NEIGHBOURS, files::NEIGHBOURS_PLOT),
+    (files::SHEAR_WAVE, files::SHEAR_WAVE_PLOT),
 ];
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
@@ -106,10 +110,16 @@ impl<'a> Pictures<'a> {
             );
             return self.chart(files::ENERGIES_PLOT, &chart);
         }
+        if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
+            let mut chart = energetic_cells_chart(&self.scene.title, table, model.particle_count());
+            chart.subtitle = format!("{} cells, time step {}", model.particle_count(), model.time_step);
+            return self.chart(files::ENERGIES_PLOT, &chart);
+        }
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
         let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
-        if temperatures.is_some_and(show_settled) {
+        // Cells that warm up from rest are what their scene is about.
+        if model.voronoi.is_none() && temperatures.is_some_and(show_settled) {
             chart.subtitle.push_str("; temperatures at the start are off the scale");
         }
         self.chart(files::ENERGIES_PLOT, &chart)
@@ -160,6 +170,11 @@ impl<'a> Pictures<'a> {
             files::VELOCITY_HISTOGRAM | files::SPEED_HISTOGRAM | files::ACCELERATION_HISTOGRAM => {
                 (plot_of(name), density_chart(title, &table))
             }
+            files::NEIGHBOURS => (plot_of(name), neighbours_chart(title, &copied(&table))),
+            files::SHEAR_WAVE => {
+                let subtitle = "velocity along x, projected on the wave that it started with";
+                (plot_of(name), shear_wave_chart(title, subtitle, &copied(&table)))
+            }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
         self.chart(plot, &chart)?;
@@ -183,6 +198,9 @@ impl<'a> Pictures<'a> {
 
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
+        if let Some(cells) = &model.voronoi {
+            return self.cells(name, state, model, cells);
+        }
         // Points on a line show nothing.
         if units.dimension == 1 {
             return Ok(());
@@ -210,6 +228,48 @@ impl<'a> Pictures<'a> {
         let style = &self.scene.output.snapshot;
         let theme = self.scene.output.plot.theme;
         let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, style, theme));
+        self.save(name, drawn)
+    }
+
+    /// Draws Voronoi cells.
+    fn cells(&mut self, name: &str, state: &State, model: &Model, cells: &Voronoi) -> Result<(), RunError> {
+        let units = model.units;
+        let lengths = [units.lengths[0], units.lengths[1]];
+        let positions: Vec<[f64; 2]> =
+            state.positions.iter().map(|position| units.position(*position)).map(|[x, y, _]| [x, y]).collect();
+        let tessellation = Tessellation::of_fractions(lengths, &state.positions);
+        let mass = |id: usize| f64::from(state.masses[id]) * cells.mass_unit;
+        let square =
+            |id: usize| units.momentum(state.momenta[id]).iter().map(|component| component * component).sum::<f64>();
+        let all = 0..state.masses.len().min(state.len());
+        let shown: Option<(&str, Vec<f64>)> = match self.scene.output.snapshot.color {
+            SnapshotColor::Species => None,
+            SnapshotColor::Speed => Some(("speed", all.map(|id| square(id).sqrt() / mass(id)).collect())),
+            SnapshotColor::Temperature if cells.keeps_energy() => {
+                let internal =
+                    |id: usize| f64::from(state.energies[id]) * cells.energy_unit - square(id) / (2.0 * mass(id));
+                let temperature = |id: usize| cells.molecular_mass * internal(id) / mass(id);
+                Some(("temperature (kT)", all.map(temperature).collect()))
+            }
+            SnapshotColor::Density | SnapshotColor::Temperature => {
+                Some(("density (mass/area)", all.map(|id| mass(id) / tessellation.cells[id].volume).collect()))
+            }
+        };
+        let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
+        let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+        let picture = CellPicture {
+            lengths,
+            positions: &positions,
+            tessellation: &tessellation,
+            species: &state.species,
+            species_names: &names,
+            shown: shown.as_ref().map(|(label, values)| ShownValues { label, values }),
+            title: &self.scene.title,
+            subtitle: &subtitle,
+        };
+        let style = &self.scene.output.snapshot;
+        let theme = self.scene.output.plot.theme;
+        let drawn = self.plotter().and_then(|plotter| plotter.draw_cells(&picture, style, theme));
         self.save(name, drawn)
     }
 
@@ -269,6 +329,11 @@ impl<'a> Pictures<'a> {
     fn save(&self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
         save(self.directory, name, drawn)
     }
+}
+
+/// A table as charts take it.
+fn copied(table: &Table) -> EnergyTable {
+    EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() }
 }
 
 /// Writes a picture, which appears complete or not at all.

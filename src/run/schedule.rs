@@ -1,5 +1,6 @@
 //! When a run has to stop for something.
 
+use super::cells::Due;
 use crate::scene::{Interaction, Scene};
 
 /// The steps of checkpoints, snapshots and frames.
@@ -10,6 +11,9 @@ pub(super) struct Schedule {
     snapshot: Option<u64>,
     frame: Option<u64>,
     chain: Option<u64>,
+    neighbours: Option<u64>,
+    shear_wave: Option<u64>,
+    equilibration: u64,
 }
 
 impl Schedule {
@@ -25,13 +29,16 @@ impl Schedule {
             snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
             chain: output.chain.as_ref().map(|chain| chain.every.max(1)),
+            neighbours: output.neighbours.as_ref().map(|neighbours| neighbours.every.max(1)),
+            shear_wave: output.shear_wave.as_ref().map(|wave| wave.every.max(1)),
+            equilibration: scene.time.equilibration,
         }
     }
 
     /// The first event after a step.
     pub(super) fn next(&self, step: u64) -> u64 {
         let after = |every: u64| (step / every + 1).saturating_mul(every);
-        let events = [Some(self.checkpoint), self.snapshot, self.frame, self.chain];
+        let events = [Some(self.checkpoint), self.snapshot, self.frame, self.chain, self.neighbours, self.shear_wave];
         events.into_iter().flatten().map(after).fold(self.last, u64::min)
     }
 
@@ -55,6 +62,13 @@ impl Schedule {
         self.chain.is_some_and(|every| step.is_multiple_of(every))
     }
 
+    /// What to gather of Voronoi cells.
+    pub(super) fn cells(&self, step: u64) -> Due {
+        let due =
+            |every: Option<u64>| step >= self.equilibration && every.is_some_and(|every| step.is_multiple_of(every));
+        Due { neighbours: due(self.neighbours), shear_wave: due(self.shear_wave) }
+    }
+
     /// Whether to add a frame to the trajectory.
     pub(super) fn frame(&self, step: u64) -> bool {
         self.frame.is_some_and(|every| step.is_multiple_of(every))
@@ -65,7 +79,26 @@ impl Schedule {
 mod tests {
     use super::*;
 
-    const SCHEDULE: Schedule = Schedule { last: 100, checkpoint: 40, snapshot: Some(30), frame: None, chain: None };
+    const SCHEDULE: Schedule = Schedule {
+        last: 100,
+        checkpoint: 40,
+        snapshot: Some(30),
+        frame: None,
+        chain: None,
+        neighbours: None,
+        shear_wave: None,
+        equilibration: 0,
+    };
+
+    #[test]
+    fn cells_are_sampled_after_equilibration() {
+        let schedule = Schedule { neighbours: Some(25), shear_wave: Some(10), equilibration: 40, ..SCHEDULE };
+        let due: Vec<u64> = (0..=100).filter(|step| schedule.cells(*step).neighbours).collect();
+        assert_eq!(due, [50, 75, 100]);
+        assert!(schedule.cells(40).shear_wave && !schedule.cells(40).neighbours && !schedule.cells(30).any());
+        assert_eq!(schedule.next(40), 50);
+        assert_eq!(schedule.next(70), 75);
+    }
 
     #[test]
     fn events_come_in_order_and_end_with_the_run() {

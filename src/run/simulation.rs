@@ -1,9 +1,11 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
+use super::cells::Cells;
 use super::chain::{self, Chains};
 use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
+use super::exchange_tally::{self, ExchangeTally};
 use super::pace::Pace;
 use super::pictures::Pictures;
 use super::schedule::Schedule;
@@ -126,6 +128,8 @@ impl Simulation {
                     start = task.last_checkpoint(start)?;
                     let reason = if task.model.shallow_water.is_some() {
                         "the particles crowd in one cell of the mesh"
+                    } else if task.model.voronoi.is_some() {
+                        "a cell has more corners than there is room for"
                     } else if task.model.is_coupled() {
                         "a particle has more neighbours than the list has room for"
                     } else {
@@ -226,6 +230,8 @@ struct Run<'a> {
     energies: EnergyRecorder,
     analyses: Analyses,
     chains: Option<Chains>,
+    cells: Cells,
+    tally: ExchangeTally,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
@@ -268,6 +274,8 @@ impl<'a> Run<'a> {
             energies,
             analyses: Analyses::new(scene, model, plan, &start.sections),
             chains: chains_of(scene, model, &start.sections),
+            cells: Cells::new(scene, &start.sections),
+            tally: ExchangeTally::new(step, &start.sections),
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
@@ -322,6 +330,10 @@ impl<'a> Run<'a> {
             if let Some(chains) = &self.chains {
                 sections.push((chain::SECTION.to_owned(), chains.section()));
             }
+            sections.extend(self.cells.sections());
+            if self.model.voronoi.is_some() {
+                sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
+            }
             checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
             self.saved_step = step;
             self.momentum = state.total_momentum();
@@ -334,12 +346,14 @@ impl<'a> Run<'a> {
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
         let sample = self.schedule.chain(step);
+        let due = self.schedule.cells(step);
         let last = step == self.scene.time.steps;
-        if number.is_some() || frame || sample || last {
+        if number.is_some() || frame || sample || due.any() || last {
             let state = engine.reported()?;
             if let (true, Some(chains)) = (sample, &mut self.chains) {
                 chains.add(&state);
             }
+            self.cells.add(due, &state, self.model);
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
@@ -364,7 +378,9 @@ impl<'a> Run<'a> {
     fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
         for sample in samples {
             if sample.sampler == 0 {
-                self.energies.add(&observables_of(sample, plan, self.model))?;
+                let mut observables = observables_of(sample, plan, self.model);
+                self.tally.complete(&mut observables);
+                self.energies.add(&observables)?;
             } else {
                 self.analyses.add(sample);
             }
@@ -404,6 +420,7 @@ impl<'a> Run<'a> {
         if let Some(chains) = &self.chains {
             summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
         }
+        self.cells.conclude(self.directory, self.model, &mut summary)?;
         summary.conserved_exactly = conserved(self.model);
         summary.not_conserved = not_conserved(self.model);
         // Numbers first: they are worth more than pictures if the disk is full.

@@ -33,6 +33,9 @@ pub fn builtin() -> &'static [Builtin] {
         "langevin-gas",
         "gle-oscillator",
         "polymer-melt",
-        "harmonic-chain"
+        "harmonic-chain",
+        "voronoi-dpd",
+        "voronoi-energy",
+        "voronoi-shear"
     ]
 }

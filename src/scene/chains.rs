@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::placement::lattice_sites;
-use super::{Chain, Generator, ParticleGroup, Placement};
+use super::{Chain, Generator, ParticleGroup};
 use crate::model::Model;
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -18,13 +18,13 @@ pub(super) fn place(state: &mut State, group: &ParticleGroup, chain: &Chain, cou
     let beads = chain.beads.max(1) as usize;
     let first = state.len();
     let starts = starts(group, chain, first, count, model, shift);
-    let laid_out = outline(chain, group.placement == Placement::Lattice, model);
+    let laid_out = outline(chain, group.placement.is_lattice(), model);
     let units = &model.units;
     for index in 0..count {
         let id = first + index;
         let start = starts[index / beads];
         let offset = match &laid_out {
-            Some(outline) if group.placement == Placement::Lattice => outline[index % beads],
+            Some(outline) if group.placement.is_lattice() => outline[index % beads],
             Some(outline) => turned(outline, index % beads, id - index % beads, model),
             // A step of a random walk from the bead before.
             None if index % beads == 0 => [0.0; 3],
@@ -59,7 +59,7 @@ fn starts(
     let beads = chain.beads.max(1) as usize;
     let chains = count.div_ceil(beads);
     let units = &model.units;
-    if group.placement != Placement::Lattice {
+    if !group.placement.is_lattice() {
         return (0..chains)
             .map(|number| units.position(super::placement::random_position(first + number * beads, model)))
             .collect();

@@ -27,7 +27,8 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
         Interaction::ColouredNoise(_)
         | Interaction::Tether(_)
         | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_) => {}
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => {}
     }
 }
 
@@ -61,11 +62,12 @@ pub(super) fn check_motion(scene: &Scene, problems: &mut Vec<Problem>) {
 fn scene_is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
-        Interaction::ShallowWater(_) => false,
+        Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
         _ => true,
     };
-    let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
-    !water
+    let alone =
+        |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
+    !scene.interactions.iter().any(alone)
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(|group| group.fixed)
             || scene.interactions.iter().any(coupled))
@@ -95,7 +97,8 @@ fn check_numbers(scene: &Scene, problems: &mut Vec<Problem>) {
         Interaction::Bonds(_)
         | Interaction::Angles(_)
         | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_) => None,
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => None,
     };
     let mut seen = HashSet::new();
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -150,7 +153,13 @@ fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, 
     } else if let Some(count) = group.count.filter(|count| !count.is_multiple_of(beads)) {
         problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), wrong(count)));
     }
-    let placed = matches!(group.placement, Placement::Random | Placement::Lattice);
+    if let Placement::Lattice { jitter } = group.placement
+        && jitter > 0.0
+    {
+        let accepted = "no `jitter` for chains, which would stretch their bonds";
+        problems.push(Problem::new(format!("{path}.placement.jitter"), format!("found {jitter}"), accepted));
+    }
+    let placed = matches!(group.placement, Placement::Random | Placement::Lattice { .. });
     let half = half_box(scene);
     if placed && chain.spacing > half {
         let accepted = format!(
@@ -176,7 +185,7 @@ fn check_integrator(scene: &Scene, problems: &mut Vec<Problem>) {
         }
         Integrator::GrootWarren { .. } => check_groot_warren(scene, problems),
         // The last two are refused with all other scenes that are not of shallow water.
-        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} => {}
+        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {}
     }
 }
 
@@ -185,7 +194,7 @@ fn reason(scene: &Scene) -> String {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let what = match interaction {
             Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
-            Interaction::Dpd(_) | Interaction::ShallowWater(_) => continue,
+            Interaction::Dpd(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => continue,
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::ColouredNoise(_) => "a coloured noise",
             Interaction::Tether(_) => "tethers",

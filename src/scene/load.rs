@@ -1,5 +1,6 @@
 //! From a file or a built-in name to a checked scene.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde_json::Value;
@@ -69,6 +70,7 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
         overrides::apply(&mut document, argument)?;
     }
     default_integrator(&mut document);
+    default_colour(&mut document);
     problems.extend(shape::check(&super::schema(), &mut document));
     // What the shape check has mended may be readable, and then everything can be said at once.
     let scene = match serde_json::from_value::<Scene>(document) {
@@ -96,8 +98,11 @@ fn default_integrator(document: &mut Value) {
     let line = document["space"]["box"].as_array().is_some_and(|edges| edges.len() == 1);
     let mut groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default().iter();
     let held = groups.any(|group| group["fixed"] == true);
-    let integrator = if interactions.iter().any(|interaction| interaction["type"] == "shallow-water") {
+    let of_type = |name: &str| interactions.iter().any(|interaction| interaction["type"] == name);
+    let integrator = if of_type("shallow-water") {
         "gyro"
+    } else if of_type("voronoi") {
+        "splitting"
     } else if line || held || interactions.iter().any(coupled) {
         "cotter-reich"
     } else {
@@ -107,6 +112,26 @@ fn default_integrator(document: &mut Value) {
         && !scene.contains_key("integrator")
     {
         scene.insert("integrator".to_owned(), serde_json::json!({"type": integrator}));
+    }
+}
+
+/// The colour that is left out for pictures of Voronoi cells: of several species theirs, else the density.
+fn default_colour(document: &mut Value) {
+    let of_type = |interaction: &Value| interaction["type"] == "voronoi";
+    if !document["interactions"].as_array().is_some_and(|interactions| interactions.iter().any(of_type)) {
+        return;
+    }
+    let groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let species: BTreeSet<&str> = groups.iter().filter_map(|group| group["species"].as_str()).collect();
+    let colour = if species.len() > 1 { "species" } else { "density" };
+    let mut place = document.as_object_mut();
+    for key in ["output", "snapshot"] {
+        place = place.and_then(|object| object.entry(key).or_insert_with(|| serde_json::json!({})).as_object_mut());
+    }
+    if let Some(snapshot) = place
+        && !snapshot.contains_key("color")
+    {
+        snapshot.insert("color".to_owned(), serde_json::json!(colour));
     }
 }
 

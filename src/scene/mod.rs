@@ -21,6 +21,8 @@ mod stability;
 pub mod surface;
 mod text;
 mod types;
+pub(crate) mod voronoi;
+mod voronoi_start;
 mod warnings;
 
 pub use builtin::{Builtin, builtin};
@@ -30,6 +32,10 @@ pub use load::{load, parse, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub use types::*;
+pub use voronoi::{
+    CellEnergy, EquationOfState, FrictionSolver, InitialMasses, TemperatureRegion, VoronoiForm, VoronoiInteraction,
+    shear_waves,
+};
 pub use warnings::warnings;
 
 impl Space {
@@ -63,6 +69,7 @@ impl Interaction {
             | Self::Angles(_)
             | Self::HarmonicChain(_)
             | Self::ShallowWater(_) => scene,
+            Self::Voronoi(voronoi) => voronoi.hottest(scene),
         }
     }
 }

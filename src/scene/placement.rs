@@ -1,7 +1,7 @@
 //! Where the particles of a scene start, and how fast.
 
-use super::chains;
 use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
+use super::{chains, voronoi_start};
 use crate::model::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -15,13 +15,13 @@ use crate::state::State;
 pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut state = State::default();
     let mut thermal = Vec::new();
-    let lattices = scene.particles.iter().filter(|group| group.placement == Placement::Lattice).count();
+    let lattices = scene.particles.iter().filter(|group| group.placement.is_lattice()).count();
     let mut lattice = 0;
     for group in &scene.particles {
         let first = state.len();
         let count = group.resolved_count(scene.space.volume()) as usize;
         place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
-        lattice += usize::from(group.placement == Placement::Lattice);
+        lattice += usize::from(group.placement.is_lattice());
         if let Some(water) = &model.shallow_water {
             fill(&mut state, group, first, model, water);
         }
@@ -38,9 +38,12 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         set_mean_depth(&mut state.masses[..water.carriers as usize], water);
         draw_thermal_velocities(&mut state, &thermal, model, water);
         draw_bath(&mut state, model, water);
+    } else if let Some(cells) = &model.voronoi {
+        voronoi_start::fill(&mut state, scene, model, cells);
     } else {
         if model.conserves_momentum() {
-            bring_to_rest(&mut state, &thermal, model);
+            let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
+            bring_to_rest(&mut state, &thermal, model.units.dimension, |id| masses[id]);
         }
         draw_position_baths(&mut state, model);
         draw_bond_baths(&mut state, model);
@@ -145,18 +148,23 @@ fn draw_bath(state: &mut State, model: &Model, water: &ShallowWater) {
 fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, shift: f64) {
     let dimension = model.units.dimension;
     let first = state.len();
-    if let (Some(chain), Placement::Random | Placement::Lattice) = (&group.chain, &group.placement) {
+    if let (Some(chain), Placement::Random | Placement::Lattice { .. }) = (&group.chain, &group.placement) {
         return chains::place(state, group, chain, count, model, shift);
     }
     match &group.placement {
         Placement::Random => {
             state.positions.extend((first..first + count).map(|id| random_position(id, model)));
         }
-        Placement::Lattice => {
+        Placement::Lattice { jitter } => {
             let sites = lattice_sites(count as u64, &model.units.lengths[..dimension]);
             let all: u128 = sites.iter().map(|sites| u128::from(*sites)).product();
             let offset = (0.5 + shift).fract();
+            let shifts = |id: usize| {
+                let shift = |word: u32| jitter * (f64::from(word) / 2_147_483_648.0 - 1.0);
+                if *jitter > 0.0 { random_position(id, model).map(shift) } else { [0.0; 3] }
+            };
             state.positions.extend((0..count).map(|index| {
+                let shifts = shifts(first + index);
                 // Sites left empty are spread over the lattice instead of collecting at its end.
                 let mut site = index as u128 * all / count as u128;
                 std::array::from_fn(|axis| {
@@ -165,7 +173,8 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
                     }
                     let coordinate = (site % u128::from(sites[axis])) as f64;
                     site /= u128::from(sites[axis]);
-                    ((coordinate + offset) / sites[axis] as f64 * 4_294_967_296.0).round() as u64 as u32
+                    let place = (coordinate + offset + shifts[axis]) / sites[axis] as f64;
+                    (place * 4_294_967_296.0).round() as i64 as u32
                 })
             }));
         }
@@ -216,6 +225,7 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
     match &group.velocities {
         _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
         // Masses differ from particle to particle there, and are known only once all are.
+        _ if model.voronoi.is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal if model.shallow_water.is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
@@ -241,7 +251,7 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
             });
             state.momenta.extend(balanced);
         }
-        Velocities::Rest => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Rest | Velocities::ShearWave { .. } => state.momenta.resize(first + count, [0; 3]),
         Velocities::Listed { velocities } => {
             state.momenta.extend(velocities.iter().take(count).map(|velocity| {
                 std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))
@@ -252,14 +262,13 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
 }
 
 /// Takes the common centre-of-mass velocity from the listed particles, to the last bit of their net momentum.
-fn bring_to_rest(state: &mut State, particles: &[usize], model: &Model) {
-    let mass = |species: u32| model.species[species as usize].mass;
-    let total_mass: f64 = particles.iter().map(|&particle| mass(state.species[particle])).sum();
-    for axis in 0..model.units.dimension {
+pub(super) fn bring_to_rest(state: &mut State, particles: &[usize], dimension: usize, mass: impl Fn(usize) -> f64) {
+    let total_mass: f64 = particles.iter().map(|&particle| mass(particle)).sum();
+    for axis in 0..dimension {
         let net: i64 = particles.iter().map(|&particle| i64::from(state.momenta[particle][axis])).sum();
         let mut left = net;
         for &particle in particles {
-            let share = (net as f64 * (mass(state.species[particle]) / total_mass)).round_ties_even() as i64;
+            let share = (net as f64 * (mass(particle) / total_mass)).round_ties_even() as i64;
             state.momenta[particle][axis] = (i64::from(state.momenta[particle][axis]) - share) as i32;
             left -= share;
         }

@@ -24,6 +24,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Problem> {
     // What follows from a model or a start needs a scene that makes sense.
     if problems.is_empty() {
         super::couplings::check_motion(scene, &mut problems);
+        super::voronoi::check_start(scene, &mut problems);
     }
     problems
 }
@@ -141,6 +142,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
             }
             Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
             Interaction::Dpd(dpd) => check_pairs(scene, dpd, &path, problems),
+            Interaction::Voronoi(voronoi) => super::voronoi::check(scene, voronoi, &path, problems),
             Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
             _ => {}
         }
@@ -149,6 +151,9 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     super::couplings::check_scene(scene, problems);
     if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
         super::shallow_water::check_absence(scene, problems);
+    }
+    if super::voronoi::voronoi(scene).is_none() {
+        super::voronoi::check_absence(scene, problems);
     }
     if super::harmonic_chain::harmonic_chain(scene).is_none() {
         super::harmonic_chain::check_absence(scene, problems);

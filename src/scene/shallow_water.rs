@@ -21,7 +21,7 @@ pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
         problems.push(Problem::new("space.box", found, "two edges: shallow water is two-dimensional"));
     }
     if !matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
-        let found = format!("found `{}`", integrator_name(&scene.integrator));
+        let found = format!("found `{}`", scene.integrator.name());
         problems.push(Problem::new("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water"));
     }
     check_mesh(water, path, problems);
@@ -166,7 +166,7 @@ fn trials(lengths: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
 pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
     let only = "a scene with a `shallow-water` interaction only";
     if matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
-        let found = format!("found `{}`", integrator_name(&scene.integrator));
+        let found = format!("found `{}`", scene.integrator.name());
         problems.push(Problem::new("integrator.type", found, only));
     }
     for (index, group) in scene.particles.iter().enumerate() {
@@ -184,15 +184,5 @@ pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     if scene.output.fields.is_some() {
         problems.push(Problem::new("output.fields", "found in a scene without a mesh", only));
-    }
-}
-
-fn integrator_name(integrator: &Integrator) -> &'static str {
-    match integrator {
-        Integrator::Splitting {} => "splitting",
-        Integrator::GrootWarren { .. } => "groot-warren",
-        Integrator::CotterReich {} => "cotter-reich",
-        Integrator::Gyro {} => "gyro",
-        Integrator::Rotate {} => "rotate",
     }
 }

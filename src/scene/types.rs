@@ -80,7 +80,8 @@ pub struct Time {
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
     /// traversal a step. The default: both temperatures within about one
-    /// per cent at a step of 0.04 in the standard fluid; with strong friction it runs cold.
+    /// per cent at a step of 0.04 in the standard fluid; with strong friction it runs cold. In Voronoi DPD O is friction
+    /// and noise by Crank-Nicolson.
     Splitting {},
     /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
     GrootWarren {
@@ -99,6 +100,24 @@ pub enum Integrator {
     Gyro {},
     /// Shallow water: R(½) kick(½) drift kick(½) R(½) with R the rotation of velocities alone.
     Rotate {},
+    /// Voronoi DPD: the explicit scheme of Euler, as printed by Flekkøy, Coveney and De Fabritiis,
+    /// doi:10.1103/PhysRevE.62.2140. Hot by 2 % at a time step of 0.005 where `splitting` is right at 0.16.
+    Euler {},
+}
+
+impl Integrator {
+    /// The name in a scene.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Splitting {} => "splitting",
+            Self::GrootWarren { .. } => "groot-warren",
+            Self::CotterReich {} => "cotter-reich",
+            Self::Gyro {} => "gyro",
+            Self::Rotate {} => "rotate",
+            Self::Euler {} => "euler",
+        }
+    }
 }
 
 fn half() -> f64 {
@@ -211,7 +230,12 @@ pub enum Placement {
     #[serde(rename_all = "kebab-case")]
     Random,
     /// The smallest nearly cubic (square) lattice that holds the group, filled evenly.
-    Lattice,
+    Lattice {
+        /// Largest random shift of a particle along each axis, as a part of the spacing. Not for chains.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        jitter: f64,
+    },
     /// Positions listed one by one; each is taken modulo the box.
     Listed {
         /// One position per particle.
@@ -225,6 +249,19 @@ pub enum Placement {
         #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl Placement {
+    /// Whether the particles start on a lattice, shifted or not.
+    #[must_use]
+    pub fn is_lattice(&self) -> bool {
+        matches!(self, Self::Lattice { .. })
+    }
 }
 
 /// A feature of the surface of shallow water, periodic in the box.
@@ -275,11 +312,24 @@ pub enum Velocities {
     Rest,
     /// Shallow water: in balance between rotation and the slope of the smoothed surface, V = (c₀²/f₀)(-∂H/∂y, ∂H/∂x).
     Geostrophic,
+    /// Voronoi DPD: a transverse wave `u_x = amplitude sin(2π periods y/L)` on top of Maxwell's distribution.
+    ShearWave {
+        /// The largest velocity.
+        amplitude: f64,
+        /// Number of waves in the box.
+        #[serde(default = "one_period")]
+        #[schemars(range(min = 1, max = 64))]
+        periods: u32,
+    },
     /// Velocities listed one by one.
     Listed {
         /// One velocity per particle.
         velocities: Vec<Vec<f64>>,
     },
+}
+
+fn one_period() -> u32 {
+    1
 }
 
 /// A force between particles.
@@ -302,6 +352,8 @@ pub enum Interaction {
     HarmonicChain(super::HarmonicChainInteraction),
     /// Rotating shallow water by the Hamiltonian particle-mesh method, with a heat bath on the mesh if asked for.
     ShallowWater(ShallowWaterInteraction),
+    /// Voronoi DPD: particles that are the cells of a tessellation, with friction, noise and pressure at their faces.
+    Voronoi(super::VoronoiInteraction),
 }
 
 /// Rotating shallow water on particles and a periodic mesh: Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
@@ -734,9 +786,34 @@ pub struct Output {
     /// Histograms of velocities and accelerations, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub histograms: Vec<Histogram>,
+    /// How many neighbours Voronoi cells have, as a table and a plot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neighbours: Option<Neighbours>,
+    /// The decay of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_wave: Option<ShearWave>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<Fields>,
+}
+
+/// The histogram of the numbers of neighbours of Voronoi cells, after equilibration.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbours {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+}
+
+/// The decay of the wave of `velocities` of type `shear-wave`, after equilibration.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShearWave {
+    /// Steps between two samples: long against the time in which friction relaxes a single cell, short against the
+    /// decay of the wave.
+    #[schemars(range(min = 1))]
+    pub every: u64,
 }
 
 /// Fields on the mesh, as pictures and arrays.
@@ -834,7 +911,7 @@ pub struct Snapshot {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
-    /// What the colour of a particle shows.
+    /// What the colour of a particle shows; left out, the species, or the density of Voronoi cells of one species.
     pub color: SnapshotColor,
 }
 
@@ -848,11 +925,15 @@ impl Default for Snapshot {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SnapshotColor {
-    /// The species (default).
+    /// The species.
     #[default]
     Species,
     /// The speed, on a perceptually uniform scale.
     Speed,
+    /// Mass by volume; of Voronoi cells only.
+    Density,
+    /// The temperature inside; of Voronoi cells with internal energies only.
+    Temperature,
 }
 
 /// Checkpoints to resume from.

@@ -8,7 +8,7 @@ use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
-use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference};
+use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -82,6 +82,23 @@ pub fn still_water(changes: &[&str]) -> Scene {
 pub fn shear_flow(changes: &[&str]) -> Scene {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     match scene::load("shallow-water", &changes) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Cells of unit mean volume and five molecules each, on a jittered lattice, with changes given as `path=value`.
+pub fn cells(count: u32, changes: &[&str]) -> Scene {
+    let edge = f64::from(count.max(1)).sqrt();
+    let text = format!(
+        r#"{{
+        "title": "test", "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.02, "steps": 1}}, "temperature": 1.0,
+        "particles": [{{"species": "A", "count": {count}, "mass": 5, "placement": {{"type": "lattice", "jitter": 0.25}}}}],
+        "interactions": [{{"type": "voronoi"}}], "output": {{"energies": {{"every": 1}}}}
+    }}"#
+    );
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", &text, &changes) {
         Ok(scene) => scene,
         Err(error) => panic!("{error}"),
     }
@@ -225,7 +242,7 @@ macro_rules! reference {
     };
 }
 
-reference!(Reference, CouplingsReference, ShallowWaterReference);
+reference!(Reference, CouplingsReference, ShallowWaterReference, VoronoiReference);
 
 /// An engine with what is needed to read its samples.
 pub struct Device {

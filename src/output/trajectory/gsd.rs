@@ -58,6 +58,9 @@ impl GsdTrajectory {
             let velocities =
                 (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
             file.write_arrays("particles/velocity", velocities)?;
+            if description.changing_masses && !first {
+                write_masses(file, description, state)?;
+            }
             file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), state.step, error))
         })?;
         self.empty = false;
@@ -91,6 +94,11 @@ fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
     GsdFile::create(path, application, "hoomd", (1, 4)).map_err(|error| open_error(path, "create", error))
 }
 
+fn write_masses(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
+    let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
+    file.write_scalars("particles/mass", masses)
+}
+
 fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
     let mut lengths = description.units.lengths.map(|length| length as f32);
     let dimension = description.units.dimension.max(2);
@@ -103,8 +111,7 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
-    let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
-    file.write_scalars("particles/mass", masses)?;
+    write_masses(file, description, state)?;
     let bonds = &description.bonds;
     if bonds.is_empty() {
         return Ok(());
@@ -307,8 +314,15 @@ mod tests {
     #[test]
     fn positions_stay_below_the_upper_face() {
         let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
-        let description =
-            Description { units, time_step: 0.1, species: Vec::new(), mass_unit: None, bonds: Vec::new() };
+        let description = Description {
+            units,
+            time_step: 0.1,
+            species: Vec::new(),
+            mass_unit: None,
+            specific_momenta: false,
+            changing_masses: false,
+            bonds: Vec::new(),
+        };
         assert_eq!(centred(&description, [1 << 31; 3]), [0.0; 3]);
         for fraction in [0, 1, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
             for (value, length) in centred(&description, [fraction; 3]).into_iter().zip(units.lengths) {

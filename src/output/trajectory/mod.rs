@@ -4,7 +4,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::OutputError;
-use crate::model::{Model, Species};
+use crate::model::{Model, Species, Voronoi};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::path::Path;
@@ -30,6 +30,10 @@ struct Description {
     species: Vec<Species>,
     /// Value of one unit of integer mass, where every particle has a mass of its own.
     mass_unit: Option<f64>,
+    /// Whether momenta are per unit of mass, as in shallow water.
+    specific_momenta: bool,
+    /// Whether particles exchange mass.
+    changing_masses: bool,
     /// Numbers of bonded particles and kind of the bond.
     bonds: Vec<([u32; 2], u32)>,
 }
@@ -40,7 +44,12 @@ impl Description {
             units: model.units,
             time_step: model.time_step,
             species: model.species.clone(),
-            mass_unit: model.shallow_water.as_ref().map(|water| water.mass_unit),
+            mass_unit: match (&model.shallow_water, &model.voronoi) {
+                (Some(water), _) => Some(water.mass_unit),
+                (None, cells) => cells.as_ref().map(|cells| cells.mass_unit),
+            },
+            specific_momenta: model.shallow_water.is_some(),
+            changing_masses: model.voronoi.as_ref().is_some_and(Voronoi::exchanges_mass),
             bonds: model.bonds.iter().flat_map(|bonds| &bonds.bonds).map(|bond| (bond.ends, bond.kind)).collect(),
         }
     }
@@ -56,9 +65,8 @@ impl Description {
         }
     }
 
-    /// In shallow water momenta are per unit of mass, and the mass of the species is 1.
     fn velocity(&self, state: &State, particle: usize) -> [f64; 3] {
-        let mass = self.species_of(state, particle).mass;
+        let mass = if self.specific_momenta { 1.0 } else { self.mass(state, particle) };
         self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
     }
 
@@ -133,6 +141,24 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::scene::{self, placement::initial_state};
+
+    #[test]
+    fn cells_have_velocities_by_masses_of_their_own() {
+        let scene = r#"{"title": "t", "space": {"box": [9, 9]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1,
+            "particles": [{"species": "A", "mass": 2, "placement": {"type": "listed", "positions": [[1, 1], [4, 1], [5, 5]]},
+                "velocities": {"type": "listed", "velocities": [[1, 0], [0, 2], [-1, 0.5]]}}],
+            "interactions": [{"type": "voronoi", "form": "paper", "initial_masses": "uniform-density"}]}"#;
+        let model = Model::new(&scene::parse("t", scene, &[]).unwrap());
+        let state = initial_state(&scene::parse("t", scene, &[]).unwrap(), &model);
+        let description = Description::new(&model);
+        assert!(description.changing_masses);
+        let masses = [0, 1, 2].map(|cell| description.mass(&state, cell));
+        assert!((masses.iter().sum::<f64>() - 6.0).abs() < 1e-9 && masses[0] != masses[1], "{masses:?}");
+        for (cell, expected) in [[1.0, 0.0], [0.0, 2.0], [-1.0, 0.5]].iter().enumerate() {
+            let found = description.velocity(&state, cell);
+            assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-5), "{cell}: {found:?}");
+        }
+    }
 
     #[test]
     fn particles_of_water_have_masses_of_their_own_and_tracers_none() {

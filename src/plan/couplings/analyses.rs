@@ -18,7 +18,7 @@ impl Builder<'_> {
             equilibration: self.equilibration,
             workgroup: self.options.workgroup(),
             space,
-            coefficients: self.coefficients(),
+            masses: vec![self.coefficients(), "common/mass_of_species"],
             particles: "reported",
             momenta: None,
             forces: "reported_forces",

@@ -71,6 +71,7 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
+        cells: None,
     }
 }
 

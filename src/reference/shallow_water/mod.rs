@@ -194,6 +194,7 @@ impl ShallowWaterReference {
             about_centre_of_mass: false,
             bath_energy: 0.0,
             bath_square: 0.0,
+            cells: None,
         };
         for (velocity, units) in report.velocities.iter().zip(&self.state.masses) {
             let mass = f64::from(*units) * water.mass_unit;

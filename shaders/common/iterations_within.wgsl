@@ -1,0 +1,2 @@
+// Iterations are those of a loop.
+fn demand_iterations() {}

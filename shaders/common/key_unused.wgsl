@@ -1,0 +1,2 @@
+// Nothing is drawn in this part of the step.
+fn prepare_noise() {}

@@ -1,0 +1,17 @@
+// The largest part of what a cell has that may cross one face, and how often it was reached.
+override EXCHANGE_LIMIT: f32;
+var<private> cuts: u32;
+
+// What is to come from the other cell, or to go there if negative.
+fn limited(wanted: f32, mine: f32, theirs: f32) -> f32 {
+    let most = EXCHANGE_LIMIT * select(mine, theirs, wanted > 0.0);
+    cuts += select(0u, 1u, abs(wanted) > most);
+    return clamp(wanted, -most, most);
+}
+// A loop, not a branch: see `raise`.
+fn report_cuts() {
+    for (var pending = cuts; pending != 0u; pending = 0u) {
+        let before = atomicAdd(&control.limited, pending);
+        if (before + pending < before) { atomicAdd(&control.limited_high, 1u); }
+    }
+}

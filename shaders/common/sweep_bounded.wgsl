@@ -1,0 +1,6 @@
+// Faces turn as they do, but for the bound on the push.
+fn limited_twist(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector {
+    let part = bounded_part(facet, twist, mine, theirs);
+    cuts += select(0u, 1u, part < 1.0);
+    return part * twist;
+}

@@ -1,0 +1,9 @@
+// Between cells close to each other a small way turns their face far, and the push that comes of it grows without bounds:
+// within the time it must not turn the face over more than a part of the smaller cell. The part of the twist to keep.
+fn bounded_part(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 {
+    let time_and_length = STEP * facet.length;
+    let swept = time_and_length * time_and_length * abs(mine.pressure - theirs.pressure) * dot(twist, twist)
+        * (1.0 / mine.mass + 1.0 / theirs.mass);
+    let most = EXCHANGE_LIMIT * min(mine.mass / mine.density, theirs.mass / theirs.density);
+    return select(1.0, sqrt(most / swept), swept > most);
+}

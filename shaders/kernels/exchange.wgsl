@@ -1,0 +1,44 @@
+// What crosses the faces: the owner of each computes it once, rounds it to integers, and hands it to both cells with
+// opposite signs. So momentum, mass and energy are constant to the last bit.
+override PARTICLES: u32;
+override IMPULSE_STEPS: f32; // units of momentum in one
+override MASS_STEPS: f32;    // units of mass in one
+override ENERGY_STEPS: f32;  // units of energy in one
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+
+const UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    prepare_noise();
+    let me = particles[slot];
+    let mine = side_of(slot, me);
+    var total = vec4<i32>(0);
+    var fits = true;
+    let count = face_counts[slot];
+    for (var number = 0u; number < count; number++) {
+        let face = number * PARTICLES + slot;
+        let word = face_words[face];
+        let other = neighbour_of(word);
+        let they = particles[other];
+        if (!owns_face(me.position.w, they.position.w)) { continue; }
+        let theirs = side_of(other, they);
+        let facet = facet_of(face, word, me.position, they.position);
+        let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
+        let mass = transferred_mass(facet, twist, mine, theirs);
+        let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
+            + rubbing_impulse(facet, mine, theirs);
+        let energy = energy_through(facet, twist, impulse, mass, mine, theirs);
+        let exact = vec4<f32>(impulse * IMPULSE_STEPS, mass * MASS_STEPS, energy * ENERGY_STEPS);
+        fits = fits && all(abs(exact) < vec4<f32>(UNITS_LIMIT));
+        let units = vec4<i32>(round(exact));
+        total += units;
+        move_units(other, -units);
+    }
+    move_units(slot, total);
+    raise(select(FAILURE_IMPULSE, 0u, fits));
+    report_cuts();
+}

@@ -1,0 +1,28 @@
+// All iterations in one workgroup: of few cells there is less to compute than to dispatch.
+override PARTICLES: u32;
+@group(0) @binding(25) var<storage, read_write> directions: array<vec4<f32>>; // of search, and its image; images behind them
+
+@compute @workgroup_size(LANES)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    var right = 0.0;
+    for (var group = lane; group < CELL_GROUPS; group += LANES) { right += solver.sums[group].z; }
+    for (var iteration = 0u; iteration <= ITERATIONS; iteration++) {
+        var products = vec4<f32>(0.0, 0.0, right, 0.0);
+        for (var slot = lane; slot < PARTICLES; slot += LANES) {
+            let mine = searches[slot];
+            let image = image_of_search(slot, mine);
+            directions[PARTICLES + slot] = vec4<f32>(image, 0.0, 0.0);
+            products += products_of(slot, mine, image);
+        }
+        let sums = sum_of_lanes(lane, products);
+        if (lane == 0u) { judge(sums); }
+        storageBarrier();
+        workgroupBarrier();
+        if (solver.running == 0u) { break; }
+        for (var slot = lane; slot < PARTICLES; slot += LANES) {
+            directions[slot] = step_along(slot, directions[PARTICLES + slot].xy, directions[slot]);
+        }
+        storageBarrier();
+        workgroupBarrier();
+    }
+}

@@ -1,0 +1,29 @@
+// The report of every cell: sums of its motion, mass, volume and what its equation of state gives.
+override PARTICLES: u32;
+override KINETIC: f32;         // sums' units in a real energy
+override VOLUME_STEPS: f32;    // and in a volume
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup, workgroups);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) { observe(slot); }
+    if (slot == 0u) { observe_run(); }
+    total_reduce(group, lane);
+}
+
+fn observe(slot: u32) {
+    let me = particles[slot];
+    let velocity = velocity_of(me);
+    let volume = volumes[slot];
+    total_add(0u, sum64_of_f32(0.5 * mass_of(me) * dot(velocity, velocity) * KINETIC));
+    total_add(1u, sum64_of_i32(me.momentum.x));
+    total_add(2u, sum64_of_i32(me.momentum.y));
+    total_add(3u, Sum64(me.position.z, 0u));
+    total_add(4u, sum64_of_f32(volume * VOLUME_STEPS));
+    total_add(5u, Sum64(face_counts[slot], 0u));
+    observe_gas(me, volume);
+    note_report(me);
+}

@@ -1,0 +1,23 @@
+// Every cell takes up what came through its faces.
+override PARTICLES: u32;
+@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
+
+const UNITS_LIMIT: i32 = 1073741824; // 2^30
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    var me = particles[slot];
+    let before = velocity_of(me);
+    let change = take_change(slot);
+    me.momentum += vec4<i32>(change.xyw, 0);
+    let mass = bitcast<i32>(me.position.z) + change.z;
+    me.position.z = bitcast<u32>(mass);
+    raise_at(select(FAILURE_MASS, 0u, mass > 0 && mass <= UNITS_LIMIT), me.position.w);
+    raise(select(0u, FAILURE_MOMENTUM, any_beyond(steps_of(me.momentum), UNITS_LIMIT)));
+    check_energy(me);
+    me.position = moved(me, before);
+    particles[slot] = me;
+}

@@ -1,0 +1,201 @@
+//! The plan of a scene of Voronoi DPD: Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
+//!
+//! Particles are brought into an order that depends on their positions and numbers only, every cell clips its polygon, the
+//! owner of each face computes what crosses it and hands it to both cells in integers, and the cells take it up. What is
+//! summed in single precision, for the solver of the friction, is summed in that order: a run depends neither on the order
+//! of storage before nor on the size of workgroups.
+
+mod exchange;
+mod friction;
+mod motion;
+mod report;
+mod tessellation;
+
+use super::{Buffer, Contents, Grid, Kernel, Layout, Options, Plan, Quanta, pair};
+use crate::model::{Model, Voronoi};
+use crate::noise::stream;
+use crate::scene::{Generator, Integrator, Output, VoronoiForm};
+
+/// Makes the plan of a model of Voronoi cells.
+pub(super) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &Output, options: Options) -> Plan {
+    let particles = model.particle_count();
+    let grid = grid(model, particles);
+    let layout = Layout::Cells { energies: cells.keeps_energy() };
+    let plan = Plan::new(model, grid.cells, layout, quanta(model), stream::FACE);
+    let mut builder = Builder { model, cells, grid, particles, options, equilibration, plan };
+    builder.constants();
+    builder.buffers();
+    builder.steps(output);
+    builder.observables(output);
+    builder.analyses(output);
+    builder.plan
+}
+
+/// About one particle a cell: a Voronoi cell then sees about thirty candidates for its neighbours.
+fn grid(model: &Model, particles: u64) -> Grid {
+    let width = (model.units.volume() / particles.max(1) as f64).sqrt();
+    Grid::new(&model.units, width, particles)
+}
+
+/// The volume of a cell on average.
+fn mean_volume(model: &Model) -> f64 {
+    model.units.volume() / model.particle_count().max(1) as f64
+}
+
+/// Units of the sums: those of pairs, and areas in 2⁻³² of that of a cell.
+fn quanta(model: &Model) -> Quanta {
+    Quanta { length_squared: mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    cells: &'a Voronoi,
+    grid: Grid,
+    particles: u64,
+    options: Options,
+    equilibration: u64,
+    plan: Plan,
+}
+
+impl Builder<'_> {
+    fn constants(&mut self) {
+        let (units, cells) = (self.model.units, self.cells);
+        let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
+        let shortest = units.lengths[0].min(units.lengths[1]);
+        self.plan.constants = vec![
+            ("UNIT_X", unit(0)),
+            ("UNIT_Y", unit(1)),
+            ("CELLS_X", f64::from(self.grid.cells[0])),
+            ("CELLS_Y", f64::from(self.grid.cells[1])),
+            ("CELLS", self.grid.count() as f64),
+            ("PARTICLES", self.particles as f64),
+            ("WORKGROUP", self.options.workgroup() as f64),
+            ("MASS_UNIT", cells.mass_unit),
+            ("MOMENTUM_UNIT", units.momentum),
+            ("ENERGY_UNIT", cells.energy_unit),
+            ("IMPULSE_STEPS", 1.0 / units.momentum),
+            ("MASS_STEPS", 1.0 / cells.mass_unit),
+            ("ENERGY_STEPS", 1.0 / cells.energy_unit),
+            // Rounding of single precision at a few hundred times what a cell usually has of it in a step.
+            ("ENERGY_SLACK", 4096.0 * cells.energy_unit),
+            ("TEMPERATURE", self.model.temperature),
+            ("MOLECULAR_MASS", cells.molecular_mass),
+            ("EXCHANGE_LIMIT", cells.exchange_limit),
+            ("VISCOSITY", cells.viscosity * self.model.time_step),
+            ("CONDUCTIVITY", cells.conductivity.unwrap_or(0.0) * self.model.time_step),
+            // Cells that jump over many others see nothing of them; none may go round the box.
+            ("DISPLACEMENT_LIMIT", (8.0 * mean_volume(self.model).sqrt()).min(0.4 * shortest)),
+        ];
+    }
+
+    /// Whether friction acts.
+    fn rubs(&self) -> bool {
+        self.cells.viscosity > 0.0
+    }
+
+    /// Whether friction has noise: cells with energies have temperatures of their own.
+    fn rubs_at_random(&self) -> bool {
+        self.rubs() && (self.model.temperature > 0.0 || self.cells.keeps_energy())
+    }
+
+    /// Whether heat is conducted.
+    fn conducts(&self) -> bool {
+        self.cells.conductivity.is_some_and(|conductivity| conductivity > 0.0)
+    }
+
+    /// Whether the limit on what crosses a face may act: on mass, heat and the volume that a turning face sweeps over.
+    fn has_limits(&self) -> bool {
+        self.cells.has_limits(self.model.temperature)
+    }
+
+    fn is_explicit(&self) -> bool {
+        self.model.integrator == Integrator::Euler {}
+    }
+
+    /// Workgroups with a lane for each of some things.
+    fn groups(&self, things: u64) -> u64 {
+        things.div_ceil(self.options.workgroup()).max(1)
+    }
+
+    /// Modules of what a cell is.
+    fn cell(&self) -> [&'static str; 2] {
+        ["common/cell", if self.cells.keeps_energy() { "common/gas_energy" } else { "common/gas_isothermal" }]
+    }
+
+    /// Modules that draw the random words of a face.
+    fn words(&self) -> &'static [&'static str] {
+        match self.model.generator {
+            Generator::Pcg4d => &["common/face_noise", "common/gaussian", "common/words_pcg4d"],
+            Generator::Threefry2x32 => {
+                &["common/face_noise", "common/gaussian", "common/threefry", "common/words_threefry"]
+            }
+        }
+    }
+
+    /// Modules of the form of pressures and mass exchange.
+    fn form(&self) -> &'static [&'static str] {
+        match self.cells.form {
+            VoronoiForm::Gradient if self.cells.keeps_energy() => &[
+                "common/twist",
+                "common/turn_bounded",
+                "common/sweep_limited",
+                "common/form_gradient",
+                "common/limit_on",
+            ],
+            VoronoiForm::Gradient if self.has_limits() => &[
+                "common/twist",
+                "common/turn_bounded",
+                "common/sweep_bounded",
+                "common/form_gradient",
+                "common/limit_on",
+            ],
+            VoronoiForm::Gradient => &["common/twist", "common/sweep_free", "common/form_gradient"],
+            VoronoiForm::Consistent => &[
+                "common/twist",
+                "common/sweep_free",
+                "common/form_exchange",
+                "common/turning_consistent",
+                "common/limit_on",
+            ],
+            VoronoiForm::Paper => &[
+                "common/twist",
+                "common/sweep_free",
+                "common/form_exchange",
+                "common/turning_paper",
+                "common/limit_on",
+            ],
+        }
+    }
+
+    /// Adds a kernel of the plane with further modules.
+    fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
+        let space = ["common/space2", "common/particle", "common/control", "common/dispatch"];
+        self.bare_kernel(name, [&space[..], modules].concat(), workgroups)
+    }
+
+    fn bare_kernel(&mut self, name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> usize {
+        self.plan.kernels.push(Kernel {
+            name,
+            modules,
+            workgroups: workgroups.max(1) as u32,
+            demand: None,
+            constants: Vec::new(),
+            renamed: Vec::new(),
+        });
+        self.plan.kernels.len() - 1
+    }
+
+    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        self.buffer_of(name, purpose, bytes, Contents::Zeros);
+    }
+
+    fn buffer_of(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
+        let bytes = bytes.max(64).next_multiple_of(16);
+        self.plan.buffers.push(Buffer { name, purpose, bytes, contents });
+    }
+
+    fn buffers(&mut self) {
+        self.buffer("control", "clock, key of the step's random words, failures", 64);
+        self.buffer("particles", "cells: place, mass, number, momentum, energy, species", 32 * self.particles);
+    }
+}

@@ -1,0 +1,143 @@
+//! The parts of a step, in order.
+
+use super::Builder;
+use super::exchange::Part;
+use super::tessellation::Occasion;
+use crate::scene::Output;
+
+/// What the cells take up, and from where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Change {
+    /// What came through the faces.
+    Taken,
+    /// The push of half a step, which comes again.
+    Kept,
+    /// The same once more, with what came through the faces in between.
+    Again,
+    /// The same twice, for nothing came in between.
+    Twice,
+}
+
+/// Which way cells go once they have taken up what they got.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Drift {
+    None,
+    /// Half a step, with the velocity after.
+    Half,
+    /// A whole step, with the velocity before.
+    Explicit,
+}
+
+impl Builder<'_> {
+    /// The kernels of a step, and those that go before its report.
+    pub(super) fn steps(&mut self, output: &Output) {
+        let tick = vec!["common/control", "common/dispatch", "common/begin_step", "common/threefry", "kernels/tick"];
+        self.plan.sort = vec![self.bare_kernel("tick", tick, 1)];
+        let geometry = self.geometry();
+        if self.is_explicit() {
+            self.plan.before_report = geometry;
+            self.plan.advance = self.explicit_step();
+        } else {
+            self.plan.report = geometry;
+            self.plan.advance = self.split_step();
+        }
+        self.plan.finish_report.clone_from(&self.plan.advance);
+        self.report(output);
+        self.plan.operations_per_particle = self.operations();
+    }
+
+    /// Some thirty candidates and a dozen cuts of a cell; three owned faces in every exchange, twice as many in those that
+    /// look ahead; and six faces in each of some five iterations of the solver.
+    fn operations(&self) -> f64 {
+        let count = |name: &str| {
+            let named = |kernel: &&usize| self.plan.kernels[**kernel].name == name;
+            self.plan.advance.iter().filter(named).count() as f64
+        };
+        let solver = if self.rubs() && !self.is_explicit() { 5.0 * 6.0 * 25.0 } else { 0.0 };
+        30.0 * 60.0 + 12.0 * 250.0 + 3.0 * 100.0 * (count("exchange") + 2.0 * count("predict")) + solver
+    }
+
+    /// Everything from what there is at the beginning of the step, as printed.
+    fn explicit_step(&mut self) -> Vec<usize> {
+        self.exchange_buffer("exchanges");
+        let mut kernels = self.exchange(Part::Everything, "exchanges");
+        kernels.push(self.take_up(Change::Taken, Drift::Explicit));
+        kernels
+    }
+
+    /// A half drift, half a push, friction and heat, half a push, a half drift.
+    fn split_step(&mut self) -> Vec<usize> {
+        let mut modules = vec!["common/grid2", "common/cell", "common/cell_drift", "kernels/drift_cells"];
+        let groups = self.groups(self.particles);
+        let drift = self.kernel("drift", &std::mem::take(&mut modules), groups);
+        self.plan.kernels[drift].constants = self.drift_constants(0.5);
+        let mut kernels = vec![drift];
+        kernels.extend(self.geometry_for(Occasion::Midway));
+        let between = if self.rubs() { Some(Part::Friction) } else { self.conducts().then_some(Part::Heat) };
+        // Constant masses at a constant temperature push as they did before friction.
+        if !self.cells.exchanges_mass() && !self.cells.keeps_energy() {
+            self.exchange_buffer("pushes");
+            kernels.extend(self.exchange(Part::Pressure, "pushes"));
+            if let Some(part) = between {
+                self.exchange_buffer("exchanges");
+                kernels.push(self.take_up(Change::Kept, Drift::None));
+                kernels.extend(self.between(part));
+                kernels.push(self.take_up(Change::Again, Drift::Half));
+            } else {
+                kernels.push(self.take_up(Change::Twice, Drift::Half));
+            }
+            return kernels;
+        }
+        self.exchange_buffer("exchanges");
+        let push = self.exchange(Part::Pressure, "exchanges");
+        let take_up = self.take_up(Change::Taken, Drift::None);
+        kernels.extend(&push);
+        kernels.push(take_up);
+        if let Some(part) = between {
+            kernels.extend(self.between(part));
+            kernels.push(take_up);
+        }
+        kernels.extend(&push);
+        kernels.push(self.take_up(Change::Taken, Drift::Half));
+        kernels
+    }
+
+    /// What comes between the two halves of a push.
+    fn between(&mut self, part: Part) -> Vec<usize> {
+        let mut kernels = if part == Part::Friction { self.solve_friction() } else { Vec::new() };
+        kernels.extend(self.exchange(part, "exchanges"));
+        kernels
+    }
+
+    fn exchange_buffer(&mut self, name: &'static str) {
+        self.buffer(name, "what came through the faces of each cell: momentum, mass, energy", 16 * self.particles);
+    }
+
+    /// The kernel that adds to the cells what came through their faces.
+    fn take_up(&mut self, change: Change, drift: Drift) -> usize {
+        let mut modules = self.cell().to_vec();
+        modules.push(match change {
+            Change::Taken => "common/change_taken",
+            Change::Kept => "common/change_kept",
+            Change::Again => "common/change_again",
+            Change::Twice => "common/change_twice",
+        });
+        modules.push(if self.cells.keeps_energy() { "common/store_energy" } else { "common/store_isothermal" });
+        modules.extend(match drift {
+            Drift::None => &["common/cell_stays"][..],
+            Drift::Half => &["common/cell_moves", "common/cell_drift"],
+            Drift::Explicit => &["common/cell_moves_before", "common/cell_drift"],
+        });
+        modules.push("kernels/take_up");
+        let groups = self.groups(self.particles);
+        let kernel = self.kernel("take_up", &modules, groups);
+        if drift != Drift::None {
+            self.plan.kernels[kernel].constants = self.drift_constants(if drift == Drift::Half { 0.5 } else { 1.0 });
+        }
+        kernel
+    }
+
+    fn drift_constants(&self, part: f64) -> Vec<(&'static str, f64)> {
+        vec![("DRIFT_STEP", part * self.model.time_step)]
+    }
+}

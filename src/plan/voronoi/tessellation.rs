@@ -1,0 +1,185 @@
+//! The order of the particles and the cells around them.
+
+use super::Builder;
+
+/// Rows of cells that a single workgroup still scans faster than three kernels would.
+const SINGLE_SCAN_ROWS: u64 = 1024;
+
+/// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
+const PRIVATE_CORNERS: u64 = 24;
+
+/// Cells of which one is expected to be in doubt at most: where there are more, invocations make several one after another.
+const DOUBTFUL_SHARE: u64 = 8;
+
+/// What an ordering of the particles is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Occasion {
+    /// A report: nobody has counted the particles into cells yet, and the clock stands still.
+    Report,
+    /// Within a step: the drift before has counted the particles.
+    Midway,
+}
+
+impl Builder<'_> {
+    /// Kernels that order the particles as they are now and find the cells around them, for a report.
+    pub(super) fn geometry(&mut self) -> Vec<usize> {
+        self.geometry_for(Occasion::Report)
+    }
+
+    /// Kernels that order the particles as they are now and find the cells around them. They share buffers, and those that
+    /// do the same are one.
+    pub(super) fn geometry_for(&mut self, occasion: Occasion) -> Vec<usize> {
+        let mut kernels = Vec::new();
+        if occasion == Occasion::Report {
+            let groups = self.groups(self.particles);
+            kernels.push(self.shared_kernel("bin", &["common/grid2", "kernels/bin"], groups));
+        }
+        self.scan(&mut kernels);
+        let arrange_groups = self.groups(self.particles.max(self.grid.count()));
+        let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
+        let sorted = ["common/grid2", "common/cells_plain", "common/sorted_plain"];
+        kernels.push(self.shared_kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
+        let groups = self.groups(self.particles);
+        kernels.push(self.shared_kernel(
+            "order_cells",
+            &[&sorted[..], &["common/places", "kernels/order_cells"]].concat(),
+            groups,
+        ));
+        let stored = self.options.list_growth > 0;
+        let corners = if stored { "common/corners_stored" } else { "common/corners_private" };
+        let cells =
+            ["common/grid2", "common/cells_plain", "common/face", "common/places", "common/sites", "common/meeting"];
+        let few = ["common/few_corners", "common/rows_around", "kernels/tessellate"];
+        let quickly = self.shared_kernel("tessellate", &[&cells[..], &few].concat(), groups);
+        self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
+        let polygon = [corners, "common/polygon", "common/in_circle", "kernels/tessellate_exactly"];
+        let groups = self.groups(self.particles.div_ceil(DOUBTFUL_SHARE));
+        let exactly = self.shared_kernel("tessellate_exactly", &[&cells[..], &polygon].concat(), groups);
+        let [x_weight, y_weight] = weights(self.model.units.lengths);
+        let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
+        self.plan.kernels[exactly].constants = vec![
+            ("SPACING", self.spacing()),
+            ("CORNERS", self.face_capacity() as f64),
+            ("WEIGHT_X_LOW", low(x_weight)),
+            ("WEIGHT_X_HIGH", high(x_weight)),
+            ("WEIGHT_Y_LOW", low(y_weight)),
+            ("WEIGHT_Y_HIGH", high(y_weight)),
+        ];
+        kernels.extend([quickly, exactly]);
+        self.geometry_buffers();
+        kernels
+    }
+
+    /// Kernels of the prefix sum over grid cells.
+    fn scan(&mut self, kernels: &mut Vec<usize>) {
+        let rows = self.grid.rows();
+        let scan = ["common/grid2", "common/cells_plain", "common/row_scan"];
+        if self.scans_at_once() {
+            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
+            kernels.push(self.shared_kernel("scan", &all, 1));
+        } else {
+            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
+            kernels.push(self.shared_kernel("scan_blocks", &blocks, rows.div_ceil(256)));
+            let tops = ["common/grid2", "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
+            kernels.push(self.shared_kernel("scan_tops", &tops, 1));
+            let groups = self.groups(rows);
+            kernels.push(self.shared_kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
+        }
+    }
+
+    fn scans_at_once(&self) -> bool {
+        self.grid.rows() <= SINGLE_SCAN_ROWS && !self.options.many_level_scan
+    }
+
+    /// Room for the faces of a cell: more each time that a run has found it too little, but not for more than there can be.
+    fn face_capacity(&self) -> u64 {
+        let growth = self.options.list_growth;
+        if growth == 0 {
+            return PRIVATE_CORNERS;
+        }
+        // Every face ends at two corners, where at least three cells meet; and on the way there are two more.
+        let most = (6 * self.particles + 2).max(PRIVATE_CORNERS);
+        128_u64.saturating_mul(4_u64.saturating_pow(growth - 1)).min(most)
+    }
+
+    /// Mean distance of particles: the unit of length of a cell's polygon.
+    fn spacing(&self) -> f64 {
+        (self.model.units.volume() / self.particles.max(1) as f64).sqrt()
+    }
+
+    /// A kernel that is made once, however often it is asked for.
+    fn shared_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
+        let wanted = self.kernel(name, modules, workgroups);
+        let kernels = &self.plan.kernels;
+        let known = kernels[..wanted]
+            .iter()
+            .position(|kernel| kernel.name == name && kernel.modules == kernels[wanted].modules);
+        if known.is_some() {
+            self.plan.kernels.pop();
+        }
+        known.unwrap_or(wanted)
+    }
+
+    fn geometry_buffers(&mut self) {
+        if self.plan.buffers.iter().any(|buffer| buffer.name == "sorted") {
+            return;
+        }
+        let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
+        self.buffer("sorted", "particles in order of grid cells", 32 * particles);
+        self.buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
+        self.buffer("counts", "particles in each grid cell", 4 * cells);
+        self.buffer("ranks", "place of each particle in its grid cell", 4 * particles);
+        self.buffer("places", "where particles are, and which cells are in doubt", 8 + 16 * particles);
+        if !self.scans_at_once() {
+            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        }
+        let faces = self.face_capacity() * particles;
+        // With many faces a cell's polygon is where its faces will be, and takes more room.
+        let lengths = if self.options.list_growth > 0 { 2 * faces } else { faces };
+        self.buffer("face_counts", "number of faces of each cell", 4 * particles);
+        self.buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
+        self.buffer("face_lengths", "length of each face", 4 * lengths);
+        self.buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
+        self.buffer("volumes", "area of each cell", 4 * particles);
+    }
+}
+
+/// Whole numbers in the ratio of the squares of the box's edges: the smallest that are right to 32 bits, by continued
+/// fractions. Which cells are neighbours is decided exactly for a box whose edges are in that ratio.
+fn weights(lengths: [f64; 3]) -> [u64; 2] {
+    const LARGEST: f64 = 9.0e15;
+    let ratio = ((lengths[1] / lengths[0]) * (lengths[1] / lengths[0])).clamp(1.0 / LARGEST, LARGEST);
+    let (mut before, mut now) = ([0.0, 1.0], [1.0, 0.0]);
+    let mut rest = ratio;
+    loop {
+        let whole = rest.floor();
+        let next = [whole * now[0] + before[0], whole * now[1] + before[1]];
+        if next[0].max(next[1]) > LARGEST {
+            break;
+        }
+        (before, now) = (now, next);
+        let close = (now[0] / now[1] - ratio).abs() <= ratio * 2_f64.powi(-32);
+        if close || rest == whole {
+            break;
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    [now[1] as u64, now[0] as u64]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::weights;
+
+    #[test]
+    fn weights_are_in_the_ratio_of_squared_edges() {
+        assert_eq!(weights([7.0, 7.0, 1.0]), [1, 1]);
+        assert_eq!(weights([10.0, 20.0, 1.0]), [1, 4]);
+        let pi = std::f64::consts::PI;
+        for lengths in [[1000.0, 0.01, 1.0], [3.0_f64.sqrt(), 2.0, 1.0], [pi, 100.0, 1.0], [1.0, 0.123_456_789, 1.0]] {
+            let [x, y] = weights(lengths);
+            let (found, expected) = (y as f64 / x as f64, (lengths[1] / lengths[0]).powi(2));
+            assert!((found / expected - 1.0).abs() <= 2_f64.powi(-32), "{lengths:?}: {x}, {y}");
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! Pictures of Voronoi cells: what is shown, and its layout around the view of the box.
+
+use super::canvas::{Area, Canvas};
+use super::color_map::{ColorMap, ColorScale};
+use super::error::PlotError;
+use super::palette::{Colour, inks, scale_colour};
+use super::snapshot_page::{Key, Page};
+use crate::scene::{Snapshot, Theme};
+use crate::tessellation::Tessellation;
+
+/// The cells of one moment and what to write beside them.
+#[derive(Debug, Clone, Copy)]
+pub struct CellPicture<'a> {
+    /// Edge lengths of the box, which spans from zero to these.
+    pub lengths: [f64; 2],
+    /// The place of each cell, in units of length.
+    pub positions: &'a [[f64; 2]],
+    /// The cells at these places.
+    pub tessellation: &'a Tessellation,
+    /// One index into `species_names` per cell.
+    pub species: &'a [u32],
+    /// Names of the species.
+    pub species_names: &'a [String],
+    /// What colours show, with one value per cell; left out, the species.
+    pub shown: Option<ShownValues<'a>>,
+    /// One line that says what is shown; may be empty.
+    pub title: &'a str,
+    /// Conditions, in smaller type; may be empty.
+    pub subtitle: &'a str,
+}
+
+/// Values of cells, from dark blue at the lowest to yellow at the highest.
+#[derive(Debug, Clone, Copy)]
+pub struct ShownValues<'a> {
+    /// Name with the unit in parentheses.
+    pub label: &'a str,
+    /// One value per cell; what is not finite has the colour of the lowest.
+    pub values: &'a [f64],
+}
+
+/// Colours leave this part of the cells beyond each end of their scale, if that makes it much shorter.
+const BEYOND: f64 = 0.005;
+/// A scale this many times as long as that without the cells beyond hides all others.
+const MUCH_LONGER: f64 = 1.3;
+/// Width of the lines between cells in their mean width; no line is drawn where it could not be seen.
+const LINE: f64 = 0.06;
+const THINNEST_LINE: f64 = 0.2;
+
+fn check(picture: &CellPicture<'_>) -> Result<(), PlotError> {
+    let count = picture.positions.len();
+    let refuse = |message: String| Err(PlotError::Input(message));
+    let values = picture.shown.map_or(count, |shown| shown.values.len());
+    for (length, name) in
+        [(picture.tessellation.cells.len(), "cells"), (picture.species.len(), "species"), (values, "values")]
+    {
+        if length != count {
+            return refuse(format!("{count} positions but {length} {name}"));
+        }
+    }
+    if let Some(species) = picture.species.iter().find(|species| **species as usize >= picture.species_names.len()) {
+        return refuse(format!("species {species} has no name"));
+    }
+    match picture.lengths.iter().position(|length| !(length.is_finite() && *length > 0.0)) {
+        Some(axis) => refuse(format!("the box has length {} along axis {axis}", picture.lengths[axis])),
+        None => Ok(()),
+    }
+}
+
+/// Lays out a picture of Voronoi cells. A cell that crosses an edge of the box is cut off there and comes in again on the
+/// other side.
+///
+/// # Errors
+/// [`PlotError::Input`] if the lists differ in length or a length is not positive; [`PlotError::Font`].
+pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme) -> Result<Canvas, PlotError> {
+    check(picture)?;
+    let inks = inks(theme);
+    let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
+    let page = Page::new(style);
+    let (range, cut) = picture.shown.map_or(([0.0, 1.0], false), |shown| range(shown.values));
+    let subtitle = match picture.subtitle {
+        subtitle if !cut => subtitle.to_owned(),
+        "" => "1 % of the cells are beyond the scale".to_owned(),
+        subtitle => format!("{subtitle}; 1 % of the cells are beyond the scale"),
+    };
+    let scale = ColorScale::new(ColorMap::Sequential, cut.then_some(range), Some(range));
+    let key = match picture.shown {
+        Some(shown) => Key::Scale { name: shown.label, map: scale.bar },
+        None => Key::species(picture.species_names, picture.species, &inks),
+    };
+    let frame = page.frame(&mut canvas, [picture.title, &subtitle], &key, &inks);
+    let [width, height] = picture.lengths;
+    let rule = page.rule;
+    let pixels_per_length =
+        ((frame.width() - 2.0 * rule) / width).min((frame.height() - 2.0 * rule) / height).max(1e-9 / width);
+    let centre = frame.centre();
+    let half = [0.5 * width * pixels_per_length, 0.5 * height * pixels_per_length];
+    let outline = Area {
+        left: centre[0] - half[0],
+        top: centre[1] - half[1],
+        right: centre[0] + half[0],
+        bottom: centre[1] + half[1],
+    };
+    let colour = |cell: usize| match picture.shown {
+        Some(shown) => scale_colour(scale.bar.fraction(shown.values[cell]).unwrap_or(0.0)),
+        None => key.colour_of(picture.species[cell]),
+    };
+    canvas.clip(Some(outline));
+    draw(&mut canvas, picture, [outline.left, outline.bottom], pixels_per_length, inks.paper, colour);
+    canvas.clip(None);
+    for (from, to) in [
+        ([outline.left, outline.top], [outline.right, outline.top]),
+        ([outline.right, outline.top], [outline.right, outline.bottom]),
+        ([outline.right, outline.bottom], [outline.left, outline.bottom]),
+        ([outline.left, outline.bottom], [outline.left, outline.top]),
+    ] {
+        canvas.line(from, to, rule, inks.ink);
+    }
+    page.footer(&mut canvas, &key, &inks, outline, pixels_per_length);
+    Ok(canvas)
+}
+
+/// Paints all cells and the lines between them; `origin` is the place of the lower left corner of the box.
+fn draw(
+    canvas: &mut Canvas,
+    picture: &CellPicture<'_>,
+    origin: [f64; 2],
+    pixels_per_length: f64,
+    paper: Colour,
+    colour: impl Fn(usize) -> Colour,
+) {
+    let cells = &picture.tessellation.cells;
+    let pixel = |[x, y]: [f64; 2]| [origin[0] + x * pixels_per_length, origin[1] - y * pixels_per_length];
+    for (index, cell) in cells.iter().enumerate() {
+        for place in images(picture, index) {
+            let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
+            let Some((first, rest)) = cell.corners.split_first() else { continue };
+            // Cells are convex: a fan of triangles fills one.
+            for pair in rest.windows(2) {
+                canvas.triangle([corner(*first), corner(pair[0]), corner(pair[1])], colour(index));
+            }
+        }
+    }
+    let spacing = (picture.lengths[0] * picture.lengths[1] / cells.len().max(1) as f64).sqrt() * pixels_per_length;
+    let width = (LINE * spacing).min(0.0022 * f64::from(canvas.width.min(canvas.height)));
+    if width < THINNEST_LINE {
+        return;
+    }
+    for (index, cell) in cells.iter().enumerate() {
+        // A face is seen from both sides, and drawn once.
+        let own = |face: &crate::tessellation::Face| {
+            face.neighbour > index || face.neighbour == index && face.separation > [0.0, 0.0]
+        };
+        for place in images(picture, index) {
+            let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
+            for (number, _) in cell.faces.iter().enumerate().filter(|(_, face)| own(face)) {
+                let next = (number + 1) % cell.corners.len();
+                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, paper);
+            }
+        }
+    }
+}
+
+/// The places of all images of a cell of which a part is in the box.
+fn images(picture: &CellPicture<'_>, index: usize) -> Vec<[f64; 2]> {
+    let place = picture.positions[index];
+    let shifts = [0, 1].map(|axis| {
+        let parts = picture.tessellation.cells[index].corners.iter().map(|corner| place[axis] + corner[axis]);
+        let [low, high] =
+            parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| [low.min(part), high.max(part)]);
+        let length = picture.lengths[axis];
+        // A cell is no wider than the box.
+        let seen = move |turns: &f64| high + turns * length > 0.0 && low + turns * length < length;
+        [-1.0, 0.0, 1.0].into_iter().filter(seen).map(|turns| turns * length).collect::<Vec<f64>>()
+    });
+    let [x, y] = &shifts;
+    x.iter().flat_map(|x| y.iter().map(move |y| [place[0] + x, place[1] + y])).collect()
+}
+
+/// Ends of the scale for values, and whether some lie beyond.
+fn range(values: &[f64]) -> ([f64; 2], bool) {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (Some(low), Some(high)) = (sorted.first(), sorted.last()) else { return ([0.0, 1.0], false) };
+    let left = (BEYOND * sorted.len() as f64) as usize;
+    let inner = [sorted[left], sorted[sorted.len() - 1 - left]];
+    let cut = left > 0 && high - low > MUCH_LONGER * (inner[1] - inner[0]) && inner[1] > inner[0];
+    (if cut { inner } else { [*low, *high] }, cut)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn picture<'a>(
+        lengths: [f64; 2],
+        positions: &'a [[f64; 2]],
+        tessellation: &'a Tessellation,
+        species: &'a [u32],
+        names: &'a [String],
+    ) -> CellPicture<'a> {
+        CellPicture {
+            lengths,
+            positions,
+            tessellation,
+            species,
+            species_names: names,
+            shown: None,
+            title: "",
+            subtitle: "",
+        }
+    }
+
+    #[test]
+    fn images_are_those_with_a_part_in_the_box() {
+        let positions = [[0.5, 2.0], [2.0, 2.0], [3.5, 2.0], [2.0, 0.0]];
+        let tessellation = Tessellation::new([4.0, 4.0], &positions);
+        let names = ["A".to_owned()];
+        let picture = picture([4.0, 4.0], &positions, &tessellation, &[0; 4], &names);
+        assert_eq!(images(&picture, 1), [[2.0, 2.0]], "inside");
+        // Cut by the lower edge, the one at its corner by both.
+        assert!(images(&picture, 3).contains(&[2.0, 4.0]), "{:?}", images(&picture, 3));
+        // All images together cover the box: what they show of it adds up to its area.
+        let lone = [[1.0, 3.5]];
+        let whole = Tessellation::new([4.0, 4.0], &lone);
+        let one = self::picture([4.0, 4.0], &lone, &whole, &[0], &names);
+        assert_eq!(images(&one, 0).len(), 4, "a cell as large as the box");
+    }
+
+    #[test]
+    fn every_face_is_a_line_once() {
+        let positions: Vec<[f64; 2]> = (0..16).map(|site| [f64::from(site % 4), f64::from(site / 4) + 0.5]).collect();
+        let tessellation = Tessellation::new([4.0, 4.0], &positions);
+        let names = ["A".to_owned()];
+        let picture = picture([4.0, 4.0], &positions, &tessellation, &[0; 16], &names);
+        let style = Snapshot { width: 190, height: 190, ..Snapshot::default() };
+        let canvas = lay_out(&picture, &style, Theme::Light).unwrap();
+        // Cells centred on the left edge show on the right too: 20 of two triangles each. Each of 32 faces once, and once
+        // more the 12 that belong to those cells, which have the lower numbers. Four lines are the box.
+        let lines = canvas.shapes.iter().filter(|shape| shape.kind == 0).count();
+        let triangles = canvas.shapes.iter().filter(|shape| shape.kind == 4).count();
+        assert_eq!((triangles, lines), (40, 32 + 12 + 4));
+    }
+
+    #[test]
+    fn a_few_extreme_cells_do_not_set_the_scale() {
+        let mut values: Vec<f64> = (0..1000).map(|index| 1.0 + 1e-3 * f64::from(index)).collect();
+        assert_eq!(range(&values), ([1.0, 1.999], false));
+        values[3] = 1e6;
+        let (ends, cut) = range(&values);
+        assert!(cut && ends[1] < 2.0 && ends[0] < 1.01, "{ends:?}");
+        assert_eq!(range(&[f64::NAN]), ([0.0, 1.0], false));
+        assert_eq!(range(&[1.0, 1e6]), ([1.0, 1e6], false), "few cells");
+    }
+
+    #[test]
+    fn lists_have_to_fit() {
+        let positions = [[0.5, 0.5]];
+        let tessellation = Tessellation::new([1.0, 1.0], &positions);
+        let names = ["A".to_owned()];
+        let right = picture([1.0, 1.0], &positions, &tessellation, &[0], &names);
+        let style = Snapshot::default();
+        assert!(lay_out(&right, &style, Theme::Dark).is_ok());
+        let shown = Some(ShownValues { label: "x", values: &[] });
+        for wrong in [
+            CellPicture { species: &[], ..right },
+            CellPicture { species: &[1], ..right },
+            CellPicture { shown, ..right },
+            CellPicture { lengths: [1.0, 0.0], ..right },
+        ] {
+            assert!(matches!(lay_out(&wrong, &style, Theme::Dark), Err(PlotError::Input(_))));
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! The charts of Voronoi DPD, made from the tables of a run.
+
+use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
+use super::presets::EnergyTable;
+
+/// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures, and what has
+/// been added to the energies of a cell since the first row.
+///
+/// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
+#[must_use]
+pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64) -> Chart {
+    let time = "Time (time units)";
+    let temperature = |column: &str| table.points(column, 1.0).unwrap_or_default();
+    let temperatures = Panel::new(time, "Temperature (energy units)")
+        .with(Series::line("of the motion", temperature("temperature")))
+        .with(Series::line("inside", temperature("internal_temperature")));
+    let change = |column: &str| {
+        let points = table.points(column, particle_count.max(1) as f64).unwrap_or_default();
+        let first = points.first().map_or(f64::NAN, |point| point[1]);
+        points.iter().map(|point| [point[0], point[1] - first]).collect()
+    };
+    let changes = Panel::new(time, "Change of energy per cell (energy units)")
+        .with(Series::line("kinetic", change("kinetic_energy")))
+        .with(Series::line("internal", change("internal_energy")))
+        .with(Series::line("total", change("total_energy")));
+    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
+}
+
+/// The histogram of the numbers of neighbours of cells, beside that of random points, with the mean of 6 that every
+/// tessellation has.
+///
+/// The columns are `neighbours`, `fraction`, `fraction_error` and `random_points`.
+#[must_use]
+pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
+    let index = |name: &str| table.columns.iter().position(|column| column == name);
+    let column = |name: &str| -> Vec<f64> {
+        let index = index(name);
+        let cell = |row: &Vec<f64>| index.and_then(|index| row.get(index)).copied().unwrap_or(f64::NAN);
+        table.rows.iter().map(cell).collect()
+    };
+    let [numbers, fractions, errors, random] =
+        ["neighbours", "fraction", "fraction_error", "random_points"].map(column);
+    let highest = fractions.iter().chain(&random).copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let mut steps: Vec<[f64; 2]> =
+        numbers.iter().zip(&fractions).flat_map(|(n, f)| [[n - 0.5, *f], [n + 0.5, *f]]).collect();
+    // From the axis and back to it.
+    if let (Some([left, _]), Some([right, _])) = (steps.first().copied(), steps.last().copied()) {
+        steps.insert(0, [left, 0.0]);
+        steps.push([right, 0.0]);
+    }
+    let mean = numbers.iter().zip(&fractions).map(|(n, f)| n * f).sum::<f64>();
+    let square = numbers.iter().zip(&fractions).map(|(n, f)| n * n * f).sum::<f64>();
+    let mut panel = Panel::new("Neighbours of a cell", "Fraction of cells");
+    panel.series.push(Series::line("measured", steps));
+    let compared = numbers.iter().zip(&random).map(|(n, f)| [*n, *f]).collect();
+    panel.series.push(Series::markers("random points", compared));
+    let points = numbers.iter().zip(&fractions).map(|(n, f)| [*n, *f]).collect();
+    if errors.iter().any(|error| error.is_finite() && *error > 0.0) {
+        let bars = Series::markers("", points).with_errors(errors).with_ink(SeriesInk::Ink { pattern: 0 });
+        panel.series.push(bars);
+    }
+    let top = 1.08 * highest.max(1e-9);
+    let exact = Series::line("mean of every tessellation, 6", vec![[6.0, 0.0], [6.0, top]]);
+    panel.series.push(exact.with_ink(SeriesInk::Ink { pattern: 1 }));
+    panel.y.range = Some([0.0, top]);
+    let subtitle = format!("mean {mean:.4}, variance {:.3}; 1.78 for random points", square - mean * mean);
+    Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
+}
+
+/// The amplitude of a shear wave over time, with the exponential decay fitted to it: on a linear axis, and its magnitude on a
+/// logarithmic one.
+///
+/// The columns are `time`, `amplitude` and `fit`.
+#[must_use]
+pub fn shear_wave_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+    let [amplitude, fit] = ["amplitude", "fit"].map(|column| table.points(column, 1.0).unwrap_or_default());
+    let fitted = fit.iter().any(|point| point[1].is_finite());
+    let magnitude = amplitude.iter().map(|[time, value]| [*time, value.abs()]).collect();
+    let mut panels = Vec::new();
+    for (label, points) in [("Amplitude of the velocity", amplitude), ("Its magnitude", magnitude)] {
+        // One legend is enough.
+        let name = |name: &'static str| if panels.is_empty() { name } else { "" };
+        let mut panel = Panel::new("Time (time units)", label).with(Series::line(name("measured"), points));
+        if fitted {
+            let fit = Series::line(name("exponential decay"), fit.clone());
+            panel.series.push(fit.with_ink(SeriesInk::Ink { pattern: 1 }));
+        }
+        panels.push(panel);
+    }
+    panels[0].references.push(super::chart::ReferenceLine { label: String::new(), value: 0.0 });
+    panels[1].y = Axis::log("Its magnitude");
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
+        EnergyTable {
+            columns: columns.iter().map(ToString::to_string).collect(),
+            rows: rows.iter().map(|row| row.to_vec()).collect(),
+        }
+    }
+
+    #[test]
+    fn a_histogram_stands_on_its_axis() {
+        let columns = ["neighbours", "fraction", "fraction_error", "random_points"];
+        let chart = neighbours_chart("t", &table(&columns, &[&[5.0, 0.25, 0.01, 0.26], &[7.0, 0.75, 0.01, 0.2]]));
+        let panel = &chart.panels[0];
+        assert_eq!(
+            panel.series[0].points,
+            [[4.5, 0.0], [4.5, 0.25], [5.5, 0.25], [6.5, 0.75], [7.5, 0.75], [7.5, 0.0]]
+        );
+        assert!(chart.subtitle.starts_with("mean 6.5000, variance 0.750"), "{}", chart.subtitle);
+        assert_eq!(panel.series[2].errors, Some(vec![0.01; 2]));
+        let names: Vec<&str> = panel.series.iter().map(|series| series.name.as_str()).collect();
+        assert_eq!(names, ["measured", "random points", "", "mean of every tessellation, 6"]);
+    }
+
+    #[test]
+    fn a_wave_has_its_fit_beside_it() {
+        let columns = ["time", "amplitude", "fit"];
+        let chart = shear_wave_chart("t", "s", &table(&columns, &[&[0.0, 1.0, 1.0], &[1.0, -0.5, 0.6]]));
+        assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.5]);
+        assert_eq!(chart.panels[1].series[1].points[1], [1.0, 0.6]);
+        let without = shear_wave_chart("t", "s", &table(&columns, &[&[0.0, 1.0, f64::NAN]]));
+        assert_eq!(without.panels[0].series.len(), 1);
+    }
+
+    #[test]
+    fn energies_are_shown_as_they_change() {
+        let columns =
+            ["time", "kinetic_energy", "internal_energy", "temperature", "internal_temperature", "total_energy"];
+        let rows: [&[f64]; 2] = [&[0.0, 8.0, 92.0, 1.0, 1.0, 100.0], &[1.0, 6.0, 94.0, 1.0, 2.0, 100.0]];
+        let chart = energetic_cells_chart("t", &table(&columns, &rows), 4);
+        let last: Vec<f64> = chart.panels[1].series.iter().map(|series| series.points[1][1]).collect();
+        assert_eq!(last, [-0.5, 0.5, 0.0]);
+        assert_eq!(chart.panels[0].series[1].points[1], [1.0, 2.0]);
+    }
+}
