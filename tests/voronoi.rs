@@ -60,10 +60,8 @@ fn run_exactly(count: u32, steps: u64, more: &[&str]) {
         let scene = with(count, &changes, more);
         let (_, state) = start(&scene);
         let mut run = Device::from_state(&scene, &state, Options::default());
-        let begun = std::time::Instant::now();
         run.step(steps);
         let after = run.state();
-        println!("{name}: {:.2} ms a step", 1e3 * begun.elapsed().as_secs_f64() / steps as f64);
         assert_eq!(totals(&after), totals(&state), "{name}");
         assert_ne!(after.positions, state.positions, "{name}");
         assert_eq!(after.masses != state.masses, !name.starts_with("gradient"), "{name}");

@@ -67,9 +67,9 @@ impl Builder<'_> {
 
     /// A half drift, half a push, friction and heat, half a push, a half drift.
     fn split_step(&mut self) -> Vec<usize> {
-        let mut modules = vec!["common/grid2", "common/cell", "common/cell_drift", "kernels/drift_cells"];
+        let modules = ["common/grid2", "common/cell", "common/cell_drift", "kernels/drift_cells"];
         let groups = self.groups(self.particles);
-        let drift = self.kernel("drift", &std::mem::take(&mut modules), groups);
+        let drift = self.kernel("drift", &modules, groups);
         self.plan.kernels[drift].constants = self.drift_constants(0.5);
         let mut kernels = vec![drift];
         kernels.extend(self.geometry_for(Occasion::Midway));
