@@ -602,7 +602,7 @@ fn copies(scene: &Scene, state: &State) -> u64 {
 }
 
 fn planned(scene: &Scene, options: Options) -> plan::Plan {
-    plan::plan(&Model::new(scene), 0, &scene.output, Hardware { subgroup_size: gpu().subgroup_size() }, options)
+    plan::plan(&Model::new(scene), 0, &scene.output, Hardware::from(gpu()), options)
 }
 
 #[test]

@@ -35,6 +35,14 @@ fn plan_of(scene: &Scene, options: Options) -> Plan {
     plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
 }
 
+/// Plans of a scene that move single words and pairs of them.
+fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] {
+    [false, true].map(|paired| {
+        let plan = plan_of(scene, Options { paired_words: Some(paired), ..options });
+        (format!("{name} paired_words={paired}"), plan)
+    })
+}
+
 /// One scene a combination of everything that chooses a module, with every way to visit pairs and to scan.
 fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
@@ -77,9 +85,8 @@ fn plans() -> &'static [(String, Plan)] {
             for traversal in [Traversal::Rows, Traversal::Clusters] {
                 for many_level_scan in [false, true] {
                     let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
-                    let plan = plan_of(&scene, options);
-                    plans
-                        .push((format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" ")), plan));
+                    let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
+                    plans.extend(plans_of(&name, &scene, options));
                 }
             }
         }
@@ -132,7 +139,7 @@ fn coupled_plans() -> Vec<(String, Plan)> {
         );
         for particles in particles {
             let changes = [&[interactions.as_str(), particles], SAMPLERS].concat();
-            plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
+            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }
     }
     for interactions in &interactions {
@@ -150,7 +157,7 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                         let changes = [interactions.as_str(), particles, space, &generator, &integrator];
                         let options =
                             Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
-                        plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                     }
                 }
             }
@@ -193,7 +200,7 @@ fn bond_plans() -> Vec<(String, Plan)> {
                         let output =
                             r#"output={"chain_sizes":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
                         let changes = [particles, &interactions, space, &generator, integrator, output];
-                        plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                     }
                 }
             }
@@ -218,7 +225,7 @@ fn noise_plans() -> Vec<(String, Plan)> {
                     let integrator = r#"integrator={"type":"cotter-reich"}"#;
                     let changes =
                         [r#"particles=[{"species":"A","count":200}]"#, &interactions, space, &generator, integrator];
-                    plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                 }
             }
         }
@@ -249,11 +256,11 @@ fn voronoi_plans() -> Vec<(String, Plan)> {
         for (count, many_level_scan, list_growth) in [(200, false, 0), (5000, true, 1)] {
             let options = Options { many_level_scan, list_growth, ..Options::default() };
             let name = format!("{count} Voronoi cells {} {options:?}", changes.join(" "));
-            plans.push((name, plan_of(&cells(count, &changes), options)));
+            plans.extend(plans_of(&name, &cells(count, &changes), options));
         }
     }
     let options = Options { list_growth: 2, ..Options::default() };
-    plans.push(("Voronoi cells of many corners".to_owned(), plan_of(&cells(200, &[]), options)));
+    plans.extend(plans_of("Voronoi cells of many corners", &cells(200, &[]), options));
     plans
 }
 
@@ -315,10 +322,8 @@ fn water_plans() -> Vec<(String, Plan)> {
         for storage in [Storage::Sorted, Storage::Bins] {
             for many_level_scan in [false, true] {
                 let options = Options { storage: Some(storage), many_level_scan, ..Options::default() };
-                plans.push((
-                    format!("water {} {storage:?} {many_level_scan}", changes.join(" ")),
-                    plan_of(&scene, options),
-                ));
+                let name = format!("water {} {storage:?} {many_level_scan}", changes.join(" "));
+                plans.extend(plans_of(&name, &scene, options));
             }
         }
     }
@@ -582,6 +587,11 @@ fn host_structs_lie_as_in_the_shaders() {
                 let members = [("position", 0), ("velocity", 8), ("mass", 16), ("id", 20), ("", 24)];
                 for (member, expected) in members {
                     assert_eq!(offset(shader, "Water", member), expected, "Water.{member}");
+                }
+            }
+            if declared("StoredWater") {
+                for (member, expected) in [("position", 0), ("velocity", 8), ("mass_and_id", 16), ("", 24)] {
+                    assert_eq!(offset(shader, "StoredWater", member), expected, "StoredWater.{member}");
                 }
             }
             if declared("PairCoefficients") {

@@ -127,7 +127,7 @@ fn fluid(edge: f64, variant: &Variant) -> Result<(Scene, Plan), Failure> {
 fn planned(text: &str, variant: &Variant) -> Result<(Scene, Plan), Failure> {
     let scene = scene::parse(variant.name, text, &variant.changes)?;
     let model = Model::new(&scene);
-    let hardware = Hardware { subgroup_size: None };
+    let hardware = Hardware::default();
     let plan = plan::plan(&model, 0, &scene.output, hardware, variant.options);
     Ok((scene, plan))
 }
@@ -135,7 +135,7 @@ fn planned(text: &str, variant: &Variant) -> Result<(Scene, Plan), Failure> {
 /// An engine of a scene, with the best plan for the adapter.
 fn run<'a>(gpu: &'a Gpu, scene: &Scene, options: Options, warm: u64) -> Result<Run<'a>, Failure> {
     let model = Model::new(scene);
-    let hardware = Hardware { subgroup_size: gpu.subgroup_size() };
+    let hardware = Hardware::from(gpu);
     let plan = plan::plan(&model, 0, &scene.output, hardware, options);
     let state: State = placement::initial_state(scene, &model);
     let mut engine = Engine::new(gpu, plan, &state)?;

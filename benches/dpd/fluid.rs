@@ -61,6 +61,6 @@ impl Fluid {
 }
 
 fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
-    let plan = plan_of(scene, Hardware { subgroup_size: gpu.subgroup_size() });
+    let plan = plan_of(scene, gpu.into());
     Ok(Engine::new(gpu, plan, state)?)
 }

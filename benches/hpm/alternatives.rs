@@ -1,7 +1,7 @@
 //! The same flow computed otherwise: storage, splines, solvers, and particles that crowd.
 
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{Options, Storage};
+use mesoscope::plan::{Hardware, Options, Storage};
 
 use crate::flow::{Flow, Start};
 use crate::statistics::{grouped, ratios, spread};
@@ -48,7 +48,10 @@ impl Alternative {
 pub fn largest_buffer(size: crate::flow::Size) -> Result<u64, Failure> {
     let mut largest = 0;
     for alternative in &ALTERNATIVES {
-        largest = largest.max(crate::flow::plan_of(size, alternative.changes, alternative.options())?.largest_buffer());
+        largest = largest.max(
+            crate::flow::plan_of(size, alternative.changes, Hardware::default(), alternative.options())?
+                .largest_buffer(),
+        );
     }
     Ok(largest)
 }

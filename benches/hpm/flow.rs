@@ -87,9 +87,9 @@ fn scene(size: Size, energies_every: u64, changes: &[&str]) -> Result<Scene, Fai
 const NEVER: u64 = 1_000_000_000;
 
 /// The plan for a size, with changes of the scene.
-pub fn plan_of(size: Size, changes: &[&str], options: Options) -> Result<Plan, Failure> {
+pub fn plan_of(size: Size, changes: &[&str], hardware: Hardware, options: Options) -> Result<Plan, Failure> {
     let scene = scene(size, NEVER, changes)?;
-    Ok(plan::plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), options))
+    Ok(plan::plan(&Model::new(&scene), 0, &scene.output, hardware, options))
 }
 
 /// Where a run begins.
@@ -125,7 +125,7 @@ impl Flow {
 
     /// A warm run.
     pub fn run<'a>(&self, gpu: &'a Gpu, changes: &[&str], options: Options, start: Start) -> Result<Run<'a>, Failure> {
-        let plan = plan_of(self.size, changes, options)?;
+        let plan = plan_of(self.size, changes, gpu.into(), options)?;
         let engine = match start {
             Start::Even => Engine::new(gpu, plan, &self.state)?,
             Start::Clustered => Engine::new(gpu, plan, &self.clustered())?,
@@ -136,7 +136,7 @@ impl Flow {
     /// What is measured at step 0 and after so many steps.
     pub fn observed(&self, gpu: &Gpu, steps: u64) -> Result<[Observables; 2], Failure> {
         let scene = scene(self.size, steps, &[])?;
-        let plan = plan::plan(&self.model, 0, &scene.output, Hardware::default(), Options::default());
+        let plan = plan::plan(&self.model, 0, &scene.output, gpu.into(), Options::default());
         let mut engine = Engine::new(gpu, plan, &self.state)?;
         engine.advance(steps, steps)?;
         let samples = engine.finish()?;

@@ -26,7 +26,7 @@ use std::time::Instant;
 use clap::Parser;
 use mesoscope::engine::StageClock;
 use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
-use mesoscope::plan::{Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
 
 use compiled_loop::CompiledLoop;
 use flow::{Flow, Size, Start};
@@ -104,7 +104,7 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     let with_room = |sizes: &[Size]| {
         let (mut needed, mut wished) = (0, 0);
         for &size in sizes {
-            needed = needed.max(flow::plan_of(size, &[], Options::default())?.largest_buffer());
+            needed = needed.max(flow::plan_of(size, &[], Hardware::default(), Options::default())?.largest_buffer());
             wished = wished.max(alternatives::largest_buffer(size)?);
         }
         let wished = if settings.alternatives { wished } else { needed };

@@ -59,7 +59,7 @@ fn main() -> Result<(), Failure> {
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;
     for &size in &settings.sizes {
-        largest_buffer = largest_buffer.max(plan_of(&cells(size, &[])?).largest_buffer());
+        largest_buffer = largest_buffer.max(plan_of(&cells(size, &[])?, Hardware::default()).largest_buffer());
     }
     let requirements = Requirements { largest_buffer, ..Requirements::default() };
     let gpu = Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements)?;
@@ -108,13 +108,13 @@ fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
     Ok(scene::parse("cells", &text, &changes)?)
 }
 
-fn plan_of(scene: &Scene) -> Plan {
-    plan::plan(&Model::new(scene), 0, &scene.output, Hardware { subgroup_size: None }, Options::default())
+fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
+    plan::plan(&Model::new(scene), 0, &scene.output, hardware, Options::default())
 }
 
 /// The plan of a scene with nothing in a step but the tessellation.
-fn tessellation(scene: &Scene) -> Plan {
-    let mut plan = plan_of(scene);
+fn tessellation(scene: &Scene, hardware: Hardware) -> Plan {
+    let mut plan = plan_of(scene, hardware);
     let geometry = [
         "bin",
         "scan",
@@ -150,7 +150,7 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
             Point2::new(position[0], position[1])
         })
         .collect();
-    let mut device = Run::new(Engine::new(gpu, tessellation(&scene), &state)?, size)?;
+    let mut device = Run::new(Engine::new(gpu, tessellation(&scene, gpu.into()), &state)?, size)?;
     let (mut own, mut crate_alone, mut crate_cells) = (Vec::new(), Vec::new(), Vec::new());
     let rate = |seconds: f64| 1e-6 * size as f64 / seconds;
     for _ in 0..settings.rounds {
@@ -182,8 +182,8 @@ fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, settings: &Settings) 
     let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
     let scene = cells(size, &[&[lattice], *changes].concat())?;
     let state = placement::initial_state(&scene, &Model::new(&scene));
-    let mut whole = Run::new(Engine::new(gpu, plan_of(&scene), &state)?, size)?;
-    let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?), &state)?, size)?;
+    let mut whole = Run::new(Engine::new(gpu, plan_of(&scene, gpu.into()), &state)?, size)?;
+    let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?, gpu.into()), &state)?, size)?;
     let (mut rates, mut shares) = (Vec::new(), Vec::new());
     for _ in 0..settings.rounds {
         let rate = 1e-6 * whole.rate(settings.seconds)?;

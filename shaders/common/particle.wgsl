@@ -4,6 +4,7 @@ struct Particle {
     position: vec4<u32>,
     momentum: vec4<i32>,
 }
+const FOURS: u32 = 2u; // of words
 
 // The rest of the word carries, within a step, what a pass leaves for the next.
 fn species_of(particle: Particle) -> i32 { return particle.momentum.w & 255; }

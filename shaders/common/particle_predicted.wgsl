@@ -4,6 +4,7 @@ struct Particle {
     momentum: vec4<i32>,
     predicted: vec4<i32>,
 }
+const FOURS: u32 = 3u; // of words
 
 // 2 lambda - 1: the part of the opening half kick that the prediction adds.
 override PREDICTION: f32;

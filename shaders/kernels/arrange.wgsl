@@ -1,7 +1,6 @@
 // Puts every particle into its cell, notes what others ask for about its place, and clears the counts for the next time.
 override PARTICLES: u32;
 override CELLS: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
@@ -12,10 +11,11 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     if (index < CELLS) { counts[index] = 0u; }
     if (index >= PARTICLES) { return; }
     let particle = particles[index];
-    let fraction = fraction_of(particle.position);
+    let position = four_words(particle[0]);
+    let fraction = fraction_of(position);
     let slot = cells[cell_index(row_of(fraction), column_of(fraction))] + ranks[index];
     sorted[slot] = particle;
-    note_anchor(slot, particle.position);
+    note_anchor(slot, position);
     note_origin(slot, index);
-    note_slot(particle.position.w, slot);
+    note_slot(position.w, slot);
 }

@@ -2,7 +2,6 @@
 override PARTICLES: u32;
 override CELLS: u32;
 override CAPACITY: u32; // of the sorted array, frames included
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 @group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
@@ -14,7 +13,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     if (index >= PARTICLES) { return; }
     let particle = particles[index];
     let rank = ranks[index];
-    let fraction = fraction_of(particle.position);
+    let fraction = fraction_of(four_words(particle[0]));
     let row = row_of(fraction);
     let column = column_of(fraction);
     let probe = probe_word(fraction);

@@ -1,7 +1,7 @@
 // Puts every particle into its cell of the mesh.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Water>;
-@group(0) @binding(2) var<storage, read_write> sorted: array<Water>;
+@group(0) @binding(1) var<storage, read_write> particles: array<StoredWater>;
+@group(0) @binding(2) var<storage, read_write> sorted: array<StoredWater>;
 @group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
@@ -10,5 +10,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
     let particle = particles[index];
-    sorted[cells[cell_of(particle.position)] + ranks[index]] = particle;
+    sorted[cells[cell_of(two_words(particle.position))] + ranks[index]] = particle;
 }

@@ -41,7 +41,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let requirements =
         Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
     let (hardware, adapter) = match Gpu::open(&AdapterChoice::parse(arguments.adapter.as_deref()), requirements) {
-        Ok(gpu) => (Hardware { subgroup_size: gpu.subgroup_size() }, gpu.description().name.clone()),
+        Ok(gpu) => (Hardware::from(&gpu), gpu.description().name.clone()),
         Err(error @ GpuError::NoSuchAdapter { .. }) => return Err(error.into()),
         Err(GpuError::NoAdapter) => (Hardware::default(), "none here; the plan is the one for any adapter".to_owned()),
         Err(error) => {

@@ -12,7 +12,7 @@ pub use timing::{StageClock, StageTime};
 use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::Gpu;
-use crate::plan::{Contents, Layout, Misfit, Plan};
+use crate::plan::{Contents, Hardware, Layout, Misfit, Plan};
 use crate::state::State;
 use pipeline::Stage;
 use readback::Readback;
@@ -89,6 +89,12 @@ const VELOCITY_RANGE: f64 = 1_073_741_824.0;
 
 /// Batches that may wait on the device while the host goes on.
 const BATCHES_IN_FLIGHT: usize = 2;
+
+impl From<&Gpu> for Hardware {
+    fn from(gpu: &Gpu) -> Self {
+        Self { subgroup_size: gpu.subgroup_size(), serial_memory: gpu.serial_memory() }
+    }
+}
 
 impl<'a> Engine<'a> {
     /// Creates the buffers and pipelines of a plan and uploads a state.

@@ -20,6 +20,7 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     description: AdapterDescription,
     subgroup_size: Option<u32>,
+    serial_memory: bool,
     trouble: Arc<Mutex<Option<String>>>,
 }
 
@@ -60,11 +61,16 @@ impl Gpu {
             }
             limits.max_storage_buffers_per_shader_stage = requirements.storage_buffers;
         }
+        let serial_memory =
+            info.device_type == wgpu::DeviceType::Cpu && adapter.features().contains(wgpu::Features::SHADER_INT64);
         let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+        let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("mesoscope"),
-            required_features: timestamps | if subgroups { wgpu::Features::SUBGROUP } else { wgpu::Features::empty() },
+            required_features: timestamps
+                | wanted(wgpu::Features::SUBGROUP, subgroups)
+                | wanted(wgpu::Features::SHADER_INT64, serial_memory),
             required_limits: limits,
             ..Default::default()
         }))
@@ -84,6 +90,7 @@ impl Gpu {
             description: AdapterDescription::new(&info),
             subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
                 .then_some(info.subgroup_min_size),
+            serial_memory,
             trouble,
         })
     }
@@ -110,6 +117,12 @@ impl Gpu {
     #[must_use]
     pub fn subgroup_size(&self) -> Option<u32> {
         self.subgroup_size
+    }
+
+    /// Whether lanes load and store one after the other, and can do so with eight bytes at a time.
+    #[must_use]
+    pub fn serial_memory(&self) -> bool {
+        self.serial_memory
     }
 
     /// The first error that reached no error scope, or the loss of the device.

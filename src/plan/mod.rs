@@ -20,12 +20,16 @@ use crate::state::Units;
 /// Makes the plan of a model.
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-    match (&model.shallow_water, &model.voronoi) {
+    let mut plan = match (&model.shallow_water, &model.voronoi) {
         (Some(water), _) => shallow_water::plan(model, water, output, options),
         (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         _ => pair::plan(model, equilibration, output, hardware, options),
+    };
+    if options.paired_words.unwrap_or(hardware.serial_memory) {
+        plan.pair_words();
     }
+    plan
 }
 
 /// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
@@ -44,6 +48,9 @@ pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
 pub struct Hardware {
     /// Lanes of every subgroup, if fixed and usable.
     pub subgroup_size: Option<u32>,
+    /// Whether lanes load and store one after the other, as on software adapters: every access is dear, and one of eight
+    /// bytes no dearer than one of four.
+    pub serial_memory: bool,
 }
 
 /// Choices that change how a scene is computed but not a bit of its results.
@@ -60,6 +67,8 @@ pub struct Options {
     pub copies: Option<u64>,
     /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
     pub storage: Option<Storage>,
+    /// Whether particles are moved in pairs of words; left to the hardware if `None`.
+    pub paired_words: Option<bool>,
     /// Whether pairs without memory are listed too, for integrators with one traversal a step.
     pub listed: bool,
     /// How often the room for the pairs of a particle in the list has been doubled.
@@ -275,6 +284,18 @@ impl Plan {
             storage_buffers: 8,
             reported: None,
             operations_per_particle: 0.0,
+        }
+    }
+
+    /// Loads and stores words in pairs in kernels that move particles about and do little else; where arithmetic is what
+    /// costs, taking the pairs apart costs more than it saves.
+    fn pair_words(&mut self) {
+        const MOVERS: [&str; 4] = ["scatter", "arrange", "push", "push_from_report"];
+        let movers = self.kernels.iter_mut().filter(|kernel| MOVERS.contains(&kernel.name));
+        for module in movers.flat_map(|kernel| &mut kernel.modules) {
+            if *module == "common/words" {
+                *module = "common/words_paired";
+            }
         }
     }
 

@@ -234,7 +234,7 @@ impl Builder<'_> {
         }
         let scatter = self.simple(
             "scatter",
-            &["common/sorted", "kernels/scatter"],
+            &["common/words", "common/copies", "common/probes", "kernels/scatter"],
             self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
         );
         kernels.push(scatter);
@@ -250,7 +250,7 @@ impl Builder<'_> {
     fn force_modules(&self) -> Vec<&'static str> {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        let mut modules = vec!["common/sorted", "common/contact"];
+        let mut modules = vec!["common/sorted", "common/probes", "common/contact"];
         modules.extend(if self.single() {
             ["common/coefficients_single", "common/other_species_single"]
         } else {

@@ -19,7 +19,7 @@ const TRACER_BYTES: u64 = 1 << 24;
 /// Bytes of a particle or tracer.
 const WATER: u64 = 24;
 /// Rows of cells that a single workgroup still scans faster than three kernels would.
-const SINGLE_SCAN_ROWS: u64 = 1024;
+const SINGLE_SCAN_ROWS: u64 = 128;
 /// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
 const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
@@ -244,7 +244,11 @@ impl Builder<'_> {
             self.plan.sort.extend([blocks, tops, last]);
             self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }
-        let scatter = self.kernel("scatter", &["common/mesh_cells", "kernels/scatter_water"], particle_groups);
+        let scatter = self.kernel(
+            "scatter",
+            &["common/mesh_cells", "common/words", "common/stored_water", "kernels/scatter_water"],
+            particle_groups,
+        );
         self.plan.sort.push(scatter);
     }
 
@@ -291,8 +295,8 @@ impl Builder<'_> {
     /// Modules of the stored particles.
     fn stored(&self) -> &'static [&'static str] {
         match self.storage {
-            Storage::Sorted => &["common/mesh_cells", "common/store_sorted"],
-            Storage::Bins => &["common/store_bins"],
+            Storage::Sorted => &["common/words", "common/stored_water", "common/mesh_cells", "common/store_sorted"],
+            Storage::Bins => &["common/words", "common/stored_water", "common/store_bins"],
         }
     }
 

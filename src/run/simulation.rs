@@ -216,8 +216,7 @@ pub(crate) fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, 
 
 /// The plan of a scene on an adapter.
 pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
-    let hardware = Hardware { subgroup_size: gpu.subgroup_size() };
-    plan::plan(model, scene.time.equilibration, &scene.output, hardware, options)
+    plan::plan(model, scene.time.equilibration, &scene.output, gpu.into(), options)
 }
 
 /// A run under way: its open files and what it has gathered.

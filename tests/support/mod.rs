@@ -114,7 +114,7 @@ pub fn start(scene: &Scene) -> (Model, State) {
 /// An engine for a scene, with options.
 pub fn engine(scene: &Scene, state: &State, options: Options) -> Engine<'static> {
     let model = Model::new(scene);
-    let hardware = Hardware { subgroup_size: gpu().subgroup_size() };
+    let hardware = Hardware::from(gpu());
     let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
     Engine::new(gpu(), plan, state).expect("an engine")
 }

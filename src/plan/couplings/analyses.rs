@@ -56,10 +56,19 @@ impl Builder<'_> {
         ];
         let mut kernels = self.binning();
         let groups = self.groups(self.particles.max(self.grid.count()));
-        let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
         // On the side: the list and what it has noted stay as they are.
-        let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
-        kernels.push(self.kernel("arrange_by_cell", &[&sorted[..], &unnoted].concat(), groups));
+        let arrange = [
+            self.cells(),
+            "common/cells_plain",
+            "common/words",
+            "common/copies",
+            "common/anchors_off",
+            "common/origins_off",
+            "common/slots_off",
+            "kernels/arrange",
+        ];
+        kernels.push(self.kernel("arrange_by_cell", &arrange, groups));
+        let sorted = [self.cells(), "common/cells_plain", "common/sorted"];
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let modules = [&sorted[..], &["common/contact", span, "kernels/pair_histogram"]].concat();
         let count = self.kernel("pair_histogram", &modules, rows * segments);

@@ -121,10 +121,19 @@ impl Builder<'_> {
     fn rebuild(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
         let mut kernels = self.binning();
-        let sorted = [self.cells(), "common/cells_plain", "common/sorted_plain"];
+        let sorted = [self.cells(), "common/cells_plain", "common/sorted"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let origins = if self.force.remembers() { "common/origins_on" } else { "common/origins_off" };
-        let arrange = [&sorted[..], &["common/anchors_on", origins, self.slots(), "kernels/arrange"]].concat();
+        let arrange = [
+            self.cells(),
+            "common/cells_plain",
+            "common/words",
+            "common/copies",
+            "common/anchors_on",
+            origins,
+            self.slots(),
+            "kernels/arrange",
+        ];
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let exclusions = self.exclusions();
@@ -132,7 +141,7 @@ impl Builder<'_> {
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {
-            let mut modules = vec!["common/sorted_plain", "common/neighbour_words", self.coefficients()];
+            let mut modules = vec!["common/sorted", "common/neighbour_words", self.coefficients()];
             modules.extend(["common/gaussian", "common/threefry", "kernels/carry"]);
             modules.extend(self.words());
             let carry = self.kernel("carry", &modules, groups);
@@ -144,7 +153,7 @@ impl Builder<'_> {
         } else {
             self.plan.kernels[list].renamed = vec![("neighbours_next", "neighbours")];
         }
-        kernels.push(self.kernel("settle", &["common/sorted_plain", "kernels/settle"], groups));
+        kernels.push(self.kernel("settle", &["common/sorted", "kernels/settle"], groups));
         kernels
     }
 

@@ -36,9 +36,18 @@ impl Builder<'_> {
         }
         self.scan(&mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
-        let unnoted = ["common/anchors_off", "common/origins_off", "common/slots_off", "kernels/arrange"];
-        let sorted = ["common/grid2", "common/cells_plain", "common/sorted_plain"];
-        kernels.push(self.shared_kernel("arrange", &[&sorted[..], &unnoted].concat(), arrange_groups));
+        let arrange = [
+            "common/grid2",
+            "common/cells_plain",
+            "common/words",
+            "common/copies",
+            "common/anchors_off",
+            "common/origins_off",
+            "common/slots_off",
+            "kernels/arrange",
+        ];
+        kernels.push(self.shared_kernel("arrange", &arrange, arrange_groups));
+        let sorted = ["common/grid2", "common/cells_plain", "common/sorted"];
         let groups = self.groups(self.particles);
         kernels.push(self.shared_kernel(
             "order_cells",

@@ -1,0 +1,8 @@
+// How words lie in memory: in vectors of two and four.
+alias Two = vec2<u32>;
+alias Four = vec4<u32>;
+
+fn two(words: vec2<u32>) -> Two { return words; }
+fn two_words(stored: Two) -> vec2<u32> { return stored; }
+fn four(words: vec4<u32>) -> Four { return words; }
+fn four_words(stored: Four) -> vec4<u32> { return stored; }
