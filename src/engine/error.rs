@@ -25,6 +25,17 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
     },
+    /// The adapter left a loop before its end, as software adapters do after some 65 000 turns.
+    #[error(
+        "at step {step} so many particles crowd in one place that the adapter {adapter} gave up looking through them; \
+         another adapter, or particles further apart, will do"
+    )]
+    GaveUp {
+        /// The first step at which it was seen.
+        step: u64,
+        /// The name of the adapter.
+        adapter: String,
+    },
     /// A state that does not fit the plan.
     #[error("the state does not fit the plan: {reason}")]
     State {

@@ -422,6 +422,9 @@ impl<'a> Engine<'a> {
         if control.failures & 8 != 0 {
             return Err(EngineError::Crowded { step });
         }
+        if control.failures & 512 != 0 {
+            return Err(EngineError::GaveUp { step, adapter: self.gpu.description().name.clone() });
+        }
         let quantity = match control.failures {
             bits if bits & 16 != 0 => {
                 let place = self.node(control.failure_place);
@@ -438,17 +441,15 @@ impl<'a> Engine<'a> {
             bits if bits & 256 != 0 => {
                 format!("the internal energy of cell {} is less than none", control.failure_place)
             }
-            bits if bits & 512 != 0 => {
-                "so many particles crowd in one place that the adapter gave up looking through them".to_owned()
-            }
             bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
             bits if bits & 4 != 0 => {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
             }
             _ => match self.plan.layout {
-                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => {
+                Layout::Particles { .. } | Layout::Coupled { .. } => {
                     "a momentum is more than 64 times its natural scale".to_owned()
                 }
+                Layout::Cells { .. } => "a momentum is more than 1024 times its natural scale".to_owned(),
                 Layout::Water { .. } => {
                     let limit = self.plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
                     let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);

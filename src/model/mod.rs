@@ -259,7 +259,7 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
-/// A power of two near 2⁻²⁴ of the largest momentum a species has for a reason: thermal, that of its fastest listed
+/// A power of two near 2⁻²⁴ (2⁻²⁰ for Voronoi cells) of the largest momentum a species has for a reason: thermal, that of its fastest listed
 /// particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a particle that has
 /// rolled down the repulsion.
 fn momentum_unit(
@@ -294,7 +294,10 @@ fn momentum_unit(
     if scale == 0.0 {
         scale = 1.0;
     }
-    (scale.log2().ceil() - 24.0).exp2()
+    // Voronoi cells that come close throw each other apart, at steps that are too long for them by hundreds of these momenta.
+    let voronoi = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Voronoi(_)));
+    let bits = if voronoi { 20.0 } else { 24.0 };
+    (scale.log2().ceil() - bits).exp2()
 }
 
 /// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a

@@ -173,7 +173,7 @@ impl Task {
         let mut engine = Engine::new(gpu, plan, &start.state)?;
         let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, engine.plan(), start)?;
         match run.advance_to_end(&mut engine, pace, observer) {
-            Err(RunError::Engine(source @ EngineError::Unstable { .. })) => {
+            Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
                 let checkpoint = self.directory.file(files::CHECKPOINT);
                 return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
