@@ -1,14 +1,13 @@
 //! Analyses of the particles that a report leaves in the order of their ids, for every path of integration.
 
-use super::{Buffer, Contents, Kernel, Plan, Sampler};
+use super::recording::{SAMPLE_ROWS, record_histogram, record_sums};
+use super::{Kernel, Plan, Sampler};
 use crate::model::Model;
 use crate::scene::{
     Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
 };
 use std::f64::consts::PI;
 
-/// Rows of samples kept on the device between two readbacks.
-pub(super) const SAMPLE_ROWS: u64 = 1024;
 /// Workgroups that count into one histogram: more of them write more often to the same entries.
 const HISTOGRAM_GROUPS: u64 = 1024;
 /// Entries of a histogram beside its bins: values below, values above, particles far beyond.
@@ -192,15 +191,6 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn kernel(&mut self, kernel: Kernel) -> usize {
-        self.plan.kernels.push(kernel);
-        self.plan.kernels.len() - 1
-    }
-
-    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(64), contents: Contents::Zeros });
-    }
-
     /// Workgroups with a lane for every particle.
     fn groups(&self) -> u64 {
         self.plan.particles.div_ceil(self.reported.workgroup).max(1)
@@ -236,25 +226,17 @@ impl Builder<'_> {
         let groups = self.groups();
         let modules = [&["common/reduce"][..], &sampler.modules].concat();
         let renamed = [&[("partial_sums", sampler.sums), ("samples", sampler.samples)][..], &sampler.renamed].concat();
-        let sums = self.kernel(Kernel {
-            name: sampler.name,
-            modules: self.modules(&modules),
-            workgroups: groups as u32,
-            demand: None,
-            constants: sampler.constants,
-            renamed: self.renamed(&renamed),
-        });
-        let record = self.kernel(Kernel {
-            name: "record_sample",
-            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("QUANTITIES", sampler.quantities as f64), ("GROUPS", groups as f64)],
-            renamed: vec![("partial_sums", sampler.sums), ("samples", sampler.samples)],
-        });
-        self.buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
+        let sums = self.plan.add_kernel(
+            Kernel::new(sampler.name, self.modules(&modules), groups)
+                .with(sampler.constants)
+                .renamed(self.renamed(&renamed)),
+        );
+        let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
+        let record =
+            self.plan.add_kernel(recorded.renamed(vec![("partial_sums", sampler.sums), ("samples", sampler.samples)]));
+        self.plan.add_buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
         let row = 8 * (1 + sampler.quantities as u64);
-        self.buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
+        self.plan.add_buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
         self.plan.samplers.push(Sampler {
             name: sampler.name,
             first: self.reported.equilibration,
@@ -270,7 +252,7 @@ impl Builder<'_> {
     fn diffusion(&mut self, asked: &Diffusion) {
         let unit = self.reported.model.units.momentum;
         let quanta = self.plan.quanta;
-        self.buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
+        self.plan.add_buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
         self.sums(SumSampler {
             name: "diffusion",
             modules: vec!["kernels/track"],
@@ -314,12 +296,7 @@ impl Builder<'_> {
             .collect();
         let quantities = 2 * groups.len();
         let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
-        self.plan.buffers.push(Buffer {
-            name: "chain_starts",
-            purpose: "where each chain begins",
-            bytes: (bytes.len() as u64).max(64),
-            contents: Contents::Bytes(bytes),
-        });
+        self.plan.add_table("chain_starts", "where each chain begins", bytes);
         self.sums(SumSampler {
             name: "chain_sizes",
             modules: vec!["kernels/chain_sizes"],
@@ -349,27 +326,20 @@ impl Builder<'_> {
         }
         let groups = self.groups();
         let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
-        let sums = self.kernel(Kernel {
-            name: "sum_momenta",
-            modules: self.modules(&["common/reduce", "kernels/sum_momenta"]),
-            workgroups: groups as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: self.renamed(&[("partial_sums", "momentum_sums")]),
-        });
-        let find = self.kernel(Kernel {
-            name: "find_centre",
-            modules: vec!["common/dispatch", "common/sum64", "kernels/find_centre"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![
-                ("GROUPS", groups as f64),
-                ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
-            ],
-            renamed: vec![("partial_sums", "momentum_sums")],
-        });
-        self.buffer("momentum_sums", "sums of each workgroup", 24 * groups);
-        self.buffer("centre", "velocity of the centre of mass", 16);
+        let sums = self.plan.add_kernel(
+            Kernel::new("sum_momenta", self.modules(&["common/reduce", "kernels/sum_momenta"]), groups)
+                .renamed(self.renamed(&[("partial_sums", "momentum_sums")])),
+        );
+        let find = self.plan.add_kernel(
+            Kernel::new("find_centre", vec!["common/dispatch", "common/sum64", "kernels/find_centre"], 1)
+                .with(vec![
+                    ("GROUPS", groups as f64),
+                    ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
+                ])
+                .renamed(vec![("partial_sums", "momentum_sums")]),
+        );
+        self.plan.add_buffer("momentum_sums", "sums of each workgroup", 24 * groups);
+        self.plan.add_buffer("centre", "velocity of the centre of mass", 16);
         self.centre = Some(vec![sums, find]);
         ("common/frame_centre", vec![sums, find])
     }
@@ -391,7 +361,7 @@ impl Builder<'_> {
                 (vec!["common/sampled_force"], Vec::new(), names)
             }
         };
-        self.buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
+        self.plan.add_buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
         self.sums(SumSampler {
             name: autocorrelation_name(asked.quantity),
             modules: [&modules[..], &["common/sum64_signed", "kernels/correlate"]].concat(),
@@ -448,27 +418,18 @@ impl Builder<'_> {
         };
         let modules = [&modules[..], &[counted, "common/sum64_signed", "kernels/histogram"]].concat();
         let name = histogram_name(asked.quantity);
-        let count = self.kernel(Kernel {
-            name,
-            modules: self.modules(&modules),
-            workgroups: groups as u32,
-            demand: None,
-            constants,
-            renamed: self.renamed(&[("histogram", counts)]),
-        });
+        let count = self.plan.add_kernel(
+            Kernel::new(name, self.modules(&modules), groups)
+                .with(constants)
+                .renamed(self.renamed(&[("histogram", counts)])),
+        );
         let entries = bins + (HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS) as u64;
-        let record = self.kernel(Kernel {
-            name: "record_histogram",
-            modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("BINS", entries as f64)],
-            renamed: vec![("histogram", counts), ("samples", samples)],
-        });
+        let record = record_histogram(entries).renamed(vec![("histogram", counts), ("samples", samples)]);
+        let record = self.plan.add_kernel(record);
         // About a mebibyte.
         let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
-        self.buffer(counts, "counts of each bin and sums of powers", 8 * entries);
-        self.buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
+        self.plan.add_buffer(counts, "counts of each bin and sums of powers", 8 * entries);
+        self.plan.add_buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
         self.plan.samplers.push(Sampler {
             name,
             first: self.reported.equilibration,

@@ -5,6 +5,8 @@ mod couplings;
 mod grid;
 mod layout;
 mod pair;
+mod prefix_sum;
+mod recording;
 mod shallow_water;
 pub mod smoothing;
 mod voronoi;
@@ -250,6 +252,24 @@ pub struct Plan {
     pub operations_per_particle: f64,
 }
 
+impl Kernel {
+    /// A kernel of at least one workgroup, without constants of its own.
+    fn new(name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> Self {
+        let workgroups = workgroups.max(1) as u32;
+        Self { name, modules, workgroups, demand: None, constants: Vec::new(), renamed: Vec::new() }
+    }
+
+    /// The same with constants of its own.
+    fn with(self, constants: Vec<(&'static str, f64)>) -> Self {
+        Self { constants, ..self }
+    }
+
+    /// The same with variables whose buffers have other names.
+    fn renamed(self, renamed: Vec<(&'static str, &'static str)>) -> Self {
+        Self { renamed, ..self }
+    }
+}
+
 impl Sampler {
     /// Whether a sample is due at a step.
     #[must_use]
@@ -297,6 +317,32 @@ impl Plan {
                 *module = "common/words_paired";
             }
         }
+    }
+
+    /// Adds a kernel, and says which it is.
+    fn add_kernel(&mut self, kernel: Kernel) -> usize {
+        self.kernels.push(kernel);
+        self.kernels.len() - 1
+    }
+
+    /// Adds a kernel unless one of its name and modules is there already, and says which it is.
+    fn add_kernel_once(&mut self, kernel: Kernel) -> usize {
+        let same = |known: &Kernel| known.name == kernel.name && known.modules == kernel.modules;
+        self.kernels.iter().position(same).unwrap_or_else(|| self.add_kernel(kernel))
+    }
+
+    /// Adds a buffer of zeros.
+    fn add_buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+        self.add_buffer_with(name, purpose, bytes, Contents::Zeros);
+    }
+
+    /// Adds a buffer of these bytes.
+    fn add_table(&mut self, name: &'static str, purpose: &'static str, contents: Vec<u8>) {
+        self.add_buffer_with(name, purpose, contents.len() as u64, Contents::Bytes(contents));
+    }
+
+    fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
+        self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
     }
 
     /// Bytes of all buffers.

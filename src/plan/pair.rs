@@ -1,7 +1,9 @@
 //! The plan of a scene whose particles interact in pairs.
 
-use super::analyses::{self, Reported, SAMPLE_ROWS};
-use super::{Buffer, Contents, Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
+use super::analyses::{self, Reported};
+use super::prefix_sum::PrefixSum;
+use super::recording::record_histogram;
+use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
 use crate::scene::{Distribution, Generator, Integrator, Output, RadialDistribution};
@@ -9,9 +11,7 @@ use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
 /// virial of the conservative force, squared force, curvature.
-const OBSERVABLES: usize = 9;
-/// Rows of cells that a single workgroup still scans faster than three kernels would.
-const SINGLE_SCAN_ROWS: u64 = 1024;
+const OBSERVABLES: u64 = 9;
 
 /// Makes the plan of a model.
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
@@ -180,59 +180,30 @@ impl Builder<'_> {
         [repulsion * half / unit, friction * half, amplitude * half / unit]
     }
 
-    fn kernel(&mut self, kernel: Kernel) -> usize {
-        self.plan.kernels.push(kernel);
-        self.plan.kernels.len() - 1
-    }
-
-    fn simple(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
+    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
         let mut modules = space(&self.model.units, self.predicted());
         modules.extend(extra);
-        self.kernel(Kernel {
-            name,
-            modules,
-            workgroups: workgroups.max(1) as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: Vec::new(),
-        })
+        self.plan.add_kernel(Kernel::new(name, modules, workgroups))
     }
 
     fn ordering(&mut self) {
-        let bin = self.simple("bin", &["kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
+        let bin = self.kernel("bin", &["kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting("common/begin_step");
     }
 
     /// Counting sort by cell; `clock` begins the step, or does not.
     fn sorting(&mut self, clock: &'static str) -> Vec<usize> {
-        let mut kernels = Vec::new();
         let clock: &[&str] = if clock == "common/begin_step" {
             &["common/begin_step", "common/threefry"]
         } else {
             &["common/same_step"]
         };
-        let rows = self.grid.rows();
-        let shared = [&["common/row_scan", "common/workgroup_scan"], clock].concat();
-        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let scan = self.simple("scan", &[&shared[..], &["kernels/scan"]].concat(), 1);
-            kernels.push(scan);
-        } else {
-            let blocks = self.simple(
-                "scan_blocks",
-                &["common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"],
-                rows.div_ceil(256),
-            );
-            let tops =
-                self.simple("scan_tops", &[&["common/workgroup_scan"], clock, &["kernels/scan_tops"]].concat(), 1);
-            let last = self.simple(
-                "scan_rows",
-                &["common/row_scan", "kernels/scan_rows"],
-                rows.div_ceil(self.workgroup_size()),
-            );
-            kernels.extend([blocks, tops, last]);
-        }
-        let scatter = self.simple(
+        let modules = space(&self.model.units, self.predicted());
+        let sum = PrefixSum { modules, clock, rows: self.grid.rows(), cells: self.grid.count() };
+        let mut kernels: Vec<usize> =
+            sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
+        let scatter = self.kernel(
             "scatter",
             &["common/words", "common/copies", "common/probes", "kernels/scatter"],
             self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
@@ -323,14 +294,7 @@ impl Builder<'_> {
         let rounds = (self.particles / rows).div_ceil(lanes).max(1);
         let segments = u64::from(self.options.segments.unwrap_or(0));
         let segments = if segments > 0 { segments } else { rounds.min((enough / rows).max(1)) };
-        self.kernel(Kernel {
-            name,
-            modules,
-            workgroups: (rows * segments) as u32,
-            demand: None,
-            constants: vec![("SEGMENTS", segments as f64)],
-            renamed: Vec::new(),
-        })
+        self.plan.add_kernel(Kernel::new(name, modules, rows * segments).with(vec![("SEGMENTS", segments as f64)]))
     }
 
     fn integration(&mut self, output: &Output) {
@@ -341,26 +305,7 @@ impl Builder<'_> {
         } else {
             self.leapfrog_step(forces)
         };
-        let record = self.kernel(Kernel {
-            name: "record_observables",
-            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", f64::from(groups))],
-            renamed: Vec::new(),
-        });
-        self.plan.samplers.push(Sampler {
-            name: "observables",
-            first: 0,
-            every: output.energies.every,
-            kernels: vec![record],
-            samples: "samples",
-            quantities: OBSERVABLES,
-            capacity: SAMPLE_ROWS,
-            needs_report: true,
-        });
-        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * OBSERVABLES as u64 * u64::from(groups));
-        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)));
+        self.plan.sample_observables(output.energies.every, OBSERVABLES, u64::from(groups));
         self.plan.operations_per_particle = self.operations();
     }
 
@@ -409,7 +354,7 @@ impl Builder<'_> {
             &[&observe[..], &["passes/observe_configuration"]].concat(),
         );
         let coefficients = self.coefficients();
-        let rest = self.simple(
+        let rest = self.kernel(
             "drift_rest",
             &["common/drift_halves", coefficients, "kernels/drift_rest"],
             self.particles.div_ceil(self.workgroup_size()),
@@ -466,7 +411,7 @@ impl Builder<'_> {
         if !analyses::needs_velocities(output) {
             return "common/momentum_off";
         }
-        self.buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
+        self.plan.add_buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
         "common/momentum_on"
     }
 
@@ -478,12 +423,8 @@ impl Builder<'_> {
         // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
         let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
         self.plan.force_unit = self.model.units.momentum / time;
-        self.buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
+        self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
         "common/force_on"
-    }
-
-    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.plan.buffers.push(Buffer { name, purpose, bytes: bytes.max(64), contents: Contents::Zeros });
     }
 
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
@@ -509,25 +450,19 @@ impl Builder<'_> {
             if self.grid.dimension == 3 { "common/span3" } else { "common/span2" },
             "kernels/pair_histogram",
         ]);
-        let count = self.kernel(Kernel {
-            name: "pair_histogram",
-            modules,
-            workgroups: (rows * segments) as u32,
-            demand: None,
-            constants: [&constants[..], &[("SEGMENTS", segments as f64)]].concat(),
-            renamed: Vec::new(),
-        });
-        let record = self.kernel(Kernel {
-            name: "record_histogram",
-            modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("BINS", f64::from(bins))],
-            renamed: vec![("samples", "histogram_samples")],
-        });
+        let count = self.plan.add_kernel(
+            Kernel::new("pair_histogram", modules, rows * segments)
+                .with([&constants[..], &[("SEGMENTS", segments as f64)]].concat()),
+        );
+        let record =
+            self.plan.add_kernel(record_histogram(u64::from(bins)).renamed(vec![("samples", "histogram_samples")]));
         let capacity = 16;
-        self.buffer("histogram", "pairs by distance", 8 * u64::from(bins));
-        self.buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + capacity * (1 + u64::from(bins))));
+        self.plan.add_buffer("histogram", "pairs by distance", 8 * u64::from(bins));
+        self.plan.add_buffer(
+            "histogram_samples",
+            "histograms waiting to be read",
+            8 * (1 + capacity * (1 + u64::from(bins))),
+        );
         self.plan.samplers.push(Sampler {
             name: "radial_distribution",
             first: self.equilibration,
@@ -547,25 +482,19 @@ impl Builder<'_> {
         let cells = self.grid.count();
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let copies = self.frame_capacity();
-        let mut buffers = Vec::new();
-        let mut add = |name, purpose, bytes: u64, contents| {
-            buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
-        };
-        add("control", "clock, key of the step's random words, failures", 64, Contents::Zeros);
+        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
         let purpose = if self.splits() {
             "particles in the order they were advanced; within a step, which pairs the first pass has found"
         } else {
             "particles in the order they were advanced"
         };
-        add("particles", purpose, particle * self.particles, Contents::Zeros);
-        add("sorted", "particles in order of cells", particle * (self.particles + copies), Contents::Zeros);
-        add("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies), Contents::Zeros);
-        add("cells", "where each cell begins", 4 * (rows * width + 1 + rows), Contents::Zeros);
-        add("counts", "particles in each cell", 4 * cells, Contents::Zeros);
-        add("ranks", "place of each particle in its cell", 4 * self.particles, Contents::Zeros);
-        if self.plan.sort.len() > 2 {
-            add("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)), Contents::Zeros);
-        }
+        self.plan.add_buffer("particles", purpose, particle * self.particles);
+        self.plan.add_buffer("sorted", "particles in order of cells", particle * (self.particles + copies));
+        self.plan.add_buffer("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies));
+        self.plan.add_buffer("cells", "where each cell begins", 4 * (rows * width + 1 + rows));
+        self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
+        self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * self.particles);
+        self.plan.add_row_sums(rows, cells, self.options);
         if !self.single() {
             let count = self.model.species.len();
             let mut table: Vec<f32> = Vec::with_capacity(4 * count * count);
@@ -576,9 +505,8 @@ impl Builder<'_> {
                 }
             }
             let bytes = bytemuck::cast_slice(&table).to_vec();
-            add("coefficients", "coefficients of each pair of species", bytes.len() as u64, Contents::Bytes(bytes));
+            self.plan.add_table("coefficients", "coefficients of each pair of species", bytes);
         }
-        self.plan.buffers.append(&mut buffers);
     }
 
     fn workgroup_size(&self) -> u64 {

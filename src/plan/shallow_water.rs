@@ -3,23 +3,21 @@
 //! A step: particles are sorted by the cells of the mesh; every cell spreads its particles over the nodes, the depth is
 //! smoothed, the bath takes its step; then every cell moves its particles by the slope of the surface.
 
+use super::prefix_sum::PrefixSum;
+use super::recording::SAMPLE_ROWS;
 use super::smoothing::smoothing;
-use super::{Bins, Buffer, Contents, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
+use super::{Bins, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage};
 use crate::model::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{Generator, Integrator, Output};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables.
-const OBSERVABLES: usize = 5;
-/// Rows of samples kept on the device between two readbacks.
-const SAMPLE_ROWS: u64 = 1024;
+const OBSERVABLES: u64 = 5;
 /// Bytes of tracers kept on the device between two readbacks.
 const TRACER_BYTES: u64 = 1 << 24;
 /// Bytes of a particle or tracer.
 const WATER: u64 = 24;
-/// Rows of cells that a single workgroup still scans faster than three kernels would.
-const SINGLE_SCAN_ROWS: u64 = 128;
 /// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
 const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
@@ -186,32 +184,18 @@ impl Builder<'_> {
         self.model.integrator != Integrator::Rotate {}
     }
 
-    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
+    /// Modules of the mesh and of the particles on it.
+    fn mesh(&self) -> [&'static str; 5] {
         let spline = match self.water.spline_order {
             1 => "common/spline1",
             2 => "common/spline2",
             _ => "common/spline3",
         };
-        let mut modules = vec!["common/mesh", spline, "common/water", "common/control", "common/dispatch"];
-        modules.extend(extra);
-        self.add(Kernel {
-            name,
-            modules,
-            workgroups: workgroups.max(1) as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: Vec::new(),
-        })
+        ["common/mesh", spline, "common/water", "common/control", "common/dispatch"]
     }
 
-    fn add(&mut self, kernel: Kernel) -> usize {
-        self.plan.kernels.push(kernel);
-        self.plan.kernels.len() - 1
-    }
-
-    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        let bytes = bytes.max(64).next_multiple_of(16);
-        self.plan.buffers.push(Buffer { name, purpose, bytes, contents: Contents::Zeros });
+    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
+        self.plan.add_kernel(Kernel::new(name, [&self.mesh()[..], extra].concat(), workgroups))
     }
 
     /// Counting sort by cell, where bins do not keep the order.
@@ -222,27 +206,16 @@ impl Builder<'_> {
         let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
         let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
         self.plan.prepare.push(bin);
-        let rows = u64::from(self.water.mesh[1]);
-        let clock = ["common/begin_step", "common/threefry"];
-        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let modules =
-                [&["common/mesh_cells", "common/row_scan", "common/workgroup_scan"][..], &clock, &["kernels/scan"]]
-                    .concat();
-            let scan = self.kernel("scan", &modules, 1);
-            self.plan.sort.push(scan);
-        } else {
-            let modules = ["common/mesh_cells", "common/row_scan", "common/workgroup_scan", "kernels/scan_blocks"];
-            let blocks = self.kernel("scan_blocks", &modules, rows.div_ceil(256));
-            let modules =
-                [&["common/mesh_cells", "common/workgroup_scan"][..], &clock, &["kernels/scan_tops"]].concat();
-            let tops = self.kernel("scan_tops", &modules, 1);
-            let last = self.kernel(
-                "scan_rows",
-                &["common/mesh_cells", "common/row_scan", "kernels/scan_rows"],
-                rows.div_ceil(self.options.workgroup()),
-            );
-            self.plan.sort.extend([blocks, tops, last]);
-            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+        let sum = PrefixSum {
+            modules: [&self.mesh()[..], &["common/mesh_cells"]].concat(),
+            clock: &["common/begin_step", "common/threefry"],
+            rows: u64::from(self.water.mesh[1]),
+            cells: self.water.nodes(),
+        };
+        self.plan.add_row_sums(sum.rows, sum.cells, self.options);
+        for kernel in sum.kernels(self.options) {
+            let kernel = self.plan.add_kernel(kernel);
+            self.plan.sort.push(kernel);
         }
         let scatter = self.kernel(
             "scatter",
@@ -334,26 +307,7 @@ impl Builder<'_> {
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        let record = self.add(Kernel {
-            name: "record_observables",
-            modules: vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("QUANTITIES", OBSERVABLES as f64), ("GROUPS", groups as f64)],
-            renamed: Vec::new(),
-        });
-        self.plan.samplers.push(Sampler {
-            name: "observables",
-            first: 0,
-            every: output.energies.every,
-            kernels: vec![record],
-            samples: "samples",
-            quantities: OBSERVABLES,
-            capacity: SAMPLE_ROWS,
-            needs_report: true,
-        });
-        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * OBSERVABLES as u64 * groups);
-        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + OBSERVABLES as u64)));
+        self.plan.sample_observables(output.energies.every, OBSERVABLES, groups);
         if self.tracers() > 0 {
             self.drifting(output, &moving);
         }
@@ -375,19 +329,15 @@ impl Builder<'_> {
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        let record = self.add(Kernel {
-            name: "record_tracers",
-            modules: vec!["common/water", "common/control", "kernels/record_tracers"],
-            workgroups: 1,
-            demand: None,
-            constants: Vec::new(),
-            renamed: vec![("samples", "tracer_samples")],
-        });
+        let record = self.plan.add_kernel(
+            Kernel::new("record_tracers", vec!["common/water", "common/control", "kernels/record_tracers"], 1)
+                .renamed(vec![("samples", "tracer_samples")]),
+        );
         let row = 8 * (1 + 2 * tracers);
         // Two rows at the least: one is taken, and room is left for the next.
         let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
-        self.buffer("tracers", "particles without mass", WATER * tracers);
-        self.buffer("tracer_samples", "tracers at reports, waiting to be read", 8 + capacity * row);
+        self.plan.add_buffer("tracers", "particles without mass", WATER * tracers);
+        self.plan.add_buffer("tracer_samples", "tracers at reports, waiting to be read", 8 + capacity * row);
         self.plan.samplers.push(Sampler {
             name: "tracers",
             first: 0,
@@ -403,30 +353,30 @@ impl Builder<'_> {
     fn buffers(&mut self) {
         let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
         let width = u64::from(self.water.spline_order + 1);
-        self.buffer("control", "clock, key of the step's random words, failures", 64);
+        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
         match self.storage {
             Storage::Sorted => {
-                self.buffer("particles", "particles in the order they were moved", WATER * particles);
-                self.buffer("sorted", "particles in order of cells", WATER * particles);
-                self.buffer("ranks", "place of each particle in its cell", 4 * particles);
-                self.buffer("counts", "particles in each cell", 4 * nodes);
-                self.buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
+                self.plan.add_buffer("particles", "particles in the order they were moved", WATER * particles);
+                self.plan.add_buffer("sorted", "particles in order of cells", WATER * particles);
+                self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * particles);
+                self.plan.add_buffer("counts", "particles in each cell", 4 * nodes);
+                self.plan.add_buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
                 let (capacity, arrivals) = bin_places(self.model, self.water);
                 self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
-                self.buffer("bins", "particles of each cell", bin_bytes(self.water, (capacity, arrivals)));
-                self.buffer("stayed", "particles that stay in each cell", 4 * nodes);
-                self.buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
+                self.plan.add_buffer("bins", "particles of each cell", bin_bytes(self.water, (capacity, arrivals)));
+                self.plan.add_buffer("stayed", "particles that stay in each cell", 4 * nodes);
+                self.plan.add_buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
             }
         }
-        self.buffer("contributions", "what each cell adds to the nodes around it", 4 * width * width * nodes);
-        self.buffer("node_masses", "mass on each node", 4 * nodes);
-        self.buffer("depths", "smoothed depth on each node", 4 * nodes);
+        self.plan.add_buffer("contributions", "what each cell adds to the nodes around it", 4 * width * width * nodes);
+        self.plan.add_buffer("node_masses", "mass on each node", 4 * nodes);
+        self.plan.add_buffer("depths", "smoothed depth on each node", 4 * nodes);
         if self.water.bath.is_some() {
-            self.buffer("node_bath", "bath variable of each node", 4 * nodes);
-            self.buffer("previous_masses", "mass on each node one step before", 4 * nodes);
-            self.buffer("surface", "depth and bath together", 4 * nodes);
+            self.plan.add_buffer("node_bath", "bath variable of each node", 4 * nodes);
+            self.plan.add_buffer("previous_masses", "mass on each node one step before", 4 * nodes);
+            self.plan.add_buffer("surface", "depth and bath together", 4 * nodes);
         }
     }
 }

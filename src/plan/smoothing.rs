@@ -35,14 +35,12 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
     let workgroup = options.workgroup();
     let constants = [("MEAN_MASS", water.mean_mass() as f64), ("MASS_UNIT", water.mass_unit)];
     if water.smoothing.length == 0.0 {
-        let kernel = Kernel {
-            name: "depths",
-            modules: vec!["common/dispatch", "common/deviation", "kernels/deviation"],
-            workgroups: workgroups(water.nodes(), workgroup),
-            demand: None,
-            constants: [constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat(),
-            renamed: Vec::new(),
-        };
+        let kernel = Kernel::new(
+            "depths",
+            vec!["common/dispatch", "common/deviation", "kernels/deviation"],
+            workgroups(water.nodes(), workgroup),
+        )
+        .with([constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat());
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
     match water.smoothing.solver {
@@ -73,8 +71,8 @@ pub fn iterations(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> u3
     Polynomial::new(water, lengths, tolerance).weights.len() as u32
 }
 
-fn workgroups(invocations: u64, workgroup: u64) -> u32 {
-    invocations.div_ceil(workgroup) as u32
+fn workgroups(invocations: u64, workgroup: u64) -> u64 {
+    invocations.div_ceil(workgroup)
 }
 
 /// Λ²/Δ² of each axis.
@@ -222,14 +220,9 @@ impl Fourier<'_> {
             constants.extend(self.constants);
         }
         let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
-        Kernel {
-            name: pass.name,
-            modules,
-            workgroups: workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup),
-            demand: None,
-            constants,
-            renamed: if number.is_multiple_of(2) { swapped } else { Vec::new() },
-        }
+        Kernel::new(pass.name, modules, workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup))
+            .with(constants)
+            .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
     }
 
     fn buffers(&self, twisted: bool) -> Vec<Buffer> {
@@ -343,14 +336,11 @@ fn chebyshev(
             let mut modules = vec!["common/dispatch", "common/chebyshev"];
             modules.extend(given);
             modules.push(entry);
-            plan.kernels.push(Kernel {
-                name,
-                modules,
-                workgroups,
-                demand: None,
-                constants: [constants.as_slice(), &[("PARITY", f64::from(parity))]].concat(),
-                renamed: vec![("waves", from), ("waves_next", to)],
-            });
+            plan.kernels.push(
+                Kernel::new(name, modules, workgroups)
+                    .with([constants.as_slice(), &[("PARITY", f64::from(parity))]].concat())
+                    .renamed(vec![("waves", from), ("waves_next", to)]),
+            );
             plan.kernels.len() - 1
         };
         let all = workgroups(water.nodes(), workgroup);

@@ -2,8 +2,9 @@
 //! by cell on the side.
 
 use super::Builder;
+use crate::plan::Sampler;
 use crate::plan::analyses::{self, Reported};
-use crate::plan::{Kernel, Sampler};
+use crate::plan::recording::record_histogram;
 use crate::scene::{Output, RadialDistribution};
 
 impl Builder<'_> {
@@ -33,7 +34,7 @@ impl Builder<'_> {
             return "common/force_off";
         }
         self.plan.force_unit = 1.0 / self.impulse();
-        self.buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
+        self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
         "common/force_on"
     }
 
@@ -74,18 +75,11 @@ impl Builder<'_> {
         let count = self.kernel("pair_histogram", &modules, rows * segments);
         self.plan.kernels[count].constants = constants;
         kernels.push(count);
-        self.plan.kernels.push(Kernel {
-            name: "record_histogram",
-            modules: vec!["common/control", "common/dispatch", "kernels/record_histogram"],
-            workgroups: 1,
-            demand: None,
-            constants: vec![("BINS", bins as f64)],
-            renamed: vec![("samples", "histogram_samples")],
-        });
-        kernels.push(self.plan.kernels.len() - 1);
+        let record = record_histogram(bins).renamed(vec![("samples", "histogram_samples")]);
+        kernels.push(self.plan.add_kernel(record));
         let capacity = 16;
-        self.buffer("histogram", "pairs by distance", 8 * bins);
-        self.buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + capacity * (1 + bins)));
+        self.plan.add_buffer("histogram", "pairs by distance", 8 * bins);
+        self.plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + capacity * (1 + bins)));
         if self.model.pair_force.is_none() {
             self.ordering_buffers();
         }

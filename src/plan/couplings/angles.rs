@@ -1,7 +1,6 @@
 //! Angles between bonds.
 
 use super::Builder;
-use crate::plan::Contents;
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
@@ -28,7 +27,7 @@ impl Builder<'_> {
         });
         let words: Vec<[u32; 4]> = mobile.chain(bent).collect();
         let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
-        self.buffer_of("angles", "angles and their stiffness", bytes.len() as u64, Contents::Bytes(bytes));
+        self.plan.add_table("angles", "angles and their stiffness", bytes);
         self.plan.operations_per_particle += 100.0 * count as f64 / self.particles.max(1) as f64;
     }
 }

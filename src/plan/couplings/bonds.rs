@@ -3,7 +3,6 @@
 use super::Builder;
 use crate::model::{BondKind, Bonds};
 use crate::noise::{self, stream};
-use crate::plan::Contents;
 use crate::scene::{BondPotential, Generator};
 
 impl Builder<'_> {
@@ -79,9 +78,9 @@ impl Builder<'_> {
             words.extend([bond.ends[0], bond.ends[1], bond.kind, 0]);
         }
         let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
-        self.buffer_of("bonds", "bonds and what they are like", bytes.len() as u64, Contents::Bytes(bytes));
+        self.plan.add_table("bonds", "bonds and what they are like", bytes);
         if bonds.have_memory() {
-            self.buffer("bond_baths", "bath of each bond", 4 * bonds.bonds.len() as u64);
+            self.plan.add_buffer("bond_baths", "bath of each bond", 4 * bonds.bonds.len() as u64);
         }
     }
 
@@ -129,7 +128,7 @@ impl Builder<'_> {
         let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
         self.plan.constants.push(("EXCLUSIONS", width as f64));
         let purpose = "partners whose repulsion each particle is spared";
-        self.buffer_of("exclusions", purpose, bytes.len() as u64, Contents::Bytes(bytes));
+        self.plan.add_table("exclusions", purpose, bytes);
         "common/exclusions_on"
     }
 }

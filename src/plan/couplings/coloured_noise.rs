@@ -43,7 +43,7 @@ impl Builder<'_> {
         // Words and jumps of the particles whose force ends in a step are few unless forces are short.
         let jumps = self.model.time_step / noise.time;
         let bytes = size_of::<crate::state::Hold>() as u64;
-        self.buffer(
+        self.plan.add_buffer(
             "holds",
             "random force of each particle and the time left of it, by number",
             bytes * self.particles,

@@ -3,11 +3,9 @@
 use super::Builder;
 use crate::model::{Model, PairForce};
 use crate::noise::{self, stream};
-use crate::plan::{Contents, Options, folded};
+use crate::plan::prefix_sum::PrefixSum;
+use crate::plan::{Kernel, Options, folded};
 use std::f64::consts::PI;
-
-/// Rows of cells that a single workgroup still scans faster than three kernels would.
-const SINGLE_SCAN_ROWS: u64 = 1024;
 
 /// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
 /// that for every time it has turned out to be too little.
@@ -33,16 +31,16 @@ impl Builder<'_> {
     /// The clock and, for pairs, the list.
     pub(super) fn list(&mut self) {
         if self.model.bonds.is_some() || self.model.angles.is_some() {
-            self.buffer("slots", "where each particle is stored", 4 * self.particles);
+            self.plan.add_buffer("slots", "where each particle is stored", 4 * self.particles);
         }
         let clock = ["common/begin_step", "common/threefry"];
         let groups = self.groups(self.particles);
         if self.model.pair_force.is_none() {
-            let tick = self.bare_kernel(
+            let tick = self.plan.add_kernel(Kernel::new(
                 "tick",
                 [&["common/control", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),
                 1,
-            );
+            ));
             self.plan.sort = vec![tick];
             if self.slots() == "common/slots_on" {
                 let stock =
@@ -52,11 +50,11 @@ impl Builder<'_> {
             return;
         }
         self.list_constants();
-        let begin = self.bare_kernel(
+        let begin = self.plan.add_kernel(Kernel::new(
             "begin",
             [&["common/control", "common/dispatch"], &clock[..], &["kernels/begin"]].concat(),
             1,
-        );
+        ));
         let stock = self.kernel("take_stock", &["common/anchors_on", self.slots(), "kernels/take_stock"], groups);
         self.plan.prepare = vec![stock];
         let rebuild = self.rebuild();
@@ -72,7 +70,7 @@ impl Builder<'_> {
         }
         self.plan.kernels[begin].constants.push(("CONDITIONAL", rebuild.len() as f64));
         let bytes: Vec<u8> = bytemuck::cast_slice(&[&sizes[..], &vec![0; sizes.len()]].concat()).to_vec();
-        self.buffer_of("demands", "workgroups of the kernels of the list", bytes.len() as u64, Contents::Bytes(bytes));
+        self.plan.add_table("demands", "workgroups of the kernels of the list", bytes);
         self.plan.sort = [&[begin][..], &rebuild].concat();
         self.list_buffers();
     }
@@ -100,20 +98,11 @@ impl Builder<'_> {
     /// The kernels that count the particles into cells and find where each cell begins.
     pub(super) fn binning(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
-        let rows = self.grid.rows();
+        let modules = [&self.space()[..], &[self.cells(), "common/cells_plain"]].concat();
+        let (rows, cells) = (self.grid.rows(), self.grid.count());
+        let sum = PrefixSum { modules, clock: &["common/same_step"], rows, cells };
         let mut kernels = vec![self.kernel("bin", &[self.cells(), "kernels/bin"], groups)];
-        let scan = [self.cells(), "common/cells_plain", "common/row_scan"];
-        if rows <= SINGLE_SCAN_ROWS && !self.options.many_level_scan {
-            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
-            kernels.push(self.kernel("scan", &all, 1));
-        } else {
-            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
-            kernels.push(self.kernel("scan_blocks", &blocks, rows.div_ceil(256)));
-            let tops = [self.cells(), "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
-            kernels.push(self.kernel("scan_tops", &tops, 1));
-            let groups = self.groups(rows);
-            kernels.push(self.kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
-        }
+        kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
         kernels
     }
 
@@ -161,26 +150,24 @@ impl Builder<'_> {
     pub(super) fn ordering_buffers(&mut self) {
         let particle = if self.predicted() { 48 } else { 32 };
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
-        self.buffer("sorted", "particles in order of cells, while the list is made", particle * particles);
-        self.buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
-        self.buffer("counts", "particles in each cell", 4 * cells);
-        self.buffer("ranks", "place of each particle in its cell", 4 * particles);
-        if rows > SINGLE_SCAN_ROWS || self.options.many_level_scan {
-            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
-        }
+        self.plan.add_buffer("sorted", "particles in order of cells, while the list is made", particle * particles);
+        self.plan.add_buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
+        self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
+        self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * particles);
+        self.plan.add_row_sums(rows, cells, self.options);
     }
 
     fn list_buffers(&mut self) {
         self.ordering_buffers();
         let particles = self.particles;
-        self.buffer("anchors", "where each particle was when the list was made", 16 * particles);
+        self.plan.add_buffer("anchors", "where each particle was when the list was made", 16 * particles);
         let pairs = self.list_capacity() * particles;
-        self.buffer("neighbours", "pairs of each particle", 4 * (pairs + particles));
+        self.plan.add_buffer("neighbours", "pairs of each particle", 4 * (pairs + particles));
         if self.force.remembers() {
-            self.buffer("came_from", "where each particle was stored before", 4 * particles);
-            self.buffer("neighbours_next", "the same, while the list is made", 4 * (pairs + particles));
-            self.buffer("memories", "what the bath of each pair remembers", 8 * pairs);
-            self.buffer("memories_next", "the same, while the list is made", 8 * pairs);
+            self.plan.add_buffer("came_from", "where each particle was stored before", 4 * particles);
+            self.plan.add_buffer("neighbours_next", "the same, while the list is made", 4 * (pairs + particles));
+            self.plan.add_buffer("memories", "what the bath of each pair remembers", 8 * pairs);
+            self.plan.add_buffer("memories_next", "the same, while the list is made", 8 * pairs);
         }
     }
 }

@@ -13,7 +13,7 @@ mod motion;
 mod pairs;
 mod tethers;
 
-use super::{Buffer, Contents, Grid, Kernel, Layout, Listed, Options, Plan, Quanta, Sampler, pair};
+use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, pair};
 use crate::model::{BathStep, Model, PairForce};
 use crate::noise::stream;
 use crate::scene::{Distribution, Generator, Integrator, Output};
@@ -22,8 +22,6 @@ use crate::scene::{Distribution, Generator, Integrator, Output};
 const OBSERVABLES: u64 = 9;
 /// Energy, square and number of the baths that remember.
 const BATH_OBSERVABLES: u64 = 3;
-/// Rows of samples kept on the device between two readbacks.
-const SAMPLE_ROWS: u64 = 1024;
 
 /// Makes the plan of a model.
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: Options) -> Plan {
@@ -247,19 +245,7 @@ impl Builder<'_> {
     /// Adds a kernel of the space with further modules.
     fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
         let modules = [&self.space()[..], modules].concat();
-        self.bare_kernel(name, modules, workgroups)
-    }
-
-    fn bare_kernel(&mut self, name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> usize {
-        self.plan.kernels.push(Kernel {
-            name,
-            modules,
-            workgroups: workgroups.max(1) as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: Vec::new(),
-        });
-        self.plan.kernels.len() - 1
+        self.plan.add_kernel(Kernel::new(name, modules, workgroups))
     }
 
     /// Adds a kernel of the report, which leaves its sums in rows of its own.
@@ -271,50 +257,23 @@ impl Builder<'_> {
         self.plan.report.push(kernel);
     }
 
-    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.buffer_of(name, purpose, bytes, Contents::Zeros);
-    }
-
-    fn buffer_of(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
-        let bytes = bytes.max(64).next_multiple_of(16);
-        self.plan.buffers.push(Buffer { name, purpose, bytes, contents });
-    }
-
     fn buffers(&mut self) {
         let particle = if self.predicted() { 48 } else { 32 };
-        self.buffer("control", "clock, key of the step's random words, failures", 64);
-        self.buffer("particles", "particles, in the order of the last list", particle * self.particles);
-        self.buffer("kicks", "impulses of half a step", 16 * self.particles);
-        self.buffer("reported", "particles of the last report by number", 32 * self.particles);
+        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
+        self.plan.add_buffer("particles", "particles, in the order of the last list", particle * self.particles);
+        self.plan.add_buffer("kicks", "impulses of half a step", 16 * self.particles);
+        self.plan.add_buffer("reported", "particles of the last report by number", 32 * self.particles);
         if !self.single() {
             let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
             let purpose = "coefficients of each pair of species, then of each species";
-            self.buffer_of("coefficients", purpose, bytes.len() as u64, Contents::Bytes(bytes));
+            self.plan.add_table("coefficients", purpose, bytes);
         }
     }
 
     /// Kernels that take what the report has left, and the sampler of the observables.
     fn observables(&mut self, output: &Output) {
         let quantities = self.quantities();
-        let record = self.bare_kernel(
-            "record_observables",
-            vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"],
-            1,
-        );
-        self.plan.kernels[record].constants =
-            vec![("QUANTITIES", quantities as f64), ("GROUPS", self.report_groups as f64)];
-        self.plan.samplers.push(Sampler {
-            name: "observables",
-            first: 0,
-            every: output.energies.every,
-            kernels: vec![record],
-            samples: "samples",
-            quantities: quantities as usize,
-            capacity: SAMPLE_ROWS,
-            needs_report: true,
-        });
-        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * self.report_groups);
-        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + quantities)));
+        self.plan.sample_observables(output.energies.every, quantities, self.report_groups);
         self.plan.finish_report.clone_from(&self.plan.advance);
     }
 }

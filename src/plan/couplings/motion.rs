@@ -33,7 +33,11 @@ impl Builder<'_> {
         let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
         if self.model.has_potential() {
-            self.buffer("forces", "impulses of half a step by conservative forces, at a report", 16 * self.particles);
+            self.plan.add_buffer(
+                "forces",
+                "impulses of half a step by conservative forces, at a report",
+                16 * self.particles,
+            );
             self.report_kernel("square_forces", &["kernels/square_forces"], groups);
         }
         self.plan.operations_per_particle += 60.0;
@@ -95,7 +99,7 @@ impl Builder<'_> {
             ]);
         }
         if memory {
-            self.buffer("position_baths", "bath of each coordinate, by number", 16 * self.particles);
+            self.plan.add_buffer("position_baths", "bath of each coordinate, by number", 16 * self.particles);
         }
     }
 }

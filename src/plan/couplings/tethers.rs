@@ -17,7 +17,7 @@ impl Builder<'_> {
         self.plan.advance.push(advance);
         let seen = [self.forces(), "common/tethers_seen"];
         self.report_kernel("report_tethers", &[&modules[..], &seen].concat(), groups);
-        self.buffer("tethers", "where each particle is tied to, by number", 16 * self.particles);
+        self.plan.add_buffer("tethers", "where each particle is tied to, by number", 16 * self.particles);
         self.plan.operations_per_particle += 15.0;
     }
 }

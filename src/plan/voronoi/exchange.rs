@@ -61,7 +61,7 @@ impl Builder<'_> {
     /// The kernel that looks ahead, so that energies are exchanged at the velocities in the middle of a part.
     fn predict(&mut self, part: Part) -> usize {
         if !self.plan.buffers.iter().any(|buffer| buffer.name == "predictions") {
-            self.buffer("predictions", "what an exchange is expected to bring", 16 * self.particles);
+            self.plan.add_buffer("predictions", "what an exchange is expected to bring", 16 * self.particles);
         }
         let mut modules = vec!["common/side", "common/side_start"];
         modules.extend(self.forces(part, false));

@@ -2,7 +2,7 @@
 //! kernels of those that are not needed get no workgroups.
 
 use super::Builder;
-use crate::plan::{Contents, folded};
+use crate::plan::{Kernel, folded};
 
 /// Lanes of a workgroup of the solver, whose sums are of single precision: no choice, for results depend on it.
 const LANES: u64 = 64;
@@ -17,7 +17,7 @@ impl Builder<'_> {
         let groups = self.particles.div_ceil(LANES).max(1);
         let iterations = if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
         let begin = vec!["common/control", "common/solver", iterations, "kernels/friction_begin"];
-        let begin = self.bare_kernel("friction_begin", begin, 1);
+        let begin = self.plan.add_kernel(Kernel::new("friction_begin", begin, 1));
         let mut setup =
             vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
         setup.extend(self.cell());
@@ -48,7 +48,7 @@ impl Builder<'_> {
         let image =
             self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
         let judge = [&sums[..], &["common/friction_verdict", "kernels/friction_judge"]].concat();
-        let judge = self.bare_kernel("friction_judge", judge, 1);
+        let judge = self.plan.add_kernel(Kernel::new("friction_judge", judge, 1));
         self.plan.kernels[judge].constants = verdict;
         let step = self.kernel("friction_step", &[&sums[..], &equations, &["kernels/friction_step"]].concat(), groups);
         for kernel in [image, step] {
@@ -75,14 +75,18 @@ impl Builder<'_> {
             let mut demands = [0_u32; 16];
             demands[..3].copy_from_slice(&[width, height, 1]);
             let bytes: Vec<u8> = bytemuck::cast_slice(&demands).to_vec();
-            self.buffer_of("demands", "workgroups of an iteration of the solver", 64, Contents::Bytes(bytes));
-            self.buffer("images", "what friction makes of preconditioned residuals", 8 * self.particles);
+            self.plan.add_table("demands", "workgroups of an iteration of the solver", bytes);
+            self.plan.add_buffer("images", "what friction makes of preconditioned residuals", 8 * self.particles);
         }
-        self.buffer("solver", "how far the solver of the friction has come", HEADER + 16 * groups);
-        self.buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
-        self.buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
-        self.buffer("searches", "preconditioned residuals", 16 * self.particles);
+        self.plan.add_buffer("solver", "how far the solver of the friction has come", HEADER + 16 * groups);
+        self.plan.add_buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
+        self.plan.add_buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
+        self.plan.add_buffer("searches", "preconditioned residuals", 16 * self.particles);
         let directions = if self.solves_at_once() { 32 } else { 16 };
-        self.buffer("directions", "directions of search, and what friction makes of them", directions * self.particles);
+        self.plan.add_buffer(
+            "directions",
+            "directions of search, and what friction makes of them",
+            directions * self.particles,
+        );
     }
 }

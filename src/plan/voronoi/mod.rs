@@ -11,7 +11,7 @@ mod motion;
 mod report;
 mod tessellation;
 
-use super::{Buffer, Contents, Grid, Kernel, Layout, Options, Plan, Quanta, pair};
+use super::{Grid, Kernel, Layout, Options, Plan, Quanta, pair};
 use crate::model::{Model, Voronoi};
 use crate::noise::stream;
 use crate::scene::{Generator, Integrator, Output, VoronoiForm};
@@ -46,6 +46,9 @@ fn mean_volume(model: &Model) -> f64 {
 fn quanta(model: &Model) -> Quanta {
     Quanta { length_squared: mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
 }
+
+/// Modules of the plane and of the cells in it.
+const SPACE: [&str; 4] = ["common/space2", "common/particle", "common/control", "common/dispatch"];
 
 struct Builder<'a> {
     model: &'a Model,
@@ -169,33 +172,11 @@ impl Builder<'_> {
 
     /// Adds a kernel of the plane with further modules.
     fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        let space = ["common/space2", "common/particle", "common/control", "common/dispatch"];
-        self.bare_kernel(name, [&space[..], modules].concat(), workgroups)
-    }
-
-    fn bare_kernel(&mut self, name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> usize {
-        self.plan.kernels.push(Kernel {
-            name,
-            modules,
-            workgroups: workgroups.max(1) as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: Vec::new(),
-        });
-        self.plan.kernels.len() - 1
-    }
-
-    fn buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.buffer_of(name, purpose, bytes, Contents::Zeros);
-    }
-
-    fn buffer_of(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
-        let bytes = bytes.max(64).next_multiple_of(16);
-        self.plan.buffers.push(Buffer { name, purpose, bytes, contents });
+        self.plan.add_kernel(Kernel::new(name, [&SPACE[..], modules].concat(), workgroups))
     }
 
     fn buffers(&mut self) {
-        self.buffer("control", "clock, key of the step's random words, failures", 64);
-        self.buffer("particles", "cells: place, mass, number, momentum, energy, species", 32 * self.particles);
+        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
+        self.plan.add_buffer("particles", "cells: place, mass, number, momentum, energy, species", 32 * self.particles);
     }
 }

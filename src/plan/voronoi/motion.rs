@@ -3,6 +3,7 @@
 use super::Builder;
 use super::exchange::Part;
 use super::tessellation::Occasion;
+use crate::plan::Kernel;
 use crate::scene::Output;
 
 /// What the cells take up, and from where.
@@ -32,7 +33,7 @@ impl Builder<'_> {
     /// The kernels of a step, and those that go before its report.
     pub(super) fn steps(&mut self, output: &Output) {
         let tick = vec!["common/control", "common/dispatch", "common/begin_step", "common/threefry", "kernels/tick"];
-        self.plan.sort = vec![self.bare_kernel("tick", tick, 1)];
+        self.plan.sort = vec![self.plan.add_kernel(Kernel::new("tick", tick, 1))];
         let geometry = self.geometry();
         if self.is_explicit() {
             self.plan.before_report = geometry;
@@ -110,7 +111,11 @@ impl Builder<'_> {
     }
 
     fn exchange_buffer(&mut self, name: &'static str) {
-        self.buffer(name, "what came through the faces of each cell: momentum, mass, energy", 16 * self.particles);
+        self.plan.add_buffer(
+            name,
+            "what came through the faces of each cell: momentum, mass, energy",
+            16 * self.particles,
+        );
     }
 
     /// The kernel that adds to the cells what came through their faces.

@@ -1,7 +1,7 @@
 //! What is measured of the cells, and the analyses of them by their numbers.
 
-use super::Builder;
-use crate::plan::{Sampler, analyses};
+use super::{Builder, SPACE};
+use crate::plan::analyses;
 use crate::scene::Output;
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, mass, volume, sides of faces; then free energy,
@@ -59,21 +59,7 @@ impl Builder<'_> {
     pub(super) fn observables(&mut self, output: &Output) {
         let quantities = self.quantities();
         let groups = self.groups(self.particles);
-        let modules = vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"];
-        let record = self.bare_kernel("record_observables", modules, 1);
-        self.plan.kernels[record].constants = vec![("QUANTITIES", quantities as f64), ("GROUPS", groups as f64)];
-        self.plan.samplers.push(Sampler {
-            name: "observables",
-            first: 0,
-            every: output.energies.every,
-            kernels: vec![record],
-            samples: "samples",
-            quantities: quantities as usize,
-            capacity: analyses::SAMPLE_ROWS,
-            needs_report: true,
-        });
-        self.buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * groups);
-        self.buffer("samples", "rows of sums waiting to be read", 8 * (1 + analyses::SAMPLE_ROWS * (1 + quantities)));
+        self.plan.sample_observables(output.energies.every, quantities, groups);
     }
 
     /// What a scene asks for about cells by their numbers.
@@ -81,12 +67,12 @@ impl Builder<'_> {
         if !analysed(output) {
             return;
         }
-        self.buffer("reported", "cells of the last report by number", 32 * self.particles);
+        self.plan.add_buffer("reported", "cells of the last report by number", 32 * self.particles);
         let reported = analyses::Reported {
             model: self.model,
             equilibration: self.equilibration,
             workgroup: self.options.workgroup(),
-            space: vec!["common/space2", "common/particle", "common/control", "common/dispatch"],
+            space: SPACE.to_vec(),
             masses: vec!["common/own_mass"],
             particles: "reported",
             momenta: None,

@@ -1,9 +1,8 @@
 //! The order of the particles and the cells around them.
 
-use super::Builder;
-
-/// Rows of cells that a single workgroup still scans faster than three kernels would.
-const SINGLE_SCAN_ROWS: u64 = 1024;
+use super::{Builder, SPACE};
+use crate::plan::Kernel;
+use crate::plan::prefix_sum::PrefixSum;
 
 /// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
@@ -81,23 +80,10 @@ impl Builder<'_> {
 
     /// Kernels of the prefix sum over grid cells.
     fn scan(&mut self, kernels: &mut Vec<usize>) {
-        let rows = self.grid.rows();
-        let scan = ["common/grid2", "common/cells_plain", "common/row_scan"];
-        if self.scans_at_once() {
-            let all = [&scan[..], &["common/workgroup_scan", "common/same_step", "kernels/scan"]].concat();
-            kernels.push(self.shared_kernel("scan", &all, 1));
-        } else {
-            let blocks = [&scan[..], &["common/workgroup_scan", "kernels/scan_blocks"]].concat();
-            kernels.push(self.shared_kernel("scan_blocks", &blocks, rows.div_ceil(256)));
-            let tops = ["common/grid2", "common/workgroup_scan", "common/same_step", "kernels/scan_tops"];
-            kernels.push(self.shared_kernel("scan_tops", &tops, 1));
-            let groups = self.groups(rows);
-            kernels.push(self.shared_kernel("scan_rows", &[&scan[..], &["kernels/scan_rows"]].concat(), groups));
-        }
-    }
-
-    fn scans_at_once(&self) -> bool {
-        self.grid.rows() <= SINGLE_SCAN_ROWS && !self.options.many_level_scan
+        let modules = [&SPACE[..], &["common/grid2", "common/cells_plain"]].concat();
+        let (rows, cells) = (self.grid.rows(), self.grid.count());
+        let sum = PrefixSum { modules, clock: &["common/same_step"], rows, cells };
+        kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel_once(kernel)));
     }
 
     /// Room for the faces of a cell: more each time that a run has found it too little, but not for more than there can be.
@@ -118,15 +104,7 @@ impl Builder<'_> {
 
     /// A kernel that is made once, however often it is asked for.
     fn shared_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        let wanted = self.kernel(name, modules, workgroups);
-        let kernels = &self.plan.kernels;
-        let known = kernels[..wanted]
-            .iter()
-            .position(|kernel| kernel.name == name && kernel.modules == kernels[wanted].modules);
-        if known.is_some() {
-            self.plan.kernels.pop();
-        }
-        known.unwrap_or(wanted)
+        self.plan.add_kernel_once(Kernel::new(name, [&SPACE[..], modules].concat(), workgroups))
     }
 
     fn geometry_buffers(&mut self) {
@@ -134,22 +112,20 @@ impl Builder<'_> {
             return;
         }
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
-        self.buffer("sorted", "particles in order of grid cells", 32 * particles);
-        self.buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
-        self.buffer("counts", "particles in each grid cell", 4 * cells);
-        self.buffer("ranks", "place of each particle in its grid cell", 4 * particles);
-        self.buffer("places", "where particles are, and which cells are in doubt", 8 + 16 * particles);
-        if !self.scans_at_once() {
-            self.buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
-        }
+        self.plan.add_buffer("sorted", "particles in order of grid cells", 32 * particles);
+        self.plan.add_buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
+        self.plan.add_buffer("counts", "particles in each grid cell", 4 * cells);
+        self.plan.add_buffer("ranks", "place of each particle in its grid cell", 4 * particles);
+        self.plan.add_buffer("places", "where particles are, and which cells are in doubt", 8 + 16 * particles);
+        self.plan.add_row_sums(rows, cells, self.options);
         let faces = self.face_capacity() * particles;
         // With many faces a cell's polygon is where its faces will be, and takes more room.
         let lengths = if self.options.list_growth > 0 { 2 * faces } else { faces };
-        self.buffer("face_counts", "number of faces of each cell", 4 * particles);
-        self.buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
-        self.buffer("face_lengths", "length of each face", 4 * lengths);
-        self.buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
-        self.buffer("volumes", "area of each cell", 4 * particles);
+        self.plan.add_buffer("face_counts", "number of faces of each cell", 4 * particles);
+        self.plan.add_buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
+        self.plan.add_buffer("face_lengths", "length of each face", 4 * lengths);
+        self.plan.add_buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
+        self.plan.add_buffer("volumes", "area of each cell", 4 * particles);
     }
 }
 

@@ -1,0 +1,37 @@
+//! Kernels that put what others have summed up into rows of samples, where the host reads them.
+
+use super::{Kernel, Plan, Sampler};
+
+/// Rows of samples kept on the device between two readbacks.
+pub(super) const SAMPLE_ROWS: u64 = 1024;
+
+/// The kernel that adds up the sums of all workgroups and records them.
+pub(super) fn record_sums(name: &'static str, quantities: u64, groups: u64) -> Kernel {
+    Kernel::new(name, vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"], 1)
+        .with(vec![("QUANTITIES", quantities as f64), ("GROUPS", groups as f64)])
+}
+
+/// The kernel that records a histogram and clears it.
+pub(super) fn record_histogram(bins: u64) -> Kernel {
+    Kernel::new("record_histogram", vec!["common/control", "common/dispatch", "kernels/record_histogram"], 1)
+        .with(vec![("BINS", bins as f64)])
+}
+
+impl Plan {
+    /// Adds the sampler of the observables that the workgroups of the report leave, so many each.
+    pub(super) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
+        let record = self.add_kernel(record_sums("record_observables", quantities, groups));
+        self.samplers.push(Sampler {
+            name: "observables",
+            first: 0,
+            every,
+            kernels: vec![record],
+            samples: "samples",
+            quantities: quantities as usize,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+        });
+        self.add_buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * groups);
+        self.add_buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + quantities)));
+    }
+}
