@@ -110,7 +110,7 @@ fn traversals_segments_scans_and_workgroup_sizes_give_the_same_bytes() {
                     let options = Options {
                         traversal: Some(traversal),
                         workgroup_size: Some(workgroup_size),
-                        paired_words: (workgroup_size == 32).then_some(false),
+                        serial_memory: (workgroup_size == 32).then_some(false),
                         many_level_scan,
                         ..Options::default()
                     };

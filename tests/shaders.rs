@@ -35,11 +35,11 @@ fn plan_of(scene: &Scene, options: Options) -> Plan {
     plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
 }
 
-/// Plans of a scene that move single words and pairs of them.
+/// Plans of a scene for either kind of memory.
 fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] {
-    [false, true].map(|paired| {
-        let plan = plan_of(scene, Options { paired_words: Some(paired), ..options });
-        (format!("{name} paired_words={paired}"), plan)
+    [false, true].map(|serial| {
+        let plan = plan_of(scene, Options { serial_memory: Some(serial), ..options });
+        (format!("{name} serial_memory={serial}"), plan)
     })
 }
 

@@ -97,7 +97,7 @@ fn storage_scans_and_workgroup_sizes_give_the_same_bytes() {
         let sorted = |workgroup_size: u32, many_level_scan: bool| Options {
             storage: Some(Storage::Sorted),
             workgroup_size: Some(workgroup_size),
-            paired_words: (workgroup_size == 32).then_some(false),
+            serial_memory: (workgroup_size == 32).then_some(false),
             many_level_scan,
             ..Options::default()
         };

@@ -11,7 +11,9 @@ use mesoscope::gpu::AdapterChoice;
 use mesoscope::run::{Outcome, Simulation};
 use mesoscope::scene::Scene;
 use serde_json::Value;
-use support::{COTTER_REICH, Device, GROOT_WARREN, Implementation, Measured, PREDICTED, SPLITTING, equilibrium, fluid};
+use support::{
+    COTTER_REICH, Device, GROOT_WARREN, Implementation, Measured, PREDICTED, SPLITTING, cells, equilibrium, fluid,
+};
 
 /// The tests wait for one another: each uses the whole device.
 static DEVICE: Mutex<()> = Mutex::new(());
@@ -162,6 +164,43 @@ fn shear_viscosity_of_the_fluid() {
     // The known value was measured too, to some per cent.
     assert!(viscosity.error < 0.05, "{viscosity:?}");
     assert!((viscosity.mean - 0.84).abs() < 0.04 + 3.0 * viscosity.error, "{viscosity:?}");
+}
+
+/// Flekkøy, Coveney and De Fabritiis: the network of cells has 1.22 to 1.25 times the viscosity η of its law of friction, and
+/// moving cells carry ρD/2 on top, at η = 2 from soft cells, of one molecule, to those of five.
+#[test]
+#[ignore = "minutes"]
+fn shear_viscosity_of_voronoi_cells() {
+    const FRICTION: f64 = 2.0;
+    const DENSITY: f64 = 5.0;
+    let _device = DEVICE.lock();
+    println!("| mass of a molecule | shear viscosity | D | 1.235 η + ρD/2 |\n|-|-|-|-|");
+    for molecule in [1, 5] {
+        let scene = cells(
+            225,
+            &[
+                "space.box=[15,15]",
+                "interactions.0.viscosity=2",
+                &format!("interactions.0.molecular_mass={molecule}"),
+                "time.step=0.05",
+                "time.equilibration=2000",
+                "time.steps=122000",
+                "output.energies.every=100",
+                r#"output.diffusion={"every":20,"window":50}"#,
+                r#"output.viscosity={"every":10,"window":60}"#,
+            ],
+        );
+        let (outcome, found, _) = run(scene, "diffusion", "diffusion.csv");
+        let diffusion = coefficient(&found["diffusion_einstein"]);
+        let viscosity = coefficient(&outcome.summary.results["viscosity"]["shear_viscosity"]);
+        let expected = 1.235 * FRICTION + 0.5 * DENSITY * diffusion.mean;
+        println!("| {molecule} | {} | {} | {expected:.3} |", digits(viscosity, 3), digits(diffusion, 4));
+        assert!(viscosity.error < 0.06 * expected, "{viscosity:?}");
+        assert!(
+            (viscosity.mean - expected).abs() < 0.015 * FRICTION + 3.0 * viscosity.error,
+            "{viscosity:?} {expected}"
+        );
+    }
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn reruns_batches_scans_and_workgroup_sizes_give_the_same_bytes() {
             (Options::default(), 8),
             (Options::default(), 1),
             (Options { many_level_scan: true, ..Options::default() }, STEPS),
-            (Options { workgroup_size: Some(32), paired_words: Some(false), ..Options::default() }, 8),
+            (Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() }, 8),
             (Options { workgroup_size: Some(128), list_growth: 1, ..Options::default() }, 8),
         ] {
             assert!(same(&plain, &run(&scene, options, batch)), "{options:?}, batches of {batch}");

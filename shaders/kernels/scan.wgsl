@@ -1,7 +1,7 @@
 // The whole prefix sum over cells in one workgroup: begins the step, and is the cheapest way for up to some thousand rows.
-@compute @workgroup_size(256)
+@compute @workgroup_size(SCAN_LANES)
 fn main(@builtin(local_invocation_index) lane: u32) {
-    let share = (rows() + 255u) / 256u;
+    let share = (rows() + SCAN_LANES - 1u) / SCAN_LANES;
     let first = lane * share;
     let end = min(first + share, rows());
     var own = vec2<u32>(0u);

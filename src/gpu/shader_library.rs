@@ -241,6 +241,8 @@ library![
     "common/sampled_force",
     "common/sampled_momentum",
     "common/sampled_velocity",
+    "common/scan_narrow",
+    "common/scan_wide",
     "common/shuffle2",
     "common/shuffle3",
     "common/side",

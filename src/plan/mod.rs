@@ -28,8 +28,8 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         _ => pair::plan(model, equilibration, output, hardware, options),
     };
-    if options.paired_words.unwrap_or(hardware.serial_memory) {
-        plan.pair_words();
+    if options.serial_memory.unwrap_or(hardware.serial_memory) {
+        plan.suit_serial_memory();
     }
     plan
 }
@@ -69,8 +69,8 @@ pub struct Options {
     pub copies: Option<u64>,
     /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
     pub storage: Option<Storage>,
-    /// Whether particles are moved in pairs of words; left to the hardware if `None`.
-    pub paired_words: Option<bool>,
+    /// Whether kernels suit lanes that are taken one after the other; left to the hardware if `None`.
+    pub serial_memory: Option<bool>,
     /// Whether pairs without memory are listed too, for integrators with one traversal a step.
     pub listed: bool,
     /// How often the room for the pairs of a particle in the list has been doubled.
@@ -307,14 +307,22 @@ impl Plan {
         }
     }
 
-    /// Loads and stores words in pairs in kernels that move particles about and do little else; where arithmetic is what
-    /// costs, taking the pairs apart costs more than it saves.
-    fn pair_words(&mut self) {
-        const MOVERS: [&str; 4] = ["scatter", "arrange", "push", "push_from_report"];
-        let movers = self.kernels.iter_mut().filter(|kernel| MOVERS.contains(&kernel.name));
-        for module in movers.flat_map(|kernel| &mut kernel.modules) {
-            if *module == "common/words" {
-                *module = "common/words_paired";
+    /// Suits kernels to lanes that are taken one after the other: words are loaded and stored in pairs where particles are
+    /// moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs more than it saves),
+    /// and few lanes wait for each other where one workgroup has all of the work.
+    fn suit_serial_memory(&mut self) {
+        const SUITED: [(&str, &str, &str); 5] = [
+            ("scatter", "common/words", "common/words_paired"),
+            ("arrange", "common/words", "common/words_paired"),
+            ("push", "common/words", "common/words_paired"),
+            ("push_from_report", "common/words", "common/words_paired"),
+            ("scan", "common/scan_wide", "common/scan_narrow"),
+        ];
+        for kernel in &mut self.kernels {
+            for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
+                for module in kernel.modules.iter_mut().filter(|module| **module == usual) {
+                    *module = suited;
+                }
             }
         }
     }

@@ -23,13 +23,17 @@ impl PrefixSum<'_> {
         let kernel = |name, more: &[&[&'static str]], workgroups| {
             Kernel::new(name, [&self.modules[..], &more.concat()].concat(), workgroups)
         };
-        let sums = ["common/row_scan", "common/workgroup_scan"];
+        let sums = ["common/row_scan", "common/scan_wide", "common/workgroup_scan"];
         if !needs_levels(self.cells, options) {
             return vec![kernel("scan", &[&sums, self.clock, &["kernels/scan"]], 1)];
         }
         vec![
             kernel("scan_blocks", &[&sums, &["kernels/scan_blocks"]], self.rows.div_ceil(256)),
-            kernel("scan_tops", &[&["common/workgroup_scan"], self.clock, &["kernels/scan_tops"]], 1),
+            kernel(
+                "scan_tops",
+                &[&["common/scan_wide", "common/workgroup_scan"], self.clock, &["kernels/scan_tops"]],
+                1,
+            ),
             kernel("scan_rows", &[&["common/row_scan", "kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
         ]
     }
