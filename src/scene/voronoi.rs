@@ -20,14 +20,14 @@ pub struct VoronoiInteraction {
     #[serde(default)]
     pub form: VoronoiForm,
     /// Viscosity η of the law of friction between faces; left out, 1, unless `shear_viscosity` is given. The shear
-    /// viscosity of the network of cells is 1.22 to 1.25 η, and half of density times self-diffusion on top. Zero leaves
-    /// friction and noise out.
+    /// viscosity of the network of cells is 1.22 to 1.25 η, with half of density times self-diffusion on top, and what
+    /// pressure adds where cells hold many molecules. Zero leaves friction and noise out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub viscosity: Option<f64>,
     /// The shear viscosity of the network of cells that is wanted, in place of `viscosity`, which is then this over
-    /// 1.235. What cells carry by moving about, half of density times self-diffusion, comes on top of it: measure it
-    /// with `output.shear_wave`.
+    /// 1.235. What cells carry by moving about, half of density times self-diffusion, and what their pressure adds come on
+    /// top of it: measure it with `output.viscosity` or `output.shear_wave`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub shear_viscosity: Option<f64>,
