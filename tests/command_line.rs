@@ -1,112 +1,30 @@
 //! The program as its user meets it: files, bytes, messages and exit codes.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
-use serde_json::{Value, json};
-use tempfile::TempDir;
+use program::{Place, bytes, colours, fails, mesoscope, picture, size, succeeds, text};
+use serde_json::json;
 
-fn mesoscope(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
-    command.args(arguments);
-    if let (Ok(adapter), Some("run" | "resume" | "plot" | "check")) =
-        (std::env::var("MESOSCOPE_ADAPTER"), arguments.first().copied())
-        && !arguments.contains(&"--adapter")
-    {
-        command.args(["--adapter", &adapter]);
-    }
-    command.output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// The program succeeds; returns what it says on standard output.
-fn succeeds(arguments: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout).to_owned()
-}
-
-/// The program fails with a code and a message that has all these parts.
-fn fails(arguments: &[&str], code: i32, parts: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
-    assert!(message.contains("error: ") && !message.contains("panicked"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-    message.to_owned()
-}
-
-/// A directory with a scene of 375 particles that takes small pictures.
-struct Place {
-    directory: TempDir,
-    scene: Value,
-}
-
-impl Place {
-    fn new() -> Self {
-        let scene = json!({
-            "title": "small fluid",
-            "space": {"box": [5, 5, 5]},
-            "time": {"step": 0.03, "steps": 60, "equilibration": 12},
-            "temperature": 1,
-            "particles": [{"species": "fluid", "number_density": 3}],
-            "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
-            "output": {
-                "energies": {"every": 3},
-                "plot": {"width": 640, "height": 480},
-                "snapshot": {"width": 200, "height": 160},
-            },
-        });
-        Self { directory: tempfile::tempdir().unwrap(), scene }
-    }
-
-    fn with(mut self, pointer: &str, value: Value) -> Self {
-        let (parent, key) = pointer.rsplit_once('/').unwrap();
-        self.scene.pointer_mut(parent).unwrap()[key] = value;
-        self
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.directory.path().join(name)
-    }
-
-    /// The path as an argument.
-    fn argument(&self, name: &str) -> String {
-        self.path(name).to_str().unwrap().to_owned()
-    }
-
-    fn scene(&self) -> String {
-        fs::write(self.path("scene.json"), self.scene.to_string()).unwrap();
-        self.argument("scene.json")
-    }
-
-    /// Runs the scene into a directory of this name.
-    fn run(&self, out: &str, further: &[&str]) -> String {
-        let (scene, out) = (self.scene(), self.argument(out));
-        succeeds(&[&["run", &scene, "--out", &out], further].concat())
-    }
-}
-
-fn bytes(path: &Path) -> Vec<u8> {
-    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn size(path: &Path) -> (u32, u32) {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8().dimensions()
-}
-
-/// Whether a picture shows anything at all.
-fn colours(path: &Path) -> usize {
-    let picture = image::open(path).unwrap().to_rgba8();
-    picture.pixels().collect::<std::collections::HashSet<_>>().len()
+/// A scene of 375 particles that takes small pictures.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "small fluid",
+        "space": {"box": [5, 5, 5]},
+        "time": {"step": 0.03, "steps": 60, "equilibration": 12},
+        "temperature": 1,
+        "particles": [{"species": "fluid", "number_density": 3}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+        "output": {
+            "energies": {"every": 3},
+            "plot": {"width": 640, "height": 480},
+            "snapshot": {"width": 200, "height": 160},
+        },
+    }))
 }
 
 fn state(directory: &Path) -> mesoscope::state::State {
@@ -116,7 +34,7 @@ fn state(directory: &Path) -> mesoscope::state::State {
 #[test]
 fn a_run_leaves_everything_the_scene_asks_for() {
     // This integrator measures the kinetic energy and shows the particles at the same moment of a step.
-    let place = Place::new()
+    let place = place()
         .with("/integrator", json!({"type": "groot-warren"}))
         .with("/output/snapshot/every", json!(25))
         .with("/output/trajectory", json!({"every": 20, "format": "extended-xyz"}))
@@ -188,7 +106,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
 
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
-    let place = Place::new();
+    let place = place();
     place.run("a", &["--quiet"]);
     place.run("b", &["--quiet"]);
     // Where the run stops in between changes nothing either.
@@ -209,7 +127,7 @@ fn half_a_run_resumed_is_a_whole_run() {
     for integrator in
         [json!({"type": "splitting"}), json!({"type": "groot-warren", "lambda": 0.65}), json!({"type": "cotter-reich"})]
     {
-        let place = Place::new()
+        let place = place()
             .with("/integrator", integrator)
             .with("/output/snapshot/every", json!(20))
             .with("/output/trajectory", json!({"every": 10}))
@@ -243,7 +161,7 @@ fn half_a_run_resumed_is_a_whole_run() {
 
 #[test]
 fn resuming_a_finished_run_does_nothing() {
-    let place = Place::new();
+    let place = place();
     place.run("out", &["--quiet"]);
     let before = bytes(&place.path("out").join(files::SUMMARY));
     let said = succeeds(&["resume", &place.argument("out")]);
@@ -257,7 +175,7 @@ fn resuming_a_finished_run_does_nothing() {
 
 #[test]
 fn nothing_is_overwritten_unless_asked() {
-    let place = Place::new();
+    let place = place();
     fs::create_dir(place.path("out")).unwrap();
     fs::write(place.path("out").join("notes.txt"), "mine").unwrap();
     place.run("out", &["--quiet"]);
@@ -276,7 +194,7 @@ fn nothing_is_overwritten_unless_asked() {
 
 #[test]
 fn an_explosion_is_reported_with_its_step() {
-    let place = Place::new()
+    let place = place()
         .with("/time/step", json!(1.0))
         .with("/interactions/0/repulsion", json!(100_000))
         .with("/output/checkpoint", json!({"every": 10}));
@@ -300,7 +218,7 @@ fn an_explosion_is_reported_with_its_step() {
 fn crowding_at_the_ends_of_the_box_is_survived() {
     let positions: Vec<[f64; 2]> =
         (0..2400).map(|index| [f64::from(index % 40) * 0.02, f64::from(index / 40) + 0.5]).collect();
-    let place = Place::new()
+    let place = place()
         .with("/space/box", json!([10, 60]))
         .with("/time", json!({"step": 0.0005, "steps": 12}))
         .with("/particles", json!([{"species": "fluid", "placement": {"type": "listed", "positions": positions}}]))
@@ -315,7 +233,7 @@ fn crowding_at_the_ends_of_the_box_is_survived() {
 
 #[test]
 fn an_unknown_adapter_is_answered_with_those_there_are() {
-    let place = Place::new();
+    let place = place();
     let known = succeeds(&["adapters"]);
     let (scene, out) = (place.scene(), place.argument("out"));
     for arguments in [&["run", &scene, "--out", &out][..], &["check", &scene]] {
@@ -328,7 +246,7 @@ fn an_unknown_adapter_is_answered_with_those_there_are() {
 
 #[test]
 fn files_that_cannot_be_written_or_read() {
-    let place = Place::new();
+    let place = place();
     let scene = place.scene();
     let below_a_file = place.argument("scene.json/out");
     fails(&["run", &scene, "--out", &below_a_file], 5, &["cannot create the directory", "scene.json"]);
@@ -352,7 +270,7 @@ fn files_that_cannot_be_written_or_read() {
 
 #[test]
 fn wrong_scenes_run_nothing() {
-    let place = Place::new();
+    let place = place();
     let (scene, out) = (place.scene(), place.argument("out"));
     fails(&["run", &scene, "--out", &out, "--set", "time.step=0"], 2, &["time.step", "0"]);
     fails(&["run", &scene, "--out", &out, "--set", "fricton=1"], 2, &["fricton"]);
@@ -362,7 +280,7 @@ fn wrong_scenes_run_nothing() {
 
 #[test]
 fn check_prints_the_plan() {
-    let place = Place::new().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
+    let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     let said = succeeds(&["check", &place.scene()]);
     for part in [
         "small fluid",
@@ -396,7 +314,7 @@ fn check_prints_the_plan() {
 
 #[test]
 fn plots_can_be_drawn_again() {
-    let place = Place::new().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
+    let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     place.run("out", &["--quiet"]);
     let names = [files::ENERGIES_PLOT, files::RADIAL_DISTRIBUTION_PLOT, files::SNAPSHOT];
     let before = names.map(|name| bytes(&place.path("out").join(name)));
@@ -418,7 +336,7 @@ fn plots_can_be_drawn_again() {
 
 #[test]
 fn two_species_in_a_plane() {
-    let place = Place::new()
+    let place = place()
         .with("/space/box", json!([9, 7]))
         .with("/particles", json!([{"species": "A", "count": 120}, {"species": "B", "count": 80, "mass": 2}]))
         .with("/interactions/0/repulsion", json!(0));
@@ -428,7 +346,7 @@ fn two_species_in_a_plane() {
     let columns = "step,time,kinetic_energy,total_energy,temperature,pressure,momentum_x,momentum_y,\
                    center_of_mass_velocity_x,center_of_mass_velocity_y";
     assert_eq!(energies.columns.join(","), columns);
-    let drawn = image::open(place.path("out").join(files::SNAPSHOT)).unwrap().to_rgba8();
+    let drawn = picture(&place.path("out").join(files::SNAPSHOT));
     let coloured =
         |strong: usize, weak: usize| drawn.pixels().filter(|p| p[strong] > p[weak].saturating_add(60)).count();
     assert!(coloured(2, 0) > 100 && coloured(0, 2) > 100, "both species show");
@@ -437,7 +355,7 @@ fn two_species_in_a_plane() {
 #[test]
 fn scenes_of_no_and_of_one_particle() {
     for (count, empty) in [(0, ["temperature", "center_of_mass_velocity_x"]), (1, ["temperature", "pressure"])] {
-        let place = Place::new()
+        let place = place()
             .with("/particles", json!([{"species": "A", "count": count}]))
             .with("/output/radial_distribution", json!({"every": 5, "range": 2}))
             .with("/output/diffusion", json!({"every": 2, "window": 6}))
@@ -458,7 +376,7 @@ fn scenes_of_no_and_of_one_particle() {
 
 #[test]
 fn a_run_of_no_steps() {
-    let place = Place::new();
+    let place = place();
     place.run("out", &["--quiet", "--set", "time.equilibration=0", "--steps", "0"]);
     let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
     assert_eq!(energies.column("step").unwrap(), [0.0]);
@@ -469,7 +387,7 @@ fn a_run_of_no_steps() {
 
 #[test]
 fn warnings_and_quiet() {
-    let place = Place::new().with("/space/box", json!([5, 5, 2]));
+    let place = place().with("/space/box", json!([5, 5, 2]));
     let (scene, out) = (place.scene(), place.argument("out"));
     let output = mesoscope(&["run", &scene, "--out", &out]);
     assert!(text(&output.stderr).contains("warning: space.box[2]"), "{}", text(&output.stderr));

@@ -2,7 +2,9 @@
 //! is accepted; and time steps that cannot be stable, before a run finds out.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use mesoscope::scene::{self, Scene, SceneError};
+mod mistakes;
+
+use mistakes::{parse, problems, refused_with as refused, warnings};
 use serde_json::{Value, json};
 
 /// Chains in solvent.
@@ -22,34 +24,6 @@ fn base() -> Value {
             {"type": "angles", "stiffness": 2},
         ],
     })
-}
-
-fn parse(overrides: &[&str]) -> Result<Scene, SceneError> {
-    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
-    scene::parse("test.json", &base().to_string(), &overrides)
-}
-
-fn problems(overrides: &[&str]) -> Vec<String> {
-    match parse(overrides) {
-        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
-        other => panic!("{overrides:?}: {other:?}"),
-    }
-}
-
-/// The one problem of the scene with these overrides has all these parts.
-fn refused(overrides: &[&str], parts: &[&str]) {
-    let problems = problems(overrides);
-    assert_eq!(problems.len(), 1, "{problems:#?}");
-    for part in parts {
-        assert!(problems[0].contains(part), "`{part}` is not in: {}", problems[0]);
-    }
-}
-
-fn warnings(overrides: &[&str]) -> Vec<String> {
-    scene::warnings(&parse(overrides).unwrap_or_else(|error| panic!("{error}")))
-        .iter()
-        .map(ToString::to_string)
-        .collect()
 }
 
 const LINE: &str = "space.box=[100]";

@@ -12,21 +12,13 @@ use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
-use rand::seq::SliceRandom as _;
+use support::bytes::{self, Bytes, harvest};
 use support::{COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, gpu, reference, start};
 
 const STEPS: u64 = 24;
 const TWO_DIMENSIONS: &str = "space.box=[12,9]";
 const MIXTURE: &str = r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":2.5}]"#;
 const MIXTURE_FORCE: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["A","B"],"repulsion":40,"friction":9}]}]"#;
-
-/// Everything a run gives: the state to continue from, that of the last report, and all samples.
-#[derive(Debug, PartialEq)]
-struct Bytes {
-    state: State,
-    reported: State,
-    samples: Vec<Sample>,
-}
 
 fn sampled(changes: &[&str]) -> Scene {
     let every_sampler = [
@@ -39,18 +31,8 @@ fn sampled(changes: &[&str]) -> Scene {
     fluid(&[&every_sampler[..], changes].concat())
 }
 
-fn harvest(mut engine: Engine<'_>, mut samples: Vec<Sample>) -> Bytes {
-    let state = engine.state().unwrap();
-    let reported = engine.reported().unwrap();
-    samples.extend(engine.finish().unwrap());
-    Bytes { state, reported, samples }
-}
-
 fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
-    let (_, state) = start(scene);
-    let mut engine = engine(scene, &state, options);
-    engine.advance(STEPS, batch).unwrap();
-    harvest(engine, Vec::new())
+    bytes::run(scene, options, STEPS, batch)
 }
 
 /// Scenes that between them have every kind of particle, table and noise.
@@ -130,26 +112,9 @@ fn batches_of_any_size_give_the_same_bytes() {
         for batch in [3, 16, 1000] {
             assert!(steps == run(&scene, Options::default(), batch), "batches of {batch}");
         }
-        // Asked for piece by piece, with a look at the state in between.
-        let (_, state) = start(&scene);
-        let mut pieces = engine(&scene, &state, Options::default());
-        let mut samples = Vec::new();
-        for piece in [1, 4, 11, 8] {
-            pieces.advance(piece, 5).unwrap();
-            samples.extend(pieces.take_samples());
-            assert_eq!(pieces.state().unwrap().step, pieces.step());
-        }
-        assert!(steps == harvest(pieces, samples), "piece by piece");
-        // With every step reported before it is finished.
-        let mut watched = engine(&scene, &state, Options::default());
-        let mut samples = Vec::new();
-        for _ in 0..STEPS {
-            watched.reported().unwrap();
-            assert!(matches!(watched.state(), Err(EngineError::State { .. })));
-            samples.extend(watched.finish().unwrap());
-            watched.advance(1, 1).unwrap();
-        }
-        assert!(steps == harvest(watched, samples), "watched at every step");
+        let pieces = bytes::in_pieces(&scene, Options::default(), &[1, 4, 11, 8], 5);
+        assert!(steps == pieces, "piece by piece");
+        assert!(steps == bytes::watched(&scene, Options::default(), STEPS), "watched at every step");
     }
 }
 
@@ -157,16 +122,10 @@ fn batches_of_any_size_give_the_same_bytes() {
 fn the_storage_order_does_not_matter() {
     let mut random = rand::rngs::StdRng::seed_from_u64(1);
     for scene in scenes() {
-        let (_, state) = start(&scene);
         let expected = run(&scene, Options::default(), 8);
         for traversal in traversals() {
-            let mut order: Vec<usize> = (0..state.len()).collect();
-            order.shuffle(&mut random);
-            assert!(!order.is_sorted());
-            let mut shuffled = engine(&scene, &state, Options { traversal: Some(traversal), ..Options::default() });
-            shuffled.upload_in_order(&state, &order).unwrap();
-            shuffled.advance(STEPS, 8).unwrap();
-            assert!(expected == harvest(shuffled, Vec::new()), "{traversal:?}");
+            let options = Options { traversal: Some(traversal), ..Options::default() };
+            assert!(expected == bytes::shuffled(&scene, options, STEPS, 8, &mut random), "{traversal:?}");
         }
     }
 }
@@ -191,9 +150,7 @@ fn a_run_split_in_two_is_the_run() {
         // Diffusion begins its windows anew; every other sampler has no memory.
         let scene = sampled(&[changes.as_slice(), &["output.diffusion=null"]].concat());
         let (_, state) = start(&scene);
-        let mut unbroken = engine(&scene, &state, Options::default());
-        unbroken.advance(STEPS, 8).unwrap();
-        let unbroken = harvest(unbroken, Vec::new());
+        let unbroken = run(&scene, Options::default(), 8);
         for first in [1, 7, 12] {
             let mut before = engine(&scene, &state, Options::default());
             before.advance(first, 8).unwrap();

@@ -3,14 +3,16 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod plotter;
+
 use image::RgbaImage;
 use mesoscope::measure::Field;
 use mesoscope::output::{OutputError, write_npy, write_npy_to};
-use mesoscope::plot::{ColorMap, FieldPicture, Interpolation, PeriodicCurve, PlotError, Plotter, draw_field};
+use mesoscope::plot::{ColorMap, FieldPicture, Interpolation, PeriodicCurve, PlotError, draw_field};
 use mesoscope::scene::{PlotStyle, Theme};
+use plotter::{device, plotter, save};
 use std::f64::consts::TAU;
 use std::path::Path;
-use std::sync::LazyLock;
 
 const LOWEST: [u8; 3] = [68, 1, 84];
 const MIDDLE: [u8; 3] = [33, 144, 141];
@@ -18,32 +20,8 @@ const HIGHEST: [u8; 3] = [253, 231, 37];
 const MISSING: [u8; 3] = [0x8C; 3];
 const INK: [u8; 3] = [0x1A; 3];
 
-fn device() -> &'static (wgpu::Device, wgpu::Queue) {
-    static DEVICE: LazyLock<(wgpu::Device, wgpu::Queue)> = LazyLock::new(|| {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .expect("these tests need a Vulkan, Metal or DX12 adapter; lavapipe will do");
-        let request = wgpu::DeviceDescriptor {
-            label: Some("field tests"),
-            required_limits: wgpu::Limits::defaults(),
-            ..Default::default()
-        };
-        pollster::block_on(adapter.request_device(&request)).unwrap()
-    });
-    &DEVICE
-}
-
-fn plotter() -> &'static Plotter {
-    static PLOTTER: LazyLock<Plotter> = LazyLock::new(|| {
-        let (device, queue) = device();
-        Plotter::new(device, queue).unwrap()
-    });
-    &PLOTTER
-}
-
 fn draw(name: &str, picture: &FieldPicture<'_>, style: &PlotStyle) -> RgbaImage {
-    let drawn = plotter().draw_field(picture, style).unwrap();
-    drawn.save(format!("{}/field-{name}.png", env!("CARGO_TARGET_TMPDIR"))).unwrap();
+    let drawn = save(&format!("field-{name}"), plotter().draw_field(picture, style).unwrap());
     assert_eq!((drawn.width(), drawn.height()), (style.width, style.height));
     drawn
 }

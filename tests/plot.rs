@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod plotter;
+
 use image::RgbaImage;
 use mesoscope::plot::{
     CellPicture, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle,
@@ -10,40 +12,12 @@ use mesoscope::plot::{
 };
 use mesoscope::scene::{PlotStyle, Snapshot, SnapshotColor, Theme};
 use mesoscope::tessellation::Tessellation;
+use plotter::{device, plotter, save};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
-use std::sync::LazyLock;
 use std::time::Instant;
 
 const BLUE: [u8; 3] = [0x00, 0x72, 0xB2];
 const ORANGE: [u8; 3] = [0xE6, 0x9F, 0x00];
-
-fn device() -> &'static (wgpu::Device, wgpu::Queue) {
-    static DEVICE: LazyLock<(wgpu::Device, wgpu::Queue)> = LazyLock::new(|| {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .expect("these tests need a Vulkan, Metal or DX12 adapter; lavapipe will do");
-        let request = wgpu::DeviceDescriptor {
-            label: Some("plot tests"),
-            required_limits: wgpu::Limits::defaults(),
-            ..Default::default()
-        };
-        pollster::block_on(adapter.request_device(&request)).unwrap()
-    });
-    &DEVICE
-}
-
-fn plotter() -> &'static Plotter {
-    static PLOTTER: LazyLock<Plotter> = LazyLock::new(|| {
-        let (device, queue) = device();
-        Plotter::new(device, queue).unwrap()
-    });
-    &PLOTTER
-}
-
-fn save(name: &str, picture: RgbaImage) -> RgbaImage {
-    picture.save(format!("{}/{name}.png", env!("CARGO_TARGET_TMPDIR"))).unwrap();
-    picture
-}
 
 fn chart_picture(name: &str, chart: &Chart, style: &PlotStyle) -> RgbaImage {
     save(name, plotter().draw_chart(chart, style).unwrap())

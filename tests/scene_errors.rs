@@ -2,9 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod mistakes;
+
 use std::process::{Command, Output, Stdio};
 
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, SceneError};
+use mistakes::{parse, problems, refused_with as refused, warnings};
 use serde_json::{Value, json};
 
 fn mesoscope(arguments: &[&str]) -> Output {
@@ -28,27 +31,6 @@ fn base() -> Value {
         ],
         "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
     })
-}
-
-fn parse(overrides: &[&str]) -> Result<Scene, SceneError> {
-    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
-    scene::parse("test.json", &base().to_string(), &overrides)
-}
-
-fn problems(overrides: &[&str]) -> Vec<String> {
-    match parse(overrides) {
-        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
-        other => panic!("{overrides:?}: {other:?}"),
-    }
-}
-
-/// The one problem of the small scene with these overrides has all these parts.
-fn refused(overrides: &[&str], parts: &[&str]) {
-    let problems = problems(overrides);
-    assert_eq!(problems.len(), 1, "{problems:#?}");
-    for part in parts {
-        assert!(problems[0].contains(part), "`{part}` is not in: {}", problems[0]);
-    }
 }
 
 #[test]
@@ -207,12 +189,11 @@ fn lengths_and_durations() {
 #[test]
 fn warnings_name_place_and_remedy() {
     let warned = |overrides: &[&str], expected: &str| {
-        let scene = parse(overrides).unwrap();
-        let warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
+        let warnings = warnings(overrides);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         assert!(warnings[0].contains(expected), "{warnings:?}");
     };
-    assert!(scene::warnings(&parse(&[]).unwrap()).is_empty());
+    assert!(warnings(&[]).is_empty());
     // The mean friction rate is γρ·(2π/15)/(3m): 628.3 for γ = 7500 at density 0.6.
     warned(
         &["interactions.0.friction=7500"],

@@ -1,133 +1,41 @@
 //! Shallow water as its user meets it: files, bytes, messages and exit codes of the program.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::collections::HashSet;
+mod program;
+
 use std::f64::consts::{PI, TAU};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
-use serde_json::{Value, json};
-use tempfile::TempDir;
+use program::{Place, bytes, colours, fails, listing, mesoscope, size, succeeds, text};
+use serde_json::json;
 
-fn mesoscope(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
-    command.args(arguments);
-    if let Ok(adapter) = std::env::var("MESOSCOPE_ADAPTER") {
-        command.args(["--adapter", &adapter]);
-    }
-    command.output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
-
-/// The program succeeds; returns what it says on standard output.
-fn succeeds(arguments: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout).to_owned()
-}
-
-/// The program fails with a code and a message that has all these parts.
-fn fails(arguments: &[&str], code: i32, parts: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
-    assert!(message.contains("error: ") && !message.contains("panicked"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-    message.to_owned()
-}
-
-/// A directory with a scene of 1024 particles, two loops and small pictures.
-struct Place {
-    directory: TempDir,
-    scene: Value,
-}
-
-impl Place {
-    fn new() -> Self {
-        let scene = json!({
-            "title": "small sea",
-            "seed": 3,
-            "space": {"box": [TAU, TAU]},
-            "time": {"step": 0.02, "steps": 40},
-            "temperature": 4e-4,
-            "particles": [
-                {"species": "water", "count": 1024, "placement": {"type": "lattice"}, "velocities": {"type": "geostrophic"}},
-                {"species": "dye", "count": 5, "tracer": true},
-                {"species": "inner", "count": 200, "tracer": true, "velocities": {"type": "geostrophic"},
-                 "placement": {"type": "circle", "center": [3, 3], "radius": 0.5}},
-                {"species": "outer", "count": 400, "tracer": true, "velocities": {"type": "geostrophic"},
-                 "placement": {"type": "circle", "center": [3, 3], "radius": 1}},
-            ],
-            "interactions": [{
-                "type": "shallow-water", "mesh": [16, 16],
-                "wave_speed": TAU, "rotation": TAU,
-                "smoothing": {"length": 0.8},
-                "surface": [{"type": "bump", "center": [3, 3], "radius": 1, "amplitude": 0.1}],
-                "bath": {"type": "memory", "epsilon": 1},
-            }],
-            "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}},
-        });
-        Self { directory: tempfile::tempdir().unwrap(), scene }
-    }
-
-    fn with(mut self, pointer: &str, value: Value) -> Self {
-        let (parent, key) = pointer.rsplit_once('/').unwrap();
-        self.scene.pointer_mut(parent).unwrap()[key] = value;
-        self
-    }
-
-    fn without(mut self, pointer: &str) -> Self {
-        let (parent, key) = pointer.rsplit_once('/').unwrap();
-        self.scene.pointer_mut(parent).unwrap().as_object_mut().unwrap().remove(key);
-        self
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.directory.path().join(name)
-    }
-
-    /// The path as an argument.
-    fn argument(&self, name: &str) -> String {
-        self.path(name).to_str().unwrap().to_owned()
-    }
-
-    fn scene(&self) -> String {
-        fs::write(self.path("scene.json"), self.scene.to_string()).unwrap();
-        self.argument("scene.json")
-    }
-
-    /// Runs the scene into a directory of this name.
-    fn run(&self, out: &str, further: &[&str]) -> String {
-        let (scene, out) = (self.scene(), self.argument(out));
-        succeeds(&[&["run", &scene, "--out", &out], further].concat())
-    }
-}
-
-fn bytes(path: &Path) -> Vec<u8> {
-    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn listing(directory: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-fn picture(path: &Path) -> image::RgbaImage {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8()
-}
-
-/// Whether a picture shows anything at all.
-fn colours(path: &Path) -> usize {
-    picture(path).pixels().collect::<HashSet<_>>().len()
+/// A scene of 1024 particles, two loops and small pictures.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "small sea",
+        "seed": 3,
+        "space": {"box": [TAU, TAU]},
+        "time": {"step": 0.02, "steps": 40},
+        "temperature": 4e-4,
+        "particles": [
+            {"species": "water", "count": 1024, "placement": {"type": "lattice"}, "velocities": {"type": "geostrophic"}},
+            {"species": "dye", "count": 5, "tracer": true},
+            {"species": "inner", "count": 200, "tracer": true, "velocities": {"type": "geostrophic"},
+             "placement": {"type": "circle", "center": [3, 3], "radius": 0.5}},
+            {"species": "outer", "count": 400, "tracer": true, "velocities": {"type": "geostrophic"},
+             "placement": {"type": "circle", "center": [3, 3], "radius": 1}},
+        ],
+        "interactions": [{
+            "type": "shallow-water", "mesh": [16, 16],
+            "wave_speed": TAU, "rotation": TAU,
+            "smoothing": {"length": 0.8},
+            "surface": [{"type": "bump", "center": [3, 3], "radius": 1, "amplitude": 0.1}],
+            "bath": {"type": "memory", "epsilon": 1},
+        }],
+        "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}},
+    }))
 }
 
 /// Shape and values of an array of numpy's format 1.0 in 64-bit floats.
@@ -143,7 +51,7 @@ fn array(path: &Path) -> (String, Vec<f64>) {
 
 #[test]
 fn a_run_leaves_everything_the_scene_asks_for() {
-    let place = Place::new().with(
+    let place = place().with(
         "/output/fields",
         json!({"every": 15, "quantities": ["depth", "potential-vorticity", "vorticity", "speed"]}),
     );
@@ -168,7 +76,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
         assert!(said.contains(name.as_str()), "`{name}` is not in: {said}");
     }
     for name in expected.iter().filter(|name| Path::new(name).extension().is_some_and(|extension| extension == "png")) {
-        assert_eq!(picture(&out.join(name)).dimensions().1, 480, "{name}");
+        assert_eq!(size(&out.join(name)).1, 480, "{name}");
         assert!(colours(&out.join(name)) > 20, "{name} is empty");
     }
 
@@ -211,7 +119,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
 
 #[test]
 fn a_plain_scene_leaves_depth_and_potential_vorticity() {
-    let place = Place::new()
+    let place = place()
         .with("/particles", json!([{"species": "water", "count": 512, "velocities": {"type": "rest"}}]))
         .with("/temperature", json!(0))
         .without("/interactions/0/bath");
@@ -242,7 +150,7 @@ fn a_plain_scene_leaves_depth_and_potential_vorticity() {
 fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
     for (integrator, bath) in [("gyro", json!({"type": "memory", "epsilon": 1})), ("rotate", json!({"type": "white"}))]
     {
-        let place = Place::new()
+        let place = place()
             .with("/integrator", json!({"type": integrator}))
             .with("/interactions/0/bath", bath)
             .with("/output/fields", json!({"every": 10}))
@@ -273,7 +181,7 @@ fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
 
 #[test]
 fn plots_can_be_drawn_again() {
-    let place = Place::new().with("/output/fields", json!({"every": 0, "quantities": ["depth", "speed"]}));
+    let place = place().with("/output/fields", json!({"every": 0, "quantities": ["depth", "speed"]}));
     place.run("out", &["--quiet"]);
     let out = place.path("out");
     let names = ["energies.png", "circulation.png", "depth.png", "speed.png", "depth.npy", "speed.npy"];
@@ -287,14 +195,14 @@ fn plots_can_be_drawn_again() {
         assert!(bytes(&out.join(name)) == *before, "{name} changed");
     }
     succeeds(&["plot", &place.argument("out"), "--set", "output.plot.height=600", "--set", "output.plot.theme=dark"]);
-    assert_eq!(picture(&out.join("depth.png")).dimensions().1, 600);
-    assert_eq!(picture(&out.join("circulation.png")).dimensions(), (640, 600));
+    assert_eq!(size(&out.join("depth.png")).1, 600);
+    assert_eq!(size(&out.join("circulation.png")), (640, 600));
     assert_ne!(bytes(&out.join("speed.png")), before[3]);
 }
 
 #[test]
 fn nothing_is_overwritten_unless_asked() {
-    let place = Place::new().with("/output/fields", json!({"every": 20}));
+    let place = place().with("/output/fields", json!({"every": 20}));
     place.run("out", &["--quiet"]);
     let out = place.argument("out");
     let before = bytes(&place.path("out").join("depth.npy"));
@@ -314,7 +222,7 @@ fn a_crowd_makes_the_run_go_on_with_more_memory() {
     // Two thousand particles in one cell of 64, so little water each that it hardly moves.
     let positions: Vec<[f64; 2]> =
         (0..2000).map(|index| [3.2 + 1e-4 * f64::from(index % 50), 3.2 + 1e-3 * f64::from(index / 50)]).collect();
-    let place = Place::new()
+    let place = place()
         .with("/particles", json!([{"species": "water", "placement": {"type": "listed", "positions": positions}, "velocities": {"type": "rest"}}]))
         .with("/interactions/0/mesh", json!([8, 8]))
         .with("/interactions/0/surface", json!([]))
@@ -342,7 +250,7 @@ fn a_crowd_makes_the_run_go_on_with_more_memory() {
 
 #[test]
 fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
-    let place = Place::new()
+    let place = place()
         .with("/time", json!({"step": 2.3, "steps": 4000}))
         .with("/output/checkpoint", json!({"every": 1000}))
         .without("/interactions/0/bath");
@@ -368,7 +276,7 @@ fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
 
 #[test]
 fn a_negative_depth_is_named() {
-    let place = Place::new()
+    let place = place()
         .with("/particles", json!([{"species": "water", "placement": {"type": "listed", "positions": [[PI, PI]]}}]))
         .with("/temperature", json!(0))
         .with("/interactions/0/surface", json!([]))
@@ -389,7 +297,7 @@ fn a_negative_depth_is_named() {
 
 #[test]
 fn wrong_scenes_run_nothing() {
-    let place = Place::new();
+    let place = place();
     let (scene, out) = (place.scene(), place.argument("out"));
     for (change, part) in [
         ("interactions.0.mesh=[12,16]", "the solver `chebyshev`, which takes any mesh"),
@@ -431,7 +339,7 @@ fn check_says_what_the_scene_requires() {
     for part in ["memory, epsilon 1, cotter-reich", "mesh_bath", "BATH_NOISE", "node_bath"] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
-    let place = Place::new()
+    let place = place()
         .with("/interactions/0/bath", json!({"type": "white"}))
         .with("/interactions/0/mesh", json!([12, 10]))
         .with("/interactions/0/smoothing/solver", json!({"type": "chebyshev"}))

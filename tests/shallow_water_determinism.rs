@@ -6,7 +6,7 @@ mod support;
 
 use std::collections::HashSet;
 
-use mesoscope::engine::{Engine, EngineError, Sample};
+use mesoscope::engine::{EngineError, Sample};
 use mesoscope::model::Model;
 use mesoscope::output::checkpoint;
 use mesoscope::plan::{Options, Storage};
@@ -14,7 +14,7 @@ use mesoscope::reference::ShallowWaterReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
-use rand::seq::SliceRandom as _;
+use support::bytes::{self, Bytes};
 use support::{engine, largest_difference, start, water};
 
 const STEPS: u64 = 12;
@@ -38,14 +38,6 @@ const TRACERS: &str = r#"particles=[
     {"species":"loop","count":96,"tracer":true,"placement":{"type":"circle","center":[0.5,3],"radius":1},
      "velocities":{"type":"geostrophic"}}]"#;
 
-/// Everything a run gives: the state to continue from, that of the last report, and all samples.
-#[derive(Debug, PartialEq)]
-struct Bytes {
-    state: State,
-    reported: State,
-    samples: Vec<Sample>,
-}
-
 fn sampled(changes: &[&str]) -> Scene {
     water(&[&["time.steps=1000", "output.energies.every=3"], changes].concat())
 }
@@ -63,18 +55,8 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-fn harvest(mut engine: Engine<'_>, mut samples: Vec<Sample>) -> Bytes {
-    let state = engine.state().unwrap();
-    let reported = engine.reported().unwrap();
-    samples.extend(engine.finish().unwrap());
-    Bytes { state, reported, samples }
-}
-
 fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
-    let (_, state) = start(scene);
-    let mut engine = engine(scene, &state, options);
-    engine.advance(STEPS, batch).unwrap();
-    harvest(engine, Vec::new())
+    bytes::run(scene, options, STEPS, batch)
 }
 
 #[test]
@@ -114,31 +96,16 @@ fn storage_scans_and_workgroup_sizes_give_the_same_bytes() {
 #[test]
 fn batches_of_any_size_give_the_same_bytes() {
     for scene in scenes() {
-        let (_, state) = start(&scene);
         let steps = run(&scene, Options::default(), 1);
         for batch in [3, 1000] {
             assert!(steps == run(&scene, Options::default(), batch), "batches of {batch}");
         }
-        // Asked for piece by piece, with a look at the state in between.
-        let mut pieces = engine(&scene, &state, Options::default());
-        let mut samples = Vec::new();
-        for piece in [1, 4, 5, 2] {
-            pieces.advance(piece, 3).unwrap();
-            samples.extend(pieces.take_samples());
-            assert_eq!(pieces.state().unwrap().step, pieces.step());
-        }
-        assert!(steps == harvest(pieces, samples), "piece by piece: {:?}", scene.interactions);
-        // With every step reported before it is finished, in either storage.
+        let pieces = bytes::in_pieces(&scene, Options::default(), &[1, 4, 5, 2], 3);
+        assert!(steps == pieces, "piece by piece: {:?}", scene.interactions);
         for storage in [Storage::Bins, Storage::Sorted] {
-            let mut watched = engine(&scene, &state, Options { storage: Some(storage), ..Options::default() });
-            let mut samples = Vec::new();
-            for _ in 0..STEPS {
-                watched.reported().unwrap();
-                assert!(matches!(watched.state(), Err(EngineError::State { .. })));
-                samples.extend(watched.finish().unwrap());
-                watched.advance(1, 1).unwrap();
-            }
-            assert!(steps == harvest(watched, samples), "watched at every step, {storage:?}: {:?}", scene.interactions);
+            let options = Options { storage: Some(storage), ..Options::default() };
+            let watched = bytes::watched(&scene, options, STEPS);
+            assert!(steps == watched, "watched at every step, {storage:?}: {:?}", scene.interactions);
         }
         // How often it is sampled changes no state.
         let mut seldom = scene.clone();
@@ -152,16 +119,11 @@ fn batches_of_any_size_give_the_same_bytes() {
 fn the_storage_order_does_not_matter() {
     let mut random = rand::rngs::StdRng::seed_from_u64(1);
     for scene in scenes() {
-        let (_, state) = start(&scene);
         let expected = run(&scene, Options::default(), BATCH);
         for storage in [Storage::Bins, Storage::Sorted] {
-            let mut order: Vec<usize> = (0..state.len()).collect();
-            order.shuffle(&mut random);
-            assert!(!order.is_sorted());
-            let mut shuffled = engine(&scene, &state, Options { storage: Some(storage), ..Options::default() });
-            shuffled.upload_in_order(&state, &order).unwrap();
-            shuffled.advance(STEPS, BATCH).unwrap();
-            assert!(expected == harvest(shuffled, Vec::new()), "{storage:?}: {:?}", scene.interactions);
+            let options = Options { storage: Some(storage), ..Options::default() };
+            let shuffled = bytes::shuffled(&scene, options, STEPS, BATCH, &mut random);
+            assert!(expected == shuffled, "{storage:?}: {:?}", scene.interactions);
         }
     }
 }

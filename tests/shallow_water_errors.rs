@@ -2,8 +2,11 @@
 //! deserves a warning.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod mistakes;
+
 use mesoscope::model::Model;
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene;
+use mistakes::{accepted, problems, problems_of, refused, warnings};
 use serde_json::{Value, json};
 
 /// A small right scene.
@@ -23,29 +26,6 @@ fn base() -> Value {
             "surface": [{"type": "bump", "center": [3, 3], "radius": 1, "amplitude": 0.1}],
         }],
     })
-}
-
-fn parse(overrides: &[&str]) -> Result<Scene, SceneError> {
-    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
-    scene::parse("test.json", &base().to_string(), &overrides)
-}
-
-fn problems(overrides: &[&str]) -> Vec<String> {
-    match parse(overrides) {
-        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
-        other => panic!("{overrides:?}: {other:?}"),
-    }
-}
-
-/// The small scene with these overrides has this one problem.
-#[track_caller]
-fn refused(overrides: &[&str], expected: &str) {
-    assert_eq!(problems(overrides), [expected], "{overrides:?}");
-}
-
-#[track_caller]
-fn accepted(overrides: &[&str]) -> Scene {
-    parse(overrides).unwrap_or_else(|error| panic!("{overrides:?}: {error}"))
 }
 
 const UNSMOOTHED: &str = "interactions.0.smoothing.length=0";
@@ -321,13 +301,9 @@ fn measurements_of_pairs() {
 
 /// The problems of a fluid with some of what only shallow water has.
 fn fluid(overrides: &[&str]) -> Vec<String> {
-    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
     let text = r#"{"title": "test", "space": {"box": [6, 6, 6]}, "time": {"step": 0.01, "steps": 100}, "temperature": 1,
         "particles": [{"species": "A", "count": 10}], "interactions": [{"type": "dpd"}]}"#;
-    match scene::parse("test.json", text, &overrides) {
-        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
-        other => panic!("{overrides:?}: {other:?}"),
-    }
+    problems_of(text, overrides)
 }
 
 #[test]
@@ -370,9 +346,9 @@ fn all_mistakes_at_once() {
 /// The one warning of the small scene with these changes.
 #[track_caller]
 fn warned(overrides: &[&str]) -> String {
-    let warnings = scene::warnings(&accepted(overrides));
+    let mut warnings = warnings(overrides);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
-    warnings[0].to_string()
+    warnings.remove(0)
 }
 
 #[test]
@@ -380,7 +356,7 @@ fn a_time_step_beyond_the_limit() {
     // p grows with dt².
     let share = Model::new(&accepted(&["time.step=1"])).shallow_water.unwrap().stability([6.0, 6.0], 1.0);
     let step = |p: f64| format!("time.step={}", (p / share).sqrt());
-    assert!(scene::warnings(&accepted(&[&step(0.69)])).is_empty());
+    assert!(warnings(&[&step(0.69)]).is_empty());
     let near = warned(&[&step(0.8)]);
     assert!(near.starts_with("time.step: the stiffest wave on the mesh takes p = 0.800 "), "{near}");
     assert!(
@@ -407,7 +383,7 @@ fn a_time_step_beyond_the_limit() {
             assert!(advised > 0.0 && advised < 0.8, "{warning}");
             // Three digits of it.
             let below = format!("time.step={}", 0.99 * advised);
-            assert!(scene::warnings(&accepted(&[bath, &below])).is_empty(), "{bath}: {below} after {step}");
+            assert!(warnings(&[bath, &below]).is_empty(), "{bath}: {below} after {step}");
         }
     }
 }

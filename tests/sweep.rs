@@ -1,113 +1,46 @@
 //! `mesoscope sweep` as its user meets it: variants, tables, plots, messages and exit codes.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 use mesoscope::output::{Summary, files, read_table};
 use mesoscope::sweep::{SweepSummary, VariantState};
+use program::{Place, bytes, fails, listing, mesoscope, picture, size, succeeds, succeeds_and_tells, text};
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
-fn mesoscope(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
-    command.args(arguments);
-    if let Ok(adapter) = std::env::var("MESOSCOPE_ADAPTER")
-        && !arguments.contains(&"--adapter")
-    {
-        command.args(["--adapter", &adapter]);
-    }
-    command.output().unwrap()
+/// A scene of 192 particles that takes small pictures.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "small fluid",
+        "space": {"box": [4, 4, 4]},
+        "time": {"step": 0.03, "steps": 40, "equilibration": 10},
+        "temperature": 1,
+        "particles": [{"species": "fluid", "number_density": 3}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+        "output": {
+            "energies": {"every": 2},
+            "plot": {"width": 640, "height": 480},
+            "snapshot": {"width": 100, "height": 80},
+            "radial_distribution": {"every": 5, "range": 2},
+        },
+    }))
 }
 
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
+/// The arguments of a sweep into the directory of this name.
+fn sweep_into(place: &Place, out: &str, further: &[&str]) -> Vec<String> {
+    let own = ["sweep".to_owned(), place.scene(), "--out".to_owned(), place.argument(out)];
+    own.into_iter().chain(further.iter().map(|argument| (*argument).to_owned())).collect()
 }
 
-/// The program succeeds; returns what it says on standard output and standard error.
-fn succeeds(arguments: &[&str]) -> (String, String) {
-    let output = mesoscope(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    (text(&output.stdout).to_owned(), text(&output.stderr).to_owned())
-}
-
-/// The program fails with a code and a message that has all these parts.
-fn fails(arguments: &[&str], code: i32, parts: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
-    assert!(message.contains("error: ") && !message.contains("panicked"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-    message.to_owned()
-}
-
-/// A directory with a scene of 192 particles that takes small pictures.
-struct Place {
-    directory: TempDir,
-}
-
-impl Place {
-    fn new() -> Self {
-        let scene = json!({
-            "title": "small fluid",
-            "space": {"box": [4, 4, 4]},
-            "time": {"step": 0.03, "steps": 40, "equilibration": 10},
-            "temperature": 1,
-            "particles": [{"species": "fluid", "number_density": 3}],
-            "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
-            "output": {
-                "energies": {"every": 2},
-                "plot": {"width": 640, "height": 480},
-                "snapshot": {"width": 100, "height": 80},
-                "radial_distribution": {"every": 5, "range": 2},
-            },
-        });
-        let directory = tempfile::tempdir().unwrap();
-        fs::write(directory.path().join("scene.json"), scene.to_string()).unwrap();
-        Self { directory }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.directory.path().join(name)
-    }
-
-    /// The path as an argument.
-    fn argument(&self, name: &str) -> String {
-        self.path(name).to_str().unwrap().to_owned()
-    }
-
-    /// The arguments of a sweep into the directory of this name.
-    fn sweep(&self, out: &str, further: &[&str]) -> Vec<String> {
-        let own = ["sweep".to_owned(), self.argument("scene.json"), "--out".to_owned(), self.argument(out)];
-        own.into_iter().chain(further.iter().map(|argument| (*argument).to_owned())).collect()
-    }
-
-    fn summary(&self, out: &str) -> SweepSummary {
-        SweepSummary::load(&self.path(out)).unwrap()
-    }
+fn summary(place: &Place, out: &str) -> SweepSummary {
+    SweepSummary::load(&place.path(out)).unwrap()
 }
 
 fn borrowed(arguments: &[String]) -> Vec<&str> {
     arguments.iter().map(String::as_str).collect()
-}
-
-fn bytes(path: &Path) -> Vec<u8> {
-    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn size(path: &Path) -> (u32, u32) {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8().dimensions()
-}
-
-/// Names of directories and files, sorted.
-fn listing(path: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 fn states(summary: &SweepSummary) -> Vec<VariantState> {
@@ -118,9 +51,10 @@ const FRICTION: &str = "interactions.0.friction";
 
 #[test]
 fn every_variant_is_the_run_it_would_be_alone() {
-    let place = Place::new();
+    let place = place();
     let vary = format!("{FRICTION}=1,4.5,9");
-    let (said, told) = succeeds(&borrowed(&place.sweep("out", &["--vary", &vary, "--jobs", "2", "--set", "seed=7"])));
+    let (said, told) =
+        succeeds_and_tells(&borrowed(&sweep_into(&place, "out", &["--vary", &vary, "--jobs", "2", "--set", "seed=7"])));
     let out = place.path("out");
     for part in ["small fluid: 3 variants of interactions.0.friction, 2 at a time", "friction=4.5", "sweep.csv"] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
@@ -128,7 +62,7 @@ fn every_variant_is_the_run_it_would_be_alone() {
     assert!(told.contains("3 of 3  friction="), "{told}");
     for value in ["1", "4.5", "9"] {
         let (alone, set) = (place.argument(value), format!("{FRICTION}={value}"));
-        let arguments = ["run", &place.argument("scene.json"), "--out", &alone, "--set", "seed=7", "--set", &set];
+        let arguments = ["run", &place.scene(), "--out", &alone, "--set", "seed=7", "--set", &set];
         succeeds(&arguments);
         let variant = out.join(format!("friction={value}"));
         assert_eq!(listing(&variant), listing(Path::new(&alone)));
@@ -140,14 +74,15 @@ fn every_variant_is_the_run_it_would_be_alone() {
     }
     // A variant is a run like any other.
     let variant = place.argument("out/friction=9");
-    assert!(succeeds(&["plot", &variant]).0.contains(files::ENERGIES_PLOT));
+    assert!(succeeds(&["plot", &variant]).contains(files::ENERGIES_PLOT));
     succeeds(&["resume", &variant, "--steps", "44"]);
 }
 
 #[test]
 fn table_summary_and_plots() {
-    let place = Place::new();
-    let arguments = place.sweep(
+    let place = place();
+    let arguments = sweep_into(
+        &place,
         "out",
         &[
             "--vary",
@@ -169,7 +104,7 @@ fn table_summary_and_plots() {
         "friction=9,step=0.03",
         "temperature=0",
     ];
-    let summary = place.summary("out");
+    let summary = summary(&place, "out");
     assert_eq!(summary.variants.iter().map(|variant| variant.name.as_str()).collect::<Vec<_>>(), names);
     assert_eq!(states(&summary), [VariantState::Finished; 5]);
     assert_eq!(summary.vary[1].values, [json!(0.02), json!(0.03)]);
@@ -213,14 +148,14 @@ fn table_summary_and_plots() {
         assert_eq!(size(&out.join(name)), (640, 480), "{name}");
     }
     // Blue, vermilion, green and purple: every variant but the black one has a curve in its colour.
-    let picture = image::open(out.join("sweep-total_energy.png")).unwrap().to_rgba8();
+    let picture = picture(&out.join("sweep-total_energy.png"));
     for colour in [[0x00, 0x72, 0xB2], [0xD5, 0x5E, 0x00], [0x00, 0x9E, 0x73], [0xCC, 0x79, 0xA7]] {
         let close = |pixel: &&image::Rgba<u8>| (0..3).all(|channel| pixel[channel].abs_diff(colour[channel]) < 16);
         assert!(picture.pixels().filter(close).count() > 40, "no curve of colour {colour:?}");
     }
     let before = bytes(&out.join("sweep-pressure.png"));
     fs::remove_file(out.join("sweep-pressure.png")).unwrap();
-    assert!(succeeds(&["plot", &place.argument("out")]).0.contains("sweep-pressure.png"));
+    assert!(succeeds(&["plot", &place.argument("out")]).contains("sweep-pressure.png"));
     assert!(bytes(&out.join("sweep-pressure.png")) == before);
     succeeds(&["plot", &place.argument("out"), "--set", "output.plot.width=800"]);
     assert_eq!(size(&out.join("sweep-pressure.png")), (800, 480));
@@ -228,8 +163,8 @@ fn table_summary_and_plots() {
 
 #[test]
 fn mistakes_in_variants_run_nothing() {
-    let place = Place::new();
-    let sweep = |further: &[&str]| place.sweep("out", further);
+    let place = place();
+    let sweep = |further: &[&str]| sweep_into(&place, "out", further);
     let fails = |further: &[&str], parts: &[&str]| fails(&borrowed(&sweep(further)), 2, parts);
     fails(
         &["--vary", "interactions.0.fricton=1,2"],
@@ -247,7 +182,7 @@ fn mistakes_in_variants_run_nothing() {
     fails(&["--vary", "seed=1,2", "--plot", "presure"], &["no quantity `presure`", "pressure"]);
     assert!(mesoscope(&["sweep", "dpd-fluid"]).status.code() == Some(2), "nothing varied");
     assert!(!place.path("out").exists());
-    let none = place.sweep("out", &["--vary", "seed=1,2", "--adapter", "abacus"]);
+    let none = sweep_into(&place, "out", &["--vary", "seed=1,2", "--adapter", "abacus"]);
     self::fails(&borrowed(&none), 3, &["abacus", "0: "]);
     self::fails(&["sweep", "--resume", &place.argument("out")], 5, &["no sweep in"]);
     assert!(!place.path("out").exists());
@@ -255,15 +190,16 @@ fn mistakes_in_variants_run_nothing() {
 
 #[test]
 fn an_unstable_variant_does_not_stop_the_others() {
-    let place = Place::new();
-    let arguments = place.sweep("out", &["--vary", "interactions.0.repulsion=25,1e7,10", "--jobs", "1", "--relative"]);
+    let place = place();
+    let arguments =
+        sweep_into(&place, "out", &["--vary", "interactions.0.repulsion=25,1e7,10", "--jobs", "1", "--relative"]);
     let message = fails(
         &borrowed(&arguments),
         4,
         &["1 of 3 variants failed", "`repulsion=10000000.0`: the run became unstable at step ", "try a time step of"],
     );
     assert!(message.contains("3 of 3  repulsion=10  finished"), "{message}");
-    let summary = place.summary("out");
+    let summary = summary(&place, "out");
     assert_eq!(states(&summary), [VariantState::Finished, VariantState::Failed, VariantState::Finished]);
     assert!(summary.variants[1].failure.as_ref().unwrap().contains("became unstable"));
     let table = fs::read_to_string(place.path("out/sweep.csv")).unwrap();
@@ -274,8 +210,8 @@ fn an_unstable_variant_does_not_stop_the_others() {
 
 #[test]
 fn nothing_is_overwritten_unless_asked() {
-    let place = Place::new();
-    let sweep = |further: &[&str]| place.sweep("out", &[&["--quiet", "--plot", "pressure"], further].concat());
+    let place = place();
+    let sweep = |further: &[&str]| sweep_into(&place, "out", &[&["--quiet", "--plot", "pressure"], further].concat());
     succeeds(&borrowed(&sweep(&["--vary", "seed=1,2"])));
     fs::write(place.path("out/notes.txt"), "mine").unwrap();
     let before = listing(&place.path("out"));
@@ -288,22 +224,22 @@ fn nothing_is_overwritten_unless_asked() {
     let expected = ["notes.txt", "seed=3", "seed=4", "sweep-pressure.png", "sweep.csv", "sweep.json"];
     assert_eq!(listing(&place.path("out")), expected);
     // The directory of a single run is in the way too.
-    succeeds(&["run", &place.argument("scene.json"), "--out", &place.argument("single"), "--quiet"]);
-    fails(&borrowed(&place.sweep("single", &["--vary", "seed=1,2"])), 5, &["in the way", "checkpoint.bin"]);
+    succeeds(&["run", &place.scene(), "--out", &place.argument("single"), "--quiet"]);
+    fails(&borrowed(&sweep_into(&place, "single", &["--vary", "seed=1,2"])), 5, &["in the way", "checkpoint.bin"]);
 }
 
 #[test]
 fn an_interrupted_sweep_can_be_finished() {
-    let place = Place::new();
+    let place = place();
     let vary = ["--vary", "seed=1,2,3", "--quiet"];
-    succeeds(&borrowed(&place.sweep("whole", &vary)));
-    succeeds(&borrowed(&place.sweep("parts", &vary)));
+    succeeds(&borrowed(&sweep_into(&place, "whole", &vary)));
+    succeeds(&borrowed(&sweep_into(&place, "parts", &vary)));
     // As if it had been killed: one variant finished, one on its way, one not begun, and the last was never noted.
     let parts = place.path("parts");
     fs::remove_dir_all(parts.join("seed=3")).unwrap();
     fs::remove_dir_all(parts.join("seed=2")).unwrap();
     let second = place.argument("parts/seed=2");
-    succeeds(&["run", &place.argument("scene.json"), "--set", "seed=2", "--steps", "20", "--out", &second, "--quiet"]);
+    succeeds(&["run", &place.scene(), "--set", "seed=2", "--steps", "20", "--out", &second, "--quiet"]);
     let mut noted: Value = serde_json::from_slice(&bytes(&parts.join("sweep.json"))).unwrap();
     for variant in noted["variants"].as_array_mut().unwrap() {
         variant["state"] = json!("waiting");
@@ -313,10 +249,10 @@ fn an_interrupted_sweep_can_be_finished() {
         fs::remove_file(parts.join(name)).unwrap();
     }
     let first = fs::metadata(parts.join("seed=1/energies.csv")).unwrap().modified().unwrap();
-    let (said, _) = succeeds(&["sweep", "--resume", &place.argument("parts")]);
+    let said = succeeds(&["sweep", "--resume", &place.argument("parts")]);
     assert!(said.contains("2 of 3 variants left of seed"), "{said}");
     assert_eq!(fs::metadata(parts.join("seed=1/energies.csv")).unwrap().modified().unwrap(), first, "run again");
-    assert_eq!(states(&place.summary("parts")), [VariantState::Finished; 3]);
+    assert_eq!(states(&summary(&place, "parts")), [VariantState::Finished; 3]);
     let whole = place.path("whole");
     assert_eq!(listing(&whole), listing(&parts));
     for name in listing(&whole).iter().filter(|name| name.starts_with("sweep-")) {
@@ -332,5 +268,5 @@ fn an_interrupted_sweep_can_be_finished() {
     let before = bytes(&parts.join("sweep-total_energy.png"));
     succeeds(&["sweep", "--resume", &place.argument("parts"), "--relative", "--plot", "total_energy"]);
     assert!(bytes(&parts.join("sweep-total_energy.png")) != before);
-    assert!(place.summary("parts").plots.relative);
+    assert!(summary(&place, "parts").plots.relative);
 }

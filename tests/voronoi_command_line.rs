@@ -1,108 +1,40 @@
 //! Voronoi DPD as its user meets it: files, bytes, messages and exit codes of the program.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::collections::HashSet;
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use mesoscope::model::Model;
 use mesoscope::output::{Summary, Table, checkpoint, files, read_table};
+use program::{Place, bytes, colours, listing, mesoscope, succeeds, text};
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
-fn mesoscope(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
-    command.args(arguments);
-    if let Ok(adapter) = std::env::var("MESOSCOPE_ADAPTER") {
-        command.args(["--adapter", &adapter]);
-    }
-    command.output().unwrap()
+/// A scene of 144 cells and small pictures.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "small foam",
+        "seed": 3,
+        "space": {"box": [12, 12]},
+        "time": {"step": 0.02, "steps": 40},
+        "temperature": 1,
+        "particles": [{"species": "A", "count": 144, "mass": 5, "placement": {"type": "lattice", "jitter": 0.3}}],
+        "interactions": [{"type": "voronoi"}],
+        "output": {
+            "energies": {"every": 4},
+            "plot": {"width": 640, "height": 480},
+            "snapshot": {"width": 400, "height": 400},
+            "neighbours": {"every": 10},
+        },
+    }))
 }
 
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
+fn table(place: &Place, out: &str, name: &str) -> Table {
+    read_table(&place.path(out).join(name)).unwrap()
 }
 
-/// The program succeeds; returns what it says on standard output.
-fn succeeds(arguments: &[&str]) -> String {
-    let output = mesoscope(arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout).to_owned()
-}
-
-/// A directory with a scene of 144 cells and small pictures.
-struct Place {
-    directory: TempDir,
-    scene: Value,
-}
-
-impl Place {
-    fn new() -> Self {
-        let scene = json!({
-            "title": "small foam",
-            "seed": 3,
-            "space": {"box": [12, 12]},
-            "time": {"step": 0.02, "steps": 40},
-            "temperature": 1,
-            "particles": [{"species": "A", "count": 144, "mass": 5, "placement": {"type": "lattice", "jitter": 0.3}}],
-            "interactions": [{"type": "voronoi"}],
-            "output": {
-                "energies": {"every": 4},
-                "plot": {"width": 640, "height": 480},
-                "snapshot": {"width": 400, "height": 400},
-                "neighbours": {"every": 10},
-            },
-        });
-        Self { directory: tempfile::tempdir().unwrap(), scene }
-    }
-
-    fn with(mut self, pointer: &str, value: Value) -> Self {
-        let (parent, key) = pointer.rsplit_once('/').unwrap();
-        self.scene.pointer_mut(parent).unwrap()[key] = value;
-        self
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.directory.path().join(name)
-    }
-
-    /// The path as an argument.
-    fn argument(&self, name: &str) -> String {
-        self.path(name).to_str().unwrap().to_owned()
-    }
-
-    /// Runs the scene into a directory of this name.
-    fn run(&self, out: &str, further: &[&str]) -> String {
-        fs::write(self.path("scene.json"), self.scene.to_string()).unwrap();
-        let (scene, out) = (self.argument("scene.json"), self.argument(out));
-        succeeds(&[&["run", &scene, "--out", &out], further].concat())
-    }
-
-    fn table(&self, out: &str, name: &str) -> Table {
-        read_table(&self.path(out).join(name)).unwrap()
-    }
-
-    fn summary(&self, out: &str) -> Summary {
-        Summary::load(&self.path(out).join(files::SUMMARY)).unwrap()
-    }
-}
-
-fn bytes(path: &Path) -> Vec<u8> {
-    fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn listing(directory: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
-/// Number of colours of a picture.
-fn colours(path: &Path) -> usize {
-    let picture = image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8();
-    picture.pixels().collect::<HashSet<_>>().len()
+fn summary(place: &Place, out: &str) -> Summary {
+    Summary::load(&place.path(out).join(files::SUMMARY)).unwrap()
 }
 
 /// All values of a column, which are finite.
@@ -121,7 +53,7 @@ fn wave() -> Value {
 
 #[test]
 fn a_run_leaves_everything_the_scene_asks_for() {
-    let place = Place::new()
+    let place = place()
         .with("/particles/0/velocities", wave())
         .with("/output/shear_wave", json!({"every": 2}))
         .with("/output/trajectory", json!({"every": 20}))
@@ -150,7 +82,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in expected.iter().filter(|name| name.contains("png")) {
         assert!(colours(&place.path("out").join(name)) > 20, "{name} shows nothing");
     }
-    let energies = place.table("out", files::ENERGIES);
+    let energies = table(&place, "out", files::ENERGIES);
     assert_eq!(energies.rows.len(), 11);
     assert!(column(&energies, "momentum_x").iter().all(|value| *value == 0.0), "to the last bit");
     assert!(column(&energies, "mass").iter().all(|value| *value == 720.0), "to the last bit");
@@ -164,15 +96,15 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in ["internal_energy", "configurational_temperature", "pressure_conservative"] {
         assert_eq!(energies.column(name), None, "{name} does not apply");
     }
-    let neighbours = place.table("out", files::NEIGHBOURS);
+    let neighbours = table(&place, "out", files::NEIGHBOURS);
     let sum: f64 = column(&neighbours, "fraction").iter().sum();
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
-    let decay = place.table("out", files::SHEAR_WAVE);
+    let decay = table(&place, "out", files::SHEAR_WAVE);
     assert_eq!(decay.rows.len(), 21);
     let amplitude = column(&decay, "amplitude")[0];
     // A thermal part with the deviation √(2kT/ΣM), and Σ sin² of a lattice with jitter.
     assert!((amplitude - 0.3).abs() < 4.0 * (2.0_f64 / 720.0).sqrt() + 0.02, "{amplitude}");
-    let summary = place.summary("out");
+    let summary = summary(&place, "out");
     assert_eq!(summary.results["neighbours"]["mean"]["mean"], json!(6.0));
     assert_eq!(summary.results["neighbours"]["samples"], json!(5));
     assert_eq!(summary.conserved_exactly, ["mass, to the last bit", "total momentum, to the last bit"]);
@@ -184,7 +116,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
 fn every_fluid_has_its_columns_and_keeps_what_it_should() {
     for (form, integrator) in [("gradient", "splitting"), ("consistent", "splitting"), ("paper", "euler")] {
         for energy in [false, true] {
-            let mut place = Place::new()
+            let mut place = place()
                 .with("/integrator", json!({"type": integrator}))
                 .with("/time/step", json!(0.005))
                 .with("/interactions/0/form", json!(form))
@@ -195,7 +127,7 @@ fn every_fluid_has_its_columns_and_keeps_what_it_should() {
                     .with("/output/snapshot/color", json!("temperature"));
             }
             place.run("out", &["--quiet"]);
-            let energies = place.table("out", files::ENERGIES);
+            let energies = table(&place, "out", files::ENERGIES);
             let constant = |name: &str| {
                 let values = column(&energies, name);
                 assert!(values.iter().all(|value| *value == values[0]), "{form}, {energy}: {name} is {values:?}");
@@ -208,7 +140,7 @@ fn every_fluid_has_its_columns_and_keeps_what_it_should() {
             assert!(energies.column("limited_exchanges").is_some(), "{form}");
             assert_eq!(energies.column("solver_iterations").is_some(), integrator == "splitting");
             assert_eq!(energies.column("potential_energy").is_some(), form == "gradient" && !energy);
-            let summary = place.summary("out");
+            let summary = summary(&place, "out");
             if energy {
                 constant("total_energy");
                 assert_eq!(summary.conserved_exactly.len(), 3);
@@ -224,7 +156,7 @@ fn every_fluid_has_its_columns_and_keeps_what_it_should() {
 #[test]
 fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
     for (form, energy) in [("gradient", json!({"conductivity": 10})), ("paper", Value::Null)] {
-        let mut place = Place::new()
+        let mut place = place()
             .with("/particles/0/velocities", wave())
             .with("/interactions/0/form", json!(form))
             .with("/interactions/0/molecular_mass", json!(0.1))
@@ -253,16 +185,16 @@ fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
                 assert!(a == b, "{name} of {other} differs, {form}");
             }
         }
-        let limited = column(&place.table("whole", files::ENERGIES), "limited_exchanges");
+        let limited = column(&table(&place, "whole", files::ENERGIES), "limited_exchanges");
         assert!(limited[5] > 0.0 && limited[10] > limited[5], "{limited:?}");
-        let [whole, parts] = ["whole", "parts"].map(|run| place.summary(run));
+        let [whole, parts] = ["whole", "parts"].map(|run| summary(&place, run));
         assert_eq!((whole.means, whole.results), (parts.means, parts.results));
     }
 }
 
 #[test]
 fn plots_can_be_drawn_again() {
-    let place = Place::new().with("/particles/0/velocities", wave()).with("/output/shear_wave", json!({"every": 2}));
+    let place = place().with("/particles/0/velocities", wave()).with("/output/shear_wave", json!({"every": 2}));
     place.run("out", &["--quiet"]);
     let out = place.path("out");
     let names = ["energies.png", "neighbours.png", "shear_wave.png", "snapshot.png"];
@@ -281,7 +213,7 @@ fn plots_can_be_drawn_again() {
 
 #[test]
 fn the_last_state_is_in_the_checkpoint() {
-    let place = Place::new()
+    let place = place()
         .with("/interactions/0/form", json!("paper"))
         .with("/interactions/0/energy", json!({"conductivity": 1}))
         .with("/interactions/0/molecular_mass", json!(0.1))
@@ -295,7 +227,7 @@ fn the_last_state_is_in_the_checkpoint() {
     let mass = state.masses.iter().map(|mass| f64::from(*mass)).sum::<f64>() * cells.mass_unit;
     assert_eq!(mass, 720.0);
     assert_eq!(state.total_momentum(), [0; 3]);
-    let energies = place.table("out", files::ENERGIES);
+    let energies = table(&place, "out", files::ENERGIES);
     let total = state.energies.iter().map(|energy| f64::from(*energy)).sum::<f64>() * cells.energy_unit;
     assert_eq!(column(&energies, "total_energy")[10], total);
 }
@@ -335,9 +267,8 @@ fn check_says_what_the_scene_requires() {
 
 #[test]
 fn sweeps_see_the_quantities_of_cells() {
-    let place = Place::new().with("/time/steps", json!(20));
-    fs::write(place.path("scene.json"), place.scene.to_string()).unwrap();
-    let (scene, out) = (place.argument("scene.json"), place.argument("sweep"));
+    let place = place().with("/time/steps", json!(20));
+    let (scene, out) = (place.scene(), place.argument("sweep"));
     let quantities = ["--plot", "temperature", "--plot", "mean_neighbours", "--plot", "solver_iterations"];
     let said =
         succeeds(&[&["sweep", &scene, "--vary", "time.step=0.01,0.02", "--out", &out], &quantities[..]].concat());

@@ -3,12 +3,10 @@
 
 mod support;
 
-use mesoscope::engine::{Engine, Sample};
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
-use mesoscope::state::State;
 use rand::SeedableRng as _;
-use rand::seq::SliceRandom as _;
+use support::bytes::{self, Bytes, harvest, same};
 use support::{cells, engine, start};
 
 const STEPS: u64 = 24;
@@ -35,35 +33,8 @@ fn scenes() -> Vec<Scene> {
     more.into_iter().map(|(count, changes)| cells(count, &[&sampled[..], changes].concat())).collect()
 }
 
-/// Everything a run gives: the state to continue from, that of the last report, and all samples.
-#[derive(PartialEq)]
-struct Bytes {
-    state: State,
-    reported: State,
-    samples: Vec<Sample>,
-}
-
-fn harvest(mut engine: Engine<'_>, mut samples: Vec<Sample>) -> Bytes {
-    let state = engine.state().unwrap();
-    let reported = engine.reported().unwrap();
-    samples.extend(engine.finish().unwrap());
-    Bytes { state, reported, samples }
-}
-
 fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
-    let (_, state) = start(scene);
-    let mut engine = engine(scene, &state, options);
-    engine.advance(STEPS, batch).unwrap();
-    harvest(engine, Vec::new())
-}
-
-/// Whether two runs agree; where they do not is printed, but not all of it.
-fn same(a: &Bytes, b: &Bytes) -> bool {
-    for (one, other) in a.samples.iter().zip(&b.samples).filter(|(one, other)| one != other).take(3) {
-        println!("sampler {} at step {}: {:?} {:?}", one.sampler, one.step, one.sums.first(), other.sums.first());
-    }
-    println!("states agree: {}, reports: {}", a.state == b.state, a.reported == b.reported);
-    a == b
+    bytes::run(scene, options, STEPS, batch)
 }
 
 #[test]
@@ -89,13 +60,8 @@ fn reruns_batches_scans_and_workgroup_sizes_give_the_same_bytes() {
 fn storage_order_gives_the_same_bytes() {
     for scene in scenes() {
         let plain = run(&scene, Options::default(), 8);
-        let (_, state) = start(&scene);
-        let mut order: Vec<usize> = (0..state.len()).collect();
-        order.shuffle(&mut rand::rngs::StdRng::seed_from_u64(7));
-        let mut engine = engine(&scene, &state, Options::default());
-        engine.upload_in_order(&state, &order).unwrap();
-        engine.advance(STEPS, 8).unwrap();
-        assert!(same(&plain, &harvest(engine, Vec::new())));
+        let mut random = rand::rngs::StdRng::seed_from_u64(7);
+        assert!(same(&plain, &bytes::shuffled(&scene, Options::default(), STEPS, 8, &mut random)));
     }
 }
 

@@ -2,11 +2,14 @@
 //! deserves a warning; and how cells start.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod mistakes;
+
 use mesoscope::model::Model;
 use mesoscope::scene::placement::initial_state;
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
+use mistakes::{accepted, problems, refused, warnings};
 use serde_json::{Value, json};
 
 /// A small right scene.
@@ -19,29 +22,6 @@ fn base() -> Value {
         "particles": [{"species": "A", "count": 36, "mass": 5}],
         "interactions": [{"type": "voronoi"}],
     })
-}
-
-fn parse(overrides: &[&str]) -> Result<Scene, SceneError> {
-    let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
-    scene::parse("test.json", &base().to_string(), &overrides)
-}
-
-fn problems(overrides: &[&str]) -> Vec<String> {
-    match parse(overrides) {
-        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
-        other => panic!("{overrides:?}: {other:?}"),
-    }
-}
-
-/// The small scene with these overrides has this one problem.
-#[track_caller]
-fn refused(overrides: &[&str], expected: &str) {
-    assert_eq!(problems(overrides), [expected], "{overrides:?}");
-}
-
-#[track_caller]
-fn accepted(overrides: &[&str]) -> Scene {
-    parse(overrides).unwrap_or_else(|error| panic!("{overrides:?}: {error}"))
 }
 
 /// The small scene with these overrides draws this one warning.
@@ -310,9 +290,9 @@ fn time_steps_that_are_too_long() {
         "`euler` runs hot by about 4 % at this step; 4.5e-3 would be hot by 2 %",
     );
     warned(&["time.step=0.15", "interactions.0.viscosity=2"], "time.step", "friction of a step, dt η/M, is 0.060");
-    assert!(scene::warnings(&accepted(&["integrator.type=euler", "time.step=0.0005"])).is_empty());
+    assert!(warnings(&["integrator.type=euler", "time.step=0.0005"]).is_empty());
     // PHYSICS: measured right with the implicit solver.
-    assert!(scene::warnings(&accepted(&["time.step=0.16"])).is_empty());
+    assert!(warnings(&["time.step=0.16"]).is_empty());
 }
 
 #[test]
@@ -320,8 +300,8 @@ fn fluids_that_the_model_does_not_describe_well() {
     let dense = r#"particles=[{"species":"A","count":36,"mass":50}]"#;
     let paper = "interactions.0.form=paper";
     warned(&[paper, dense], "interactions[0].form", "√(ρkT)/η = 7.07 and M/m = 50");
-    assert!(scene::warnings(&accepted(&[paper])).is_empty());
-    assert!(scene::warnings(&accepted(&[dense])).is_empty());
+    assert!(warnings(&[paper]).is_empty());
+    assert!(warnings(&[dense]).is_empty());
     warned(
         &["interactions.0.energy={}"],
         "interactions[0].molecular_mass",

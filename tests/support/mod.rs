@@ -1,6 +1,8 @@
 //! What the tests share: scenes in a line, an opened adapter, and the two implementations behind one face.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod bytes;
+
 use std::sync::OnceLock;
 
 use mesoscope::engine::Engine;

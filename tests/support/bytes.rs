@@ -1,0 +1,86 @@
+//! The bytes of a run: what has to stay the same whatever changes that is not physics.
+
+use mesoscope::engine::{Engine, EngineError, Sample};
+use mesoscope::plan::Options;
+use mesoscope::scene::Scene;
+use mesoscope::state::State;
+use rand::rngs::StdRng;
+use rand::seq::SliceRandom as _;
+
+use super::{engine, start};
+
+/// Everything a run gives: the state to continue from, that of the last report, and all samples.
+#[derive(Debug, PartialEq)]
+pub struct Bytes {
+    pub state: State,
+    pub reported: State,
+    pub samples: Vec<Sample>,
+}
+
+/// What an engine gives at the end, after samples that were taken from it before.
+pub fn harvest(mut engine: Engine<'_>, mut samples: Vec<Sample>) -> Bytes {
+    let state = engine.state().unwrap();
+    let reported = engine.reported().unwrap();
+    samples.extend(engine.finish().unwrap());
+    Bytes { state, reported, samples }
+}
+
+/// The first steps of a scene, `batch` of them in one submission.
+pub fn run(scene: &Scene, options: Options, steps: u64, batch: u64) -> Bytes {
+    let (_, state) = start(scene);
+    let mut engine = engine(scene, &state, options);
+    engine.advance(steps, batch).unwrap();
+    harvest(engine, Vec::new())
+}
+
+/// The same with the particles in another order of storage at the start.
+#[track_caller]
+pub fn shuffled(scene: &Scene, options: Options, steps: u64, batch: u64, random: &mut StdRng) -> Bytes {
+    let (_, state) = start(scene);
+    let mut order: Vec<usize> = (0..state.len()).collect();
+    order.shuffle(random);
+    assert!(!order.is_sorted());
+    let mut engine = engine(scene, &state, options);
+    engine.upload_in_order(&state, &order).unwrap();
+    engine.advance(steps, batch).unwrap();
+    harvest(engine, Vec::new())
+}
+
+/// The same asked for piece by piece, with a look at the state in between.
+#[track_caller]
+pub fn in_pieces(scene: &Scene, options: Options, pieces: &[u64], batch: u64) -> Bytes {
+    let (_, state) = start(scene);
+    let mut engine = engine(scene, &state, options);
+    let mut samples = Vec::new();
+    for piece in pieces {
+        engine.advance(*piece, batch).unwrap();
+        samples.extend(engine.take_samples());
+        assert_eq!(engine.state().unwrap().step, engine.step());
+    }
+    harvest(engine, samples)
+}
+
+/// The same with every step reported before it is finished.
+#[track_caller]
+pub fn watched(scene: &Scene, options: Options, steps: u64) -> Bytes {
+    let (_, state) = start(scene);
+    let mut engine = engine(scene, &state, options);
+    let mut samples = Vec::new();
+    for _ in 0..steps {
+        engine.reported().unwrap();
+        assert!(matches!(engine.state(), Err(EngineError::State { .. })));
+        samples.extend(engine.finish().unwrap());
+        engine.advance(1, 1).unwrap();
+    }
+    harvest(engine, samples)
+}
+
+/// Whether two runs agree; where they do not is printed, but not all of it.
+pub fn same(a: &Bytes, b: &Bytes) -> bool {
+    let first = |sample: &Sample| (sample.sampler, sample.step, sample.sums.len(), sample.sums.first().copied());
+    for (one, other) in a.samples.iter().zip(&b.samples).filter(|(one, other)| one != other).take(3) {
+        println!("sampler, step, number of sums and the first: {:?}, {:?}", first(one), first(other));
+    }
+    println!("states agree: {}, reports: {}", a.state == b.state, a.reported == b.reported);
+    a == b
+}
