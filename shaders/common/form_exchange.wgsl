@@ -8,7 +8,13 @@ fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f3
     let wanted = turning(facet, twist, mine, theirs) * density_between(mine.density, theirs.density);
     let limited_mass = limited(wanted, mine.mass, theirs.mass);
     uncut = select(1.0, limited_mass / wanted, limited_mass != wanted);
-    return limited_mass;
+    let part = part_within_energy(internal_energy_swept(facet, twist, mine, theirs), mine, theirs);
+    cuts += select(0u, 1u, part < 1.0 && uncut == 1.0);
+    uncut *= part;
+    return part * limited_mass;
+}
+fn internal_energy_swept(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 {
+    return uncut * turning(facet, twist, mine, theirs) * 0.5 * (mine.energy_density + theirs.energy_density);
 }
 fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector {
     return STEP * facet.length * 0.5 * (mine.pressure + theirs.pressure) * facet.direction;
@@ -18,7 +24,5 @@ fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Si
     let difference = mine.velocity - theirs.velocity;
     let kinetic = dot(mine.velocity, 2.0 * mine.mean - mine.velocity)
         + dot(theirs.velocity, 2.0 * theirs.mean - theirs.velocity);
-    let internal =
-        uncut * turning(facet, twist, mine, theirs) * 0.5 * (mine.energy_density + theirs.energy_density);
-    return internal + mass * (0.125 * dot(difference, difference) - 0.25 * kinetic);
+    return internal_energy_swept(facet, twist, mine, theirs) + mass * (0.125 * dot(difference, difference) - 0.25 * kinetic);
 }

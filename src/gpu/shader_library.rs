@@ -277,6 +277,8 @@ library![
     "common/sweep_bounded",
     "common/sweep_free",
     "common/sweep_limited",
+    "common/swept_energy_off",
+    "common/swept_energy_on",
     "common/tethers_seen",
     "common/tethers_unseen",
     "common/threefry",

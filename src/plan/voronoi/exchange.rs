@@ -79,7 +79,7 @@ impl Builder<'_> {
             Part::Friction | Part::Everything => self.rubs(),
         };
         let mut modules = match part {
-            Part::Pressure | Part::Everything => self.form().to_vec(),
+            Part::Pressure | Part::Everything => self.form(),
             Part::Friction | Part::Heat => vec!["common/form_off", "common/sweep_free"],
         };
         modules.extend(if rubs { self.rubbing() } else { vec!["common/rubbing_off"] });

@@ -136,37 +136,20 @@ impl Builder<'_> {
     }
 
     /// Modules of the form of pressures and mass exchange.
-    fn form(&self) -> &'static [&'static str] {
+    fn form(&self) -> Vec<&'static str> {
+        let keeps_energy = self.cells.keeps_energy();
+        let exchanging = |turning| {
+            let energy = if keeps_energy { "common/swept_energy_on" } else { "common/swept_energy_off" };
+            vec!["common/twist", "common/sweep_free", "common/form_exchange", turning, energy, "common/limit_on"]
+        };
         match self.cells.form {
-            VoronoiForm::Gradient if self.cells.keeps_energy() => &[
-                "common/twist",
-                "common/turn_bounded",
-                "common/sweep_limited",
-                "common/form_gradient",
-                "common/limit_on",
-            ],
-            VoronoiForm::Gradient if self.has_limits() => &[
-                "common/twist",
-                "common/turn_bounded",
-                "common/sweep_bounded",
-                "common/form_gradient",
-                "common/limit_on",
-            ],
-            VoronoiForm::Gradient => &["common/twist", "common/sweep_free", "common/form_gradient"],
-            VoronoiForm::Consistent => &[
-                "common/twist",
-                "common/sweep_free",
-                "common/form_exchange",
-                "common/turning_consistent",
-                "common/limit_on",
-            ],
-            VoronoiForm::Paper => &[
-                "common/twist",
-                "common/sweep_free",
-                "common/form_exchange",
-                "common/turning_paper",
-                "common/limit_on",
-            ],
+            VoronoiForm::Gradient if self.has_limits() => {
+                let sweep = if keeps_energy { "common/sweep_limited" } else { "common/sweep_bounded" };
+                vec!["common/twist", "common/turn_bounded", sweep, "common/form_gradient", "common/limit_on"]
+            }
+            VoronoiForm::Gradient => vec!["common/twist", "common/sweep_free", "common/form_gradient"],
+            VoronoiForm::Consistent => exchanging("common/turning_consistent"),
+            VoronoiForm::Paper => exchanging("common/turning_paper"),
         }
     }
 

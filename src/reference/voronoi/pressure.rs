@@ -45,7 +45,8 @@ fn limited_turning(cells: &Voronoi, now: &Cells, face: &Face, time: f64, turning
     (part * bounded, pushed > 0.0 && part * bounded != turning)
 }
 
-/// Adds the fluid that a face sweeps over as it turns; says whether the limit cut it.
+/// Adds the fluid that a face sweeps over as it turns: at most a part of the mass of the cell that it takes from, and of the
+/// internal energy where cells keep account of it. Says whether the limit cut it.
 fn sweep(cells: &Voronoi, now: &Cells, face: &Face, time: f64, exchange: &mut Exchange) -> bool {
     let [k, l] = [face.k, face.l];
     let relative = face.relative(&now.velocities);
@@ -60,8 +61,14 @@ fn sweep(cells: &Voronoi, now: &Cells, face: &Face, time: f64, exchange: &mut Ex
     };
     let donor = if mass > 0.0 { l } else { k };
     let most = cells.exchange_limit * now.masses[donor];
-    let limited = mass.abs() > most;
-    let part = if limited { most / mass.abs() } else { 1.0 };
+    let mut limited = mass.abs() > most;
+    let mut part = if limited { most / mass.abs() } else { 1.0 };
+    let energy = (0.5 * part * volume * (energy_density[0] + energy_density[1])).abs();
+    let most = cells.exchange_limit * now.internal_energies[donor].max(0.0);
+    if cells.keeps_energy() && energy > most {
+        limited = true;
+        part *= most / energy;
+    }
     exchange.mass = part * mass;
     for axis in 0..2 {
         exchange.momentum[axis] += 0.5 * exchange.mass * (now.velocities[k][axis] + now.velocities[l][axis]);
