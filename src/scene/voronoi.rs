@@ -45,9 +45,9 @@ pub struct VoronoiInteraction {
     /// The masses of cells at the start; `mass` of the particles is their mean.
     #[serde(default)]
     pub initial_masses: InitialMasses,
-    /// The largest part of a cell's mass, of its internal energy by conduction and of its volume by the turning face of
-    /// close cells, that crosses one face in one step: a finite step could take more than there is. The run counts how
-    /// often this acted.
+    /// The largest part of a cell's mass, of its internal energy, by conduction and with mass each, and of its volume by the
+    /// turning face of close cells, that crosses one face in one step: a finite step could take more than there is. The
+    /// run counts how often this acted.
     #[serde(default = "tenth")]
     #[schemars(range(max = 0.5), extend("exclusiveMinimum" = 0))]
     pub exchange_limit: f64,
