@@ -312,10 +312,10 @@ impl Plan {
     /// and few lanes wait for each other where one workgroup has all of the work.
     fn suit_serial_memory(&mut self) {
         const SUITED: [(&str, &str, &str); 5] = [
-            ("scatter", "common/words", "common/words_paired"),
-            ("arrange", "common/words", "common/words_paired"),
-            ("push", "common/words", "common/words_paired"),
-            ("push_from_report", "common/words", "common/words_paired"),
+            ("scatter", "common/storage", "common/storage_paired"),
+            ("arrange", "common/storage", "common/storage_paired"),
+            ("push", "common/storage", "common/storage_paired"),
+            ("push_from_report", "common/storage", "common/storage_paired"),
             ("scan", "common/scan_wide", "common/scan_narrow"),
         ];
         for kernel in &mut self.kernels {

@@ -205,7 +205,7 @@ impl Builder<'_> {
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
         let scatter = self.kernel(
             "scatter",
-            &["common/words", "common/copies", "common/probes", "kernels/scatter"],
+            &["common/storage", "common/copies", "common/probes", "kernels/scatter"],
             self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
         );
         kernels.push(scatter);

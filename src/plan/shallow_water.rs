@@ -219,7 +219,7 @@ impl Builder<'_> {
         }
         let scatter = self.kernel(
             "scatter",
-            &["common/mesh_cells", "common/words", "common/stored_water", "kernels/scatter_water"],
+            &["common/mesh_cells", "common/storage", "common/stored_water", "kernels/scatter_water"],
             particle_groups,
         );
         self.plan.sort.push(scatter);
@@ -268,8 +268,8 @@ impl Builder<'_> {
     /// Modules of the stored particles.
     fn stored(&self) -> &'static [&'static str] {
         match self.storage {
-            Storage::Sorted => &["common/words", "common/stored_water", "common/mesh_cells", "common/store_sorted"],
-            Storage::Bins => &["common/words", "common/stored_water", "common/store_bins"],
+            Storage::Sorted => &["common/storage", "common/stored_water", "common/mesh_cells", "common/store_sorted"],
+            Storage::Bins => &["common/storage", "common/stored_water", "common/store_bins"],
         }
     }
 

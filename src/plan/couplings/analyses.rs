@@ -61,7 +61,7 @@ impl Builder<'_> {
         let arrange = [
             self.cells(),
             "common/cells_plain",
-            "common/words",
+            "common/storage",
             "common/copies",
             "common/anchors_off",
             "common/origins_off",

@@ -116,7 +116,7 @@ impl Builder<'_> {
         let arrange = [
             self.cells(),
             "common/cells_plain",
-            "common/words",
+            "common/storage",
             "common/copies",
             "common/anchors_on",
             origins,

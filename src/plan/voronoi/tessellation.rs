@@ -38,7 +38,7 @@ impl Builder<'_> {
         let arrange = [
             "common/grid2",
             "common/cells_plain",
-            "common/words",
+            "common/storage",
             "common/copies",
             "common/anchors_off",
             "common/origins_off",
