@@ -186,7 +186,7 @@ fn temperature(rows: &[Observables]) -> Measured {
 /// The rows of temperature against the time step, with the form of a gradient at density 5 and viscosity 1.
 #[test]
 fn temperatures_at_large_steps() {
-    for (scheme, step, expected, allowance) in [("splitting", 0.08, 1.001, 0.01), ("euler", 0.005, 1.018, 0.02)] {
+    for (scheme, step, expected, allowance) in [("splitting", 0.08, 1.001, 0.01), ("euler", 0.005, 1.012, 0.01)] {
         let (step_change, scheme_change) = (format!("time.step={step}"), integrator(scheme));
         let changes = [step_change.as_str(), &scheme_change, "output.energies.every=10"];
         let rows = equilibrium(&cells(400, &changes), 100, 10, 100);

@@ -3,10 +3,11 @@
 
 mod support;
 
+use mesoscope::engine::EngineError;
 use mesoscope::plan::Options;
 use mesoscope::reference::VoronoiReference;
 use mesoscope::state::State;
-use support::{Device, Implementation, cells, start};
+use support::{Device, Implementation, cells, engine, start};
 
 const ENERGY: &str = "interactions.0.energy={}";
 
@@ -251,4 +252,30 @@ fn the_step_counter_has_two_words() {
     let (momentum, _) = support::largest_difference(&run.state(), reference.state());
     assert!(momentum < 4000, "{momentum}");
     assert_eq!(run.observe().step, u64::from(u32::MAX) + 3);
+}
+
+/// More cells within the place of one than the loops of some adapters have turns for: they are tessellated, or the adapter
+/// is said to have given up, without advice about the step.
+#[test]
+fn a_crowd_is_tessellated_or_given_up() {
+    const CROWD: u32 = 1600;
+    let scene = cells(CROWD, &["temperature=0", r#"particles.0.velocities={"type":"rest"}"#, "time.step=1e-6"]);
+    let (_, mut state) = start(&scene);
+    // Within half the width of a cell of the grid, in no order.
+    for (number, position) in (0_u32..).zip(&mut state.positions) {
+        let part = |factor: u32| number.wrapping_mul(factor) >> 7;
+        *position = [(1 << 31) + part(2_654_435_761), (1 << 31) + part(2_246_822_519), 0];
+    }
+    let mut engine = engine(&scene, &state, Options::default());
+    match engine.advance(1, 1).and_then(|()| engine.finish()) {
+        Ok(_) => assert_eq!(engine.state().unwrap().total_momentum(), state.total_momentum()),
+        Err(EngineError::GaveUp { step, adapter }) => {
+            assert_eq!(adapter, support::gpu().description().name);
+            let message = EngineError::GaveUp { step, adapter }.to_string();
+            println!("{message}");
+            assert!(step <= 1 && message.contains("crowd") && !message.contains("time step"), "{message}");
+        }
+        Err(EngineError::Crowded { .. }) => {}
+        Err(other) => panic!("{other}"),
+    }
 }

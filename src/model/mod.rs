@@ -259,9 +259,9 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
-/// A power of two near 2⁻²⁴ (2⁻²⁰ for Voronoi cells) of the largest momentum a species has for a reason: thermal, that of its fastest listed
-/// particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a particle that has
-/// rolled down the repulsion.
+/// A power of two near 2⁻²⁴ (2⁻²⁰ for Voronoi cells) of the largest momentum a species has for a reason: thermal, that of its
+/// fastest listed particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a
+/// particle that has rolled down the repulsion.
 fn momentum_unit(
     scene: &Scene,
     species: &[Species],

@@ -34,6 +34,17 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
     plan
 }
 
+/// Modules that put particles into the cells of a grid, and note nothing beside.
+const ARRANGE: [&str; 7] = [
+    "common/cells_plain",
+    "common/storage",
+    "common/copies",
+    "common/anchors_off",
+    "common/origins_off",
+    "common/slots_off",
+    "kernels/arrange",
+];
+
 /// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
 pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
     const LIMIT: u32 = 65_535;

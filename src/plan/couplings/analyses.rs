@@ -2,9 +2,9 @@
 //! by cell on the side.
 
 use super::Builder;
-use crate::plan::Sampler;
 use crate::plan::analyses::{self, Reported};
 use crate::plan::recording::record_histogram;
+use crate::plan::{ARRANGE, Sampler};
 use crate::scene::{Output, RadialDistribution};
 
 impl Builder<'_> {
@@ -58,16 +58,7 @@ impl Builder<'_> {
         let mut kernels = self.binning();
         let groups = self.groups(self.particles.max(self.grid.count()));
         // On the side: the list and what it has noted stay as they are.
-        let arrange = [
-            self.cells(),
-            "common/cells_plain",
-            "common/storage",
-            "common/copies",
-            "common/anchors_off",
-            "common/origins_off",
-            "common/slots_off",
-            "kernels/arrange",
-        ];
+        let arrange = [&[self.cells()][..], &ARRANGE].concat();
         kernels.push(self.kernel("arrange_by_cell", &arrange, groups));
         let sorted = [self.cells(), "common/cells_plain", "common/sorted"];
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };

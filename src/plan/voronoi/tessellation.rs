@@ -1,8 +1,8 @@
 //! The order of the particles and the cells around them.
 
 use super::{Builder, SPACE};
-use crate::plan::Kernel;
 use crate::plan::prefix_sum::PrefixSum;
+use crate::plan::{ARRANGE, Kernel};
 
 /// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
@@ -35,16 +35,7 @@ impl Builder<'_> {
         }
         self.scan(&mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
-        let arrange = [
-            "common/grid2",
-            "common/cells_plain",
-            "common/storage",
-            "common/copies",
-            "common/anchors_off",
-            "common/origins_off",
-            "common/slots_off",
-            "kernels/arrange",
-        ];
+        let arrange = [&["common/grid2"][..], &ARRANGE].concat();
         kernels.push(self.shared_kernel("arrange", &arrange, arrange_groups));
         let sorted = ["common/grid2", "common/cells_plain", "common/sorted"];
         let groups = self.groups(self.particles);
