@@ -320,9 +320,10 @@ fn water_plans() -> Vec<(String, Plan)> {
         }
         let scene = water(&changes);
         for storage in [Storage::Sorted, Storage::Bins] {
-            for many_level_scan in [false, true] {
-                let options = Options { storage: Some(storage), many_level_scan, ..Options::default() };
-                let name = format!("water {} {storage:?} {many_level_scan}", changes.join(" "));
+            for (traversal, many_level_scan) in [(Traversal::Rows, false), (Traversal::Clusters, true)] {
+                let traversal = Some(traversal);
+                let options = Options { storage: Some(storage), traversal, many_level_scan, ..Options::default() };
+                let name = format!("water {} {storage:?} {traversal:?} {many_level_scan}", changes.join(" "));
                 plans.extend(plans_of(&name, &scene, options));
             }
         }

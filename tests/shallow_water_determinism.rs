@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use mesoscope::engine::{EngineError, Sample};
 use mesoscope::model::Model;
 use mesoscope::output::checkpoint;
-use mesoscope::plan::{Options, Storage};
+use mesoscope::plan::{Options, Storage, Traversal};
 use mesoscope::reference::ShallowWaterReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -31,6 +31,7 @@ const QUADRATIC: &str = "interactions.0.spline_order=2";
 const CHEBYSHEV: &str = r#"interactions.0.smoothing={"length":0.8,"power":2,"solver":{"type":"chebyshev"}}"#;
 const SPECTRAL: &str = r#"interactions.0.smoothing={"length":0.5,"solver":{"type":"fft","symbol":"spectral"}}"#;
 const OBLONG: [&str; 2] = ["space.box=[12,7]", "interactions.0.mesh=[20,13]"];
+const NARROW: &str = "space.box=[3,12]";
 const TRACERS: &str = r#"particles=[
     {"species":"water","count":2048,"placement":{"type":"random"},"velocities":{"type":"geostrophic"}},
     {"species":"water","count":1024,"placement":{"type":"lattice"},"velocities":{"type":"geostrophic"}},
@@ -46,6 +47,8 @@ fn sampled(changes: &[&str]) -> Scene {
 fn scenes() -> Vec<Scene> {
     vec![
         sampled(&[]),
+        sampled(&[ROTATE, MEMORY, WARM, TRACERS, CHEBYSHEV, "interactions.0.mesh=[24,10]"]),
+        sampled(&[NARROW, "interactions.0.mesh=[8,32]"]),
         sampled(&[ROTATE, QUADRATIC, WHITE, WARM]),
         sampled(&[LINEAR, MEMORY, WARM, TRACERS, r#"noise={"generator":"threefry2x32-20"}"#]),
         sampled(&[&[CHEBYSHEV, EXPONENTIAL, WARM, TRACERS], &OBLONG[..]].concat()),
@@ -73,7 +76,7 @@ fn a_rerun_gives_the_same_bytes() {
 }
 
 #[test]
-fn storage_scans_and_workgroup_sizes_give_the_same_bytes() {
+fn storage_traversals_scans_and_workgroup_sizes_give_the_same_bytes() {
     for scene in scenes() {
         let plain = run(&scene, Options { storage: Some(Storage::Sorted), ..Options::default() }, BATCH);
         let sorted = |workgroup_size: u32, many_level_scan: bool| Options {
@@ -86,7 +89,11 @@ fn storage_scans_and_workgroup_sizes_give_the_same_bytes() {
         let bins = |workgroup_size: u32| Options { storage: Some(Storage::Bins), ..sorted(workgroup_size, false) };
         // Bins are not sorted, and need no scan.
         for options in [sorted(32, true), sorted(64, true), sorted(128, false), bins(32), bins(64), bins(128)] {
-            assert!(plain == run(&scene, options, BATCH), "{options:?} {:?}", scene.interactions);
+            // Cells in eights, where there are subgroups for it, are the default.
+            for traversal in [None, Some(Traversal::Rows)] {
+                let options = Options { traversal, ..options };
+                assert!(plain == run(&scene, options, BATCH), "{options:?} {:?}", scene.interactions);
+            }
         }
         let roomy = Options::default().with_room(scene.particles.len() as u64);
         assert!(plain == run(&scene, roomy, BATCH), "with room for a crowd");

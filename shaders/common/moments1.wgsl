@@ -15,15 +15,3 @@ fn without_rounding(moments: Moments, count: i32) -> Moments {
 fn node_weights(moments: Moments) -> Square {
     return SPLINE * Square(Powers(moments[0]), Powers(moments[1])) * transpose(SPLINE);
 }
-// Hands out the rounded masses, and what is left of the total to one node.
-fn hand_out(cell: u32, weights: Square, total: i32) {
-    let count = CELLS_X * CELLS_Y;
-    let share0 = IntegerPowers(round(weights[0]));
-    let share1 = IntegerPowers(round(weights[1]));
-    let given = share0 + share1;
-    let left = total - (given.x + given.y);
-    contributions[0u * count + cell] = share0.x + left;
-    contributions[1u * count + cell] = share0.y;
-    contributions[2u * count + cell] = share1.x;
-    contributions[3u * count + cell] = share1.y;
-}

@@ -208,7 +208,9 @@ impl<'a> Engine<'a> {
         if let Some(counts) = self.buffers.get("counts") {
             encoder.clear_buffer(counts, 0, None);
         }
-        self.record(&mut encoder, &self.plan.prepare.clone());
+        self.step = state.step;
+        self.first_step = state.step;
+        self.record(&mut encoder, &self.plan.prepare);
         for sampler in &self.plan.samplers {
             // Neither rows nor windows of the state before go on.
             encoder.clear_buffer(&self.buffers[sampler.samples], 0, Some(8));
@@ -216,8 +218,6 @@ impl<'a> Engine<'a> {
         self.gpu.queue.submit([encoder.finish()]);
         self.in_flight.clear();
         self.collected.clear();
-        self.step = state.step;
-        self.first_step = state.step;
         self.phase = Phase::Advanced;
         Ok(())
     }
@@ -245,7 +245,7 @@ impl<'a> Engine<'a> {
                     let reported = self.phase == Phase::Sorted { reported: true };
                     let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
                     for &kernel in kernels {
-                        self.stages[kernel].dispatch(&mut pass);
+                        self.dispatch(kernel, &mut pass);
                     }
                     self.phase = Phase::Advanced;
                     self.step += 1;
@@ -320,7 +320,7 @@ impl<'a> Engine<'a> {
     /// [`EngineError`] if the device failed or the plan has no such buffer.
     pub fn words(&mut self, buffer: &str) -> Result<Vec<u32>, EngineError> {
         self.wait_all()?;
-        let Some(buffer) = self.buffers.get(buffer) else {
+        let Some(buffer) = self.buffers.get(self.plan.buffer_at(buffer, self.is_odd())) else {
             return Err(EngineError::State { reason: format!("the plan has no buffer `{buffer}`") });
         };
         Ok(bytemuck::pod_collect_to_vec(&readback::read(self.gpu, buffer)?))
@@ -329,7 +329,7 @@ impl<'a> Engine<'a> {
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
         let names = self.plan.layout.buffers();
-        let read = |name: &&str| readback::read(self.gpu, &self.buffers[*name]);
+        let read = |name: &&str| readback::read(self.gpu, &self.buffers[self.plan.buffer_at(name, self.is_odd())]);
         let bytes = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let words: Vec<&[u32]> = bytes.iter().map(|bytes| bytemuck::cast_slice(bytes)).collect();
         let count = self.plan.particles as usize;
@@ -344,8 +344,17 @@ impl<'a> Engine<'a> {
     fn record(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
         for &kernel in kernels {
-            self.stages[kernel].dispatch(&mut pass);
+            self.dispatch(kernel, &mut pass);
         }
+    }
+
+    fn dispatch(&self, kernel: usize, pass: &mut wgpu::ComputePass<'_>) {
+        self.stages[kernel].dispatch(pass, self.is_odd());
+    }
+
+    /// Whether an odd number of steps was made since the upload, after which buffers may have changed places.
+    fn is_odd(&self) -> bool {
+        !(self.step - self.first_step).is_multiple_of(2)
     }
 
     /// Sorts, if that is still to be done, and takes whatever samples are due.
@@ -353,7 +362,7 @@ impl<'a> Engine<'a> {
         if self.phase == Phase::Advanced {
             for kernels in [&self.plan.sort, &self.plan.before_report] {
                 for &kernel in kernels {
-                    self.stages[kernel].dispatch(pass);
+                    self.dispatch(kernel, pass);
                 }
             }
             self.phase = Phase::Sorted { reported: false };
@@ -368,7 +377,7 @@ impl<'a> Engine<'a> {
         }
         for sampler in due {
             for &kernel in &self.plan.samplers[sampler].kernels {
-                self.stages[kernel].dispatch(pass);
+                self.dispatch(kernel, pass);
             }
             self.pending_rows[sampler] += 1;
         }
@@ -377,7 +386,7 @@ impl<'a> Engine<'a> {
     fn record_report(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         if self.phase == (Phase::Sorted { reported: false }) {
             for &kernel in &self.plan.report {
-                self.stages[kernel].dispatch(pass);
+                self.dispatch(kernel, pass);
             }
             self.phase = Phase::Sorted { reported: true };
         }

@@ -9,6 +9,8 @@ use crate::plan::{Kernel, Plan, folded};
 pub(super) struct Stage {
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
+    /// Those of odd steps, if buffers change places.
+    odd_bindings: Option<wgpu::BindGroup>,
     size: Size,
 }
 
@@ -19,9 +21,10 @@ enum Size {
 }
 
 impl Stage {
-    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
+    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, odd: bool) {
+        let bindings = self.odd_bindings.as_ref().filter(|_| odd).unwrap_or(&self.bindings);
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.bindings, &[]);
+        pass.set_bind_group(0, bindings, &[]);
         match &self.size {
             Size::Fixed([width, height]) => pass.dispatch_workgroups(*width, *height, 1),
             Size::Demanded(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
@@ -48,20 +51,28 @@ pub(super) fn stage(
         .filter(|(name, _)| linked.overrides.iter().any(|known| known == name))
         .copied()
         .collect();
-    let mut entries = Vec::new();
-    for binding in &linked.bindings {
-        let name = kernel
-            .renamed
-            .iter()
-            .find(|(variable, _)| *variable == binding.name)
-            .map_or(binding.name.as_str(), |(_, buffer)| buffer);
-        let buffer = buffers.get(name).ok_or_else(|| GpuError::Refused {
-            doing: format!("binding the buffers of kernel `{}`", kernel.name),
-            reason: format!("the plan has no buffer `{name}`"),
-        })?;
-        entries.push(wgpu::BindGroupEntry { binding: binding.number, resource: buffer.as_entire_binding() });
-    }
-    let (pipeline, bindings) = gpu.scoped(&format!("making kernel `{}`", kernel.name), 0, || {
+    let names: Vec<&str> = linked
+        .bindings
+        .iter()
+        .map(|binding| {
+            let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
+            renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer)
+        })
+        .collect();
+    let entries = |odd: bool| {
+        let bound = linked.bindings.iter().zip(&names).map(|(binding, name)| {
+            let name = plan.buffer_at(name, odd);
+            let buffer = buffers.get(name).ok_or_else(|| GpuError::Refused {
+                doing: format!("binding the buffers of kernel `{}`", kernel.name),
+                reason: format!("the plan has no buffer `{name}`"),
+            })?;
+            Ok(wgpu::BindGroupEntry { binding: binding.number, resource: buffer.as_entire_binding() })
+        });
+        bound.collect::<Result<Vec<_>, GpuError>>()
+    };
+    let changes = names.iter().any(|name| plan.buffer_at(name, true) != *name);
+    let (even, odd) = (entries(false)?, if changes { Some(entries(true)?) } else { None });
+    let (pipeline, bindings, odd_bindings) = gpu.scoped(&format!("making kernel `{}`", kernel.name), 0, || {
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(kernel.name),
             source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(linked.module)),
@@ -78,16 +89,20 @@ pub(super) fn stage(
             },
             cache: None,
         });
-        let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(kernel.name),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        (pipeline, bindings)
+        let layout = pipeline.get_bind_group_layout(0);
+        let bind = |entries: &[wgpu::BindGroupEntry<'_>]| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(kernel.name),
+                layout: &layout,
+                entries,
+            })
+        };
+        let odd = odd.as_deref().map(bind);
+        (pipeline, bind(&even), odd)
     })?;
     let size = match (kernel.demand, buffers.get(DEMANDS)) {
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed(folded(kernel.workgroups)),
     };
-    Ok(Stage { pipeline, bindings, size })
+    Ok(Stage { pipeline, bindings, odd_bindings, size })
 }

@@ -103,7 +103,7 @@ impl Engine<'_> {
                     end_of_pass_write_index: Some(2 * place + 1),
                 }),
             });
-            self.stages[kernel].dispatch(&mut pass);
+            self.dispatch(kernel, &mut pass);
         }
         encoder.resolve_query_set(&queries, 0..count, &ticks, 0);
         self.submit(encoder)?;
@@ -134,7 +134,7 @@ impl Engine<'_> {
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             if let Some(kernel) = kernel {
-                self.stages[kernel].dispatch(&mut pass);
+                self.dispatch(kernel, &mut pass);
             }
         }
         let commands = encoder.finish();

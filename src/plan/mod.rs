@@ -23,7 +23,7 @@ use crate::state::Units;
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let mut plan = match (&model.shallow_water, &model.voronoi) {
-        (Some(water), _) => shallow_water::plan(model, water, output, options),
+        (Some(water), _) => shallow_water::plan(model, water, output, hardware, options),
         (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         _ => pair::plan(model, equilibration, output, hardware, options),
@@ -69,7 +69,7 @@ pub struct Hardware {
 /// Choices that change how a scene is computed but not a bit of its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Options {
-    /// How pairs are visited; left to the hardware if `None`.
+    /// How pairs, and the cells of a mesh, are visited; left to the hardware if `None`.
     pub traversal: Option<Traversal>,
     /// Workgroups that share a row of cells; chosen from the sizes if `None`.
     pub segments: Option<u32>,
@@ -115,12 +115,12 @@ impl Options {
     }
 }
 
-/// How pairs are visited.
+/// How pairs, and the cells of a mesh, are visited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Traversal {
-    /// One invocation a particle; for any adapter.
+    /// One invocation a particle or cell; for any adapter.
     Rows,
-    /// Eight particles a subgroup of eight lanes.
+    /// Eight particles or cells a subgroup of eight lanes.
     Clusters,
     /// No pairs at all: the scene has no pair force.
     Alone,
@@ -257,6 +257,8 @@ pub struct Plan {
     pub samplers: Vec<Sampler>,
     /// The most storage buffers that one kernel binds, if they are more than the eight that every adapter has; else eight.
     pub storage_buffers: u32,
+    /// Two buffers that change places after every step: the first holds the state before step 0, the second before step 1.
+    pub swapped: Option<[&'static str; 2]>,
     /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
     pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.
@@ -313,6 +315,7 @@ impl Plan {
             finish_report: Vec::new(),
             samplers: Vec::new(),
             storage_buffers: 8,
+            swapped: None,
             reported: None,
             operations_per_particle: 0.0,
         }
@@ -322,7 +325,8 @@ impl Plan {
     /// moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs more than it saves),
     /// and few lanes wait for each other where one workgroup has all of the work.
     fn suit_serial_memory(&mut self) {
-        const SUITED: [(&str, &str, &str); 5] = [
+        const SUITED: [(&str, &str, &str); 6] = [
+            ("deposit", "common/storage", "common/storage_paired"),
             ("scatter", "common/storage", "common/storage_paired"),
             ("arrange", "common/storage", "common/storage_paired"),
             ("push", "common/storage", "common/storage_paired"),
@@ -362,6 +366,16 @@ impl Plan {
 
     fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
+    }
+
+    /// The buffer that stands for one of a name in even or odd steps after the first.
+    #[must_use]
+    pub fn buffer_at<'a>(&self, name: &'a str, odd: bool) -> &'a str {
+        match self.swapped {
+            Some([one, other]) if odd && name == one => other,
+            Some([one, other]) if odd && name == other => one,
+            _ => name,
+        }
     }
 
     /// Bytes of all buffers.

@@ -2,11 +2,7 @@
 override CLOSES: u32; // 1 from before the closing kick
 override LEAST_DEPTH: f32; // less its mean
 
-@compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
-    if (cell >= CELLS_X * CELLS_Y) { return; }
+fn visit_cell(cell: u32) {
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
     raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > LEAST_DEPTH), cell);
     let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);

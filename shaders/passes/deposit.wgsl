@@ -1,0 +1,23 @@
+// Collects the particles of a cell and spreads them over the nodes under its splines.
+//
+// The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
+// follow from them, and what rounding leaves over goes to one node: no mass is lost.
+
+// The most that the integers of a cell hold.
+const MOST: f32 = 2.1e9;
+
+fn visit_cell(cell: u32) {
+    if (cell == 0u) { begin_unsorted_step(); }
+    collect(cell);
+    var moments: Moments;
+    var total = 0.0;
+    let bin = opened_bin(cell);
+    for (var k = 0u; k < bin.count; k++) {
+        let particle = stored(place_in(bin, k));
+        total += f32(particle.mass);
+        add_particle(&moments, particle);
+    }
+    moments = without_rounding(moments, i32(bin.count));
+    spread(cell, node_weights(moments), moments[0].x);
+    raise_at(select(0u, FAILURE_CROWDING, total > MOST), cell);
+}

@@ -1,0 +1,30 @@
+// Moves the particles of eight cells by one step, eight at a time whichever their cells, from before the closing kick or, after a
+// report, from the report point.
+override CLOSES: u32; // 1 from before the closing kick
+override LEAST_DEPTH: f32; // less its mean
+
+fn of_lane(polynomial: Square, lane: u32) -> Square {
+    return Square(subgroupShuffle(polynomial[0], lane), subgroupShuffle(polynomial[1], lane),
+        subgroupShuffle(polynomial[2], lane), subgroupShuffle(polynomial[3], lane));
+}
+
+fn visit_cell(cell: u32) {
+    // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
+    raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > LEAST_DEPTH), cell);
+    let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
+    let closes = CLOSES == 1u && control.closing == 1;
+    let bin = opened_bin(cell);
+    let eight = opened_eight(bin);
+    for (var first = 0u; first < eight.count; first += 8u) {
+        let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
+        var particle = stored(index);
+        let x = place_along(particle.position.x, CELLS_X);
+        let y = place_along(particle.position.y, CELLS_Y).offset;
+        let owner = x.cell & 7u;
+        let kick = half_kick(of_lane(polynomial, owner), x.offset, y);
+        if (closes) { particle.velocity = closed(particle.velocity, kick); }
+        store_moved_of_eight(eight, bin, cell, owner, first, index, opened(particle, kick));
+    }
+    end_moving_eight(eight, bin, cell);
+    raise(failures_of_motion);
+}
