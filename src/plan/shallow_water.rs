@@ -23,7 +23,7 @@ const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
 const LARGEST_BINDING: u64 = 1 << 27;
 /// Bytes of bins up to which they were found faster than sorting on two cores of lavapipe: at 64² nodes they are, at 128² not.
-const CACHED_BINS: u64 = 1 << 23;
+const CACHED_BINS: u64 = 1 << 24;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {

@@ -11,7 +11,10 @@ use crate::scene::{LaplacianSymbol, SmoothingSolver};
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
 /// The largest radix of a pass, as a power of two.
-const LARGEST_RADIX: u32 = 4;
+const LARGEST_RADIX: u32 = 6;
+/// The fewest lanes of a workgroup of a transform, and the fewest workgroups as long as there are more lanes.
+const FEWEST_LANES: u64 = 8;
+const FEWEST_WORKGROUPS: u64 = 8;
 
 /// The part of a plan that smooths the depth.
 #[derive(Debug, Clone, PartialEq)]
@@ -203,7 +206,9 @@ impl Fourier<'_> {
             2 => "common/fourier_radix2",
             4 => "common/fourier_radix4",
             8 => "common/fourier_radix8",
-            _ => "common/fourier_radix16",
+            16 => "common/fourier_radix16",
+            32 => "common/fourier_radix32",
+            _ => "common/fourier_radix64",
         };
         let twist = if pass.finished == 1 { "common/fourier_twist_off" } else { "common/fourier_twist_on" };
         let mut modules = vec!["common/dispatch", "common/fourier", "common/fourier_short", radix, twist];
@@ -220,7 +225,12 @@ impl Fourier<'_> {
             constants.extend(self.constants);
         }
         let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
-        Kernel::new(pass.name, modules, workgroups(u64::from(lines) * u64::from(length / pass.radix), self.workgroup))
+        // A small mesh has few butterflies, which are to be shared out all the same.
+        let butterflies = u64::from(lines) * u64::from(length / pass.radix);
+        let share = (butterflies / FEWEST_WORKGROUPS).next_power_of_two().max(FEWEST_LANES);
+        let workgroup = self.workgroup.min(share);
+        constants.push(("WORKGROUP", workgroup as f64));
+        Kernel::new(pass.name, modules, workgroups(butterflies, workgroup))
             .with(constants)
             .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
     }
@@ -374,8 +384,8 @@ mod tests {
         for bits in 1_u32..=16 {
             let radices = radices(1 << bits);
             assert_eq!(radices.iter().product::<u32>(), 1 << bits);
-            assert!(radices.iter().all(|radix| (2..=16).contains(radix)));
-            assert_eq!(radices.len(), bits.div_ceil(4) as usize);
+            assert!(radices.iter().all(|radix| (2..=64).contains(radix)));
+            assert_eq!(radices.len(), bits.div_ceil(6) as usize);
         }
     }
 
