@@ -6,6 +6,20 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A directory that a run writes into.
+///
+/// ```
+/// use mesoscope::output::{OutputError, RunDirectory, files};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("results");
+/// let results = RunDirectory::create(&path, false)?;
+/// results.write(files::ENERGIES, |writer| writer.write_all(b"step\n0\n"))?;
+/// // Another run takes its place only when it is told to.
+/// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::InTheWay { .. })));
+/// RunDirectory::create(&path, true)?;
+/// assert!(!results.file(files::ENERGIES).exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
