@@ -128,6 +128,21 @@ impl RunDirectory {
 /// Writes a file under a temporary name beside `path` (`.tmp` added), and moves it to `path` once it is on the disk.
 /// On an error the temporary file is removed, and what was at `path` before is still there.
 ///
+/// ```
+/// use mesoscope::output::write_atomically;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("results.txt");
+/// write_atomically(&path, |writer| writer.write_all(b"complete"))?;
+/// let broken = write_atomically(&path, |writer| {
+///     writer.write_all(b"half of")?;
+///     Err(std::io::Error::other("the power is gone"))
+/// });
+/// assert!(broken.is_err());
+/// assert_eq!(std::fs::read_to_string(&path)?, "complete");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be written, or with the error that `content` returns.
 pub fn write_atomically(

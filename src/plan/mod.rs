@@ -114,6 +114,14 @@ impl Options {
     }
 
     /// The same choices with room for any crowd of so many particles in a cell, and twice the room in lists.
+    ///
+    /// ```
+    /// use mesoscope::plan::{Options, Storage};
+    ///
+    /// let roomy = Options::default().with_room(500);
+    /// assert_eq!((roomy.copies, roomy.storage), (Some(500), Some(Storage::Sorted)));
+    /// assert!(roomy.list_growth == 1 && roomy.has_room_left());
+    /// ```
     #[must_use]
     pub fn with_room(self, particles: u64) -> Self {
         Self {

@@ -82,6 +82,28 @@ pub fn draw_chart(
 
 /// Draws one picture of the particles; [`Plotter`] is cheaper for several.
 ///
+/// ```
+/// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+/// use mesoscope::{plot, scene};
+///
+/// let picture = plot::ParticlePicture {
+///     dimension: 3,
+///     lengths: [4.0; 3],
+///     positions: &[[1.0, 1.0, 1.0], [3.0, 2.0, 1.5]],
+///     species: &[0, 1],
+///     species_names: &["light".to_owned(), "heavy".to_owned()],
+///     speeds: None,
+///     radius: 0.4,
+///     title: "Two particles",
+///     subtitle: "",
+/// };
+/// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+/// let style = scene::Snapshot { width: 400, height: 300, ..scene::Snapshot::default() };
+/// let image = plot::draw_particles(gpu.device(), gpu.queue(), &picture, &style, scene::Theme::Light)?;
+/// assert_eq!(image.dimensions(), (400, 300));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// See [`Plotter::draw_particles`].
 pub fn draw_particles(
