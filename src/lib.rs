@@ -5,6 +5,33 @@
 //! plan on an adapter opened by [`gpu`]. [`measure`] turns integer sums into averages with errors, [`output`] and
 //! [`plot`] write what the user sees. A [`sweep`] is many runs that differ in a few values. [`mod@reference`] is the
 //! plain float64 implementation every kernel is tested against.
+//!
+//! All of these in a small run; [`mod@run`] does the same in two lines, and writes files:
+//!
+//! ```
+//! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+//! use mesoscope::plan::{Hardware, Options, plan};
+//! use mesoscope::{engine::Engine, measure, model::Model, scene};
+//!
+//! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
+//! let scene = scene::load("dpd-fluid", &small)?;
+//! let model = Model::new(&scene);
+//! let state = scene::placement::initial_state(&scene, &model);
+//!
+//! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+//! let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+//! let mut engine = Engine::new(&gpu, plan, &state)?;
+//! engine.advance(300, 100)?;
+//! let samples = engine.finish()?;
+//! let rows = samples.iter().map(|sample| measure::observables_of(sample, engine.plan(), &model));
+//! let settled: Vec<f64> = rows.filter(|row| row.step >= 100).map(|row| row.kinetic_temperature()).collect();
+//!
+//! let Some(temperature) = measure::statistics::estimate(&settled) else { panic!("21 rows") };
+//! assert_eq!(temperature.samples, 21);
+//! assert!((temperature.mean - 1.0).abs() < 0.1, "{temperature:?}");
+//! assert_eq!(engine.reported()?.total_momentum(), [0; 3]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod engine;
 pub mod gpu;

@@ -28,6 +28,11 @@ pub mod stream {
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.
+///
+/// ```
+/// use mesoscope::noise::pcg4d;
+/// assert_eq!(pcg4d([1, 2, 3, 4]), [0x3622_cd16, 0xf114_71d8, 0xe110_9b3f, 0x02b9_4c2f]);
+/// ```
 #[must_use]
 pub fn pcg4d(words: [u32; 4]) -> [u32; 4] {
     let [mut x, mut y, mut z, mut w] = words.map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
@@ -44,6 +49,13 @@ pub fn pcg4d(words: [u32; 4]) -> [u32; 4] {
 }
 
 /// Threefry2x32 with 20 rounds: Salmon et al. 2011, doi:10.1145/2063384.2063405.
+///
+/// ```
+/// use mesoscope::noise::threefry2x32;
+/// // A known answer of the authors' library.
+/// let counter = [0x243f_6a88, 0x85a3_08d3];
+/// assert_eq!(threefry2x32(counter, [0x1319_8a2e, 0x0370_7344]), [0xc492_3a9c, 0x483d_f7a0]);
+/// ```
 #[must_use]
 pub fn threefry2x32(counter: [u32; 2], key: [u32; 2]) -> [u32; 2] {
     const ROTATIONS: [u32; 8] = [13, 15, 26, 6, 17, 29, 16, 24];
@@ -74,6 +86,18 @@ pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
 }
 
 /// The two random words of a pair of counters under a step's key.
+///
+/// ```
+/// use mesoscope::noise::{step_key, stream, words};
+/// use mesoscope::scene::Generator;
+///
+/// // The noise of particles 7 and 12 at step 1000 of the run with seed 1: the same whenever it is drawn.
+/// let key = step_key(1, stream::PAIR, 1000);
+/// let noise = words(Generator::Threefry2x32, key, [7, 12]);
+/// assert_eq!(noise, words(Generator::Threefry2x32, key, [7, 12]));
+/// assert_ne!(noise, words(Generator::Threefry2x32, key, [7, 13]));
+/// assert_ne!(noise, words(Generator::Threefry2x32, step_key(1, stream::PAIR, 1001), [7, 12]));
+/// ```
 #[must_use]
 pub fn words(generator: crate::scene::Generator, key: [u32; 2], counters: [u32; 2]) -> [u32; 2] {
     match generator {
@@ -96,12 +120,28 @@ pub fn face_counters(smaller: u32, larger: u32, image: u32, part: u32) -> [u32; 
 }
 
 /// A word as a number in (-½, ½): its top 24 bits, centred so that the mean is exactly zero.
+///
+/// ```
+/// use mesoscope::noise::centred_uniform;
+/// let [lowest, highest] = [0x8000_0000, 0x7fff_ffff].map(centred_uniform);
+/// assert_eq!(lowest, -highest);
+/// assert_eq!(highest, 0.5 - 0.5_f64.powi(25));
+/// ```
 #[must_use]
 pub fn centred_uniform(word: u32) -> f64 {
     (f64::from((word as i32) >> 8) + 0.5) / 16_777_216.0
 }
 
 /// Two words as one standard Gaussian number, by Box and Muller's transform.
+///
+/// ```
+/// use mesoscope::noise::{gaussian, seed_key, threefry2x32};
+/// let key = seed_key(1, 99);
+/// let numbers = || (0..10_000).map(|counter| gaussian(threefry2x32([counter, 0], key)));
+/// let moment = |power| numbers().map(|number| number.powi(power)).sum::<f64>() / 10_000.0;
+/// // 0, 1 and 3 within four standard errors.
+/// assert!(moment(1).abs() < 0.04 && (moment(2) - 1.0).abs() < 0.06 && (moment(4) - 3.0).abs() < 0.4);
+/// ```
 #[must_use]
 pub fn gaussian(words: [u32; 2]) -> f64 {
     let radius_uniform = centred_uniform(words[0]) + 0.5;
@@ -110,6 +150,14 @@ pub fn gaussian(words: [u32; 2]) -> f64 {
 }
 
 /// Two words as two independent standard Gaussian numbers; the first is that of [`gaussian`].
+///
+/// ```
+/// use mesoscope::noise::{gaussian, two_gaussians};
+/// // Radius √(2 log 2), and a quarter of a turn.
+/// let [x, y] = two_gaussians([0, 0x4000_0000]);
+/// assert!(x.abs() < 1e-6 && (y - (2.0 * 2_f64.ln()).sqrt()).abs() < 1e-6);
+/// assert_eq!(x, gaussian([0, 0x4000_0000]));
+/// ```
 #[must_use]
 pub fn two_gaussians(words: [u32; 2]) -> [f64; 2] {
     let radius_uniform = centred_uniform(words[0]) + 0.5;

@@ -1,6 +1,17 @@
 //! The exact state: integer positions and momenta, ordered by particle id.
 
 /// Scales between the integer state and real units.
+///
+/// ```
+/// use mesoscope::state::Units;
+///
+/// let units = Units { dimension: 3, lengths: [8.0, 8.0, 8.0], momentum: 0.5 };
+/// // Positions are taken modulo the box, and displacements the shortest way.
+/// let [left, right] = [[-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]].map(|position| units.fraction(position));
+/// assert_eq!(units.position(left), [7.5, 0.0, 0.0]);
+/// assert_eq!(units.displacement(right, left), [1.5, 0.0, 0.0]);
+/// assert_eq!(units.momentum([3, 0, -1]), [1.5, 0.0, -0.5]);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
     /// Number of dimensions, 2 or 3.
@@ -142,6 +153,19 @@ impl State {
 
     /// Sets one of [`Self::arrays`].
     ///
+    /// ```
+    /// use mesoscope::state::State;
+    ///
+    /// let mut state = State { masses: vec![3, 5], ..State::default() };
+    /// let mut copy = State::default();
+    /// for (name, words) in state.arrays() {
+    ///     copy.set_array(name, words)?;
+    /// }
+    /// assert_eq!(copy, state);
+    /// assert!(state.set_array("colours", &[1, 2]).is_err());
+    /// # Ok::<(), String>(())
+    /// ```
+    ///
     /// # Errors
     /// What is wrong with it: an unknown name, or words that are no whole number of its elements.
     pub fn set_array(&mut self, name: &str, words: &[u32]) -> Result<(), String> {
@@ -197,6 +221,14 @@ impl State {
     }
 
     /// Total momentum in integer units.
+    ///
+    /// ```
+    /// use mesoscope::state::State;
+    ///
+    /// let momenta = vec![[5, 0, i32::MAX], [-3, 0, i32::MAX]];
+    /// let state = State { momenta, ..State::default() };
+    /// assert_eq!(state.total_momentum(), [2, 0, 2 * i64::from(i32::MAX)]);
+    /// ```
     #[must_use]
     pub fn total_momentum(&self) -> [i64; 3] {
         let mut total = [0; 3];

@@ -123,6 +123,15 @@ impl Tessellation {
 /// Parts particles that are at exactly the same place, so that every cell has a volume: the j-th of them, in order of
 /// index, is moved by (j, j²) times 2⁻³² of the box, onto a convex curve, where none is enclosed by the others. Says whether
 /// there were any.
+///
+/// ```
+/// use mesoscope::tessellation::part_coincident;
+///
+/// let mut places = [[7, 7, 0], [1, 2, 0], [7, 7, 0]];
+/// assert!(part_coincident(&mut places));
+/// assert_eq!(places, [[7, 7, 0], [1, 2, 0], [8, 8, 0]]);
+/// assert!(!part_coincident(&mut places));
+/// ```
 pub fn part_coincident(fractions: &mut [[u32; 3]]) -> bool {
     part(fractions, |place, by| [place[0].wrapping_add(by[0]), place[1].wrapping_add(by[1]), place[2]])
 }

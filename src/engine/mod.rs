@@ -68,6 +68,32 @@ enum Phase {
 }
 
 /// A plan on a device, with its state.
+///
+/// ```
+/// use mesoscope::engine::Engine;
+/// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+/// # use mesoscope::plan::{Hardware, Options, plan};
+/// # use mesoscope::{model::Model, scene};
+/// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
+/// # let scene = scene::load("dpd-fluid", &small)?;
+/// # let model = Model::new(&scene);
+/// # let start = scene::placement::initial_state(&scene, &model);
+/// # let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+/// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+/// let mut engine = Engine::new(&gpu, plan, &start)?;
+/// engine.advance(30, 10)?;
+/// let state = engine.state()?;
+/// assert_eq!((state.step, state.total_momentum()), (30, start.total_momentum()));
+/// // The table of energies has a row every 20 steps.
+/// let steps: Vec<u64> = engine.finish()?.iter().map(|sample| sample.step).collect();
+/// assert_eq!(steps, [0, 20]);
+///
+/// // From the same state it does the same, to the last bit and in whatever batches.
+/// engine.upload(&start)?;
+/// engine.advance(30, 7)?;
+/// assert_eq!(engine.state()?, state);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Engine<'a> {
     gpu: &'a Gpu,
     plan: Plan,

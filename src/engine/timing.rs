@@ -41,6 +41,28 @@ impl Engine<'_> {
     /// costs to hand a batch to the device, and with [`StageClock::Submissions`] it is only as sharp as an empty
     /// submission is steady.
     ///
+    /// ```
+    /// # use mesoscope::engine::Engine;
+    /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+    /// # use mesoscope::plan::{Hardware, Options, plan};
+    /// # use mesoscope::{model::Model, scene};
+    /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
+    /// # let scene = scene::load("dpd-fluid", &small)?;
+    /// # let model = Model::new(&scene);
+    /// # let start = scene::placement::initial_state(&scene, &model);
+    /// # let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+    /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+    /// let mut engine = Engine::new(&gpu, plan, &start)?;
+    /// let stages = engine.time_stages(5, engine.stage_clock())?;
+    /// for stage in &stages {
+    ///     println!("{}: {:.1} µs", stage.name, 1e6 * stage.seconds);
+    /// }
+    /// let plan = engine.plan();
+    /// assert_eq!(stages.len(), plan.sort.len() + plan.before_report.len() + plan.advance.len());
+    /// assert_eq!(engine.step(), 5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`EngineError`] if the device failed, the run became unstable, or the current step has been reported already.
     pub fn time_stages(&mut self, steps: u64, clock: StageClock) -> Result<Vec<StageTime>, EngineError> {

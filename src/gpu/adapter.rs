@@ -16,6 +16,14 @@ pub enum AdapterChoice {
 
 impl AdapterChoice {
     /// The choice a user wrote: `software`, a number or a part of a name; nothing means the best.
+    ///
+    /// ```
+    /// use mesoscope::gpu::AdapterChoice;
+    ///
+    /// assert_eq!(AdapterChoice::parse(None), AdapterChoice::Best);
+    /// assert_eq!(AdapterChoice::parse(Some("software")), AdapterChoice::Software);
+    /// assert_eq!(AdapterChoice::parse(Some("radeon")), AdapterChoice::Named("radeon".to_owned()));
+    /// ```
     #[must_use]
     pub fn parse(text: Option<&str>) -> Self {
         match text {

@@ -27,6 +27,18 @@ pub struct Gpu {
 impl Gpu {
     /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it.
     ///
+    /// ```
+    /// use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements, list_adapters};
+    ///
+    /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+    /// assert_eq!(gpu.description(), &list_adapters()[0]);
+    /// gpu.health()?;
+    ///
+    /// let missing = Gpu::open(&AdapterChoice::parse(Some("no such adapter")), Requirements::default());
+    /// assert!(matches!(missing, Err(GpuError::NoSuchAdapter { .. })));
+    /// # Ok::<(), GpuError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`GpuError`] if there is no such adapter, if it cannot meet the requirements or if it does not open.
     pub fn open(choice: &AdapterChoice, requirements: Requirements) -> Result<Self, GpuError> {

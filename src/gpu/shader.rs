@@ -48,6 +48,19 @@ pub fn link(kernel: &str, modules: &[&str]) -> Result<LinkedShader, GpuError> {
 
 /// The same for modules given as `(name, text)`.
 ///
+/// ```
+/// use mesoscope::gpu::link_texts;
+///
+/// let data = ("common/data", "@group(0) @binding(0) var<storage, read_write> data: array<u32>;");
+/// let kernel = |statement: &str| format!("@compute @workgroup_size(1)\nfn main() {{\n    {statement};\n}}");
+/// let linked = link_texts("double", &[data, ("kernels/double", &kernel("data[0] *= 2u"))])?;
+/// assert_eq!(linked.bindings[0].name, "data");
+///
+/// let slip = link_texts("double", &[data, ("kernels/double", &kernel("date[0] *= 2u"))]);
+/// assert!(slip.is_err_and(|error| error.to_string().contains("kernels/double.wgsl:3")));
+/// # Ok::<(), mesoscope::gpu::GpuError>(())
+/// ```
+///
 /// # Errors
 /// [`GpuError::Shader`] that names the file and the line.
 pub fn link_texts(kernel: &str, modules: &[(&str, &str)]) -> Result<LinkedShader, GpuError> {

@@ -49,6 +49,15 @@ pub fn circulation(units: &Units, positions: &[[u32; 3]], velocities: &[[i32; 3]
 
 /// The largest distance between neighbours on a closed loop of points. A loop is a curve to the flow as long as this is
 /// below the spacing of the mesh.
+///
+/// ```
+/// use mesoscope::{measure::circulation::largest_gap, state::Units};
+///
+/// let units = Units { dimension: 2, lengths: [8.0, 8.0, 1.0], momentum: 1.0 };
+/// // A triangle across the edge of the box.
+/// let corners = [[7.0, 1.0], [1.0, 1.0], [1.0, 2.5]].map(|[x, y]| units.fraction([x, y, 0.0]));
+/// assert_eq!(largest_gap(&units, &corners), 2.5);
+/// ```
 #[must_use]
 pub fn largest_gap(units: &Units, positions: &[[u32; 3]]) -> f64 {
     let next = positions.iter().cycle().skip(1);

@@ -7,6 +7,19 @@ use serde::{Deserialize, Serialize};
 ///
 /// Samples come one by one; each window holds `lags` of them, the first at lag 0. Windows do not overlap, so they are
 /// nearly independent and their scatter gives the errors.
+///
+/// ```
+/// use mesoscope::measure::correlation::{LagAverage, WindowedAverage};
+///
+/// let mut average = WindowedAverage::new(3);
+/// // Two windows, and the beginning of a third, which does not count yet.
+/// for sample in [4.0, 2.0, 1.0, 8.0, 4.0, 2.0, 7.0] {
+///     average.push(sample);
+/// }
+/// let means: Vec<f64> = average.average().iter().map(|lag| lag.mean).collect();
+/// assert_eq!(means, [6.0, 3.0, 1.5]);
+/// assert_eq!(average.normalised()[1], LagAverage { mean: 0.5, standard_error: Some(0.0) });
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WindowedAverage {
     lags: usize,
@@ -93,6 +106,15 @@ pub struct Coefficient {
 /// A line with free intercept (the ballistic start shifts it) is fitted to the second half of each window, with weights
 /// 1/t²: the scatter of a squared displacement grows like its mean. The fit is linear in the data, so the mean of the
 /// slopes is the slope of the mean. Returns none without a full window of at least four lags.
+///
+/// ```
+/// use mesoscope::measure::correlation::{WindowedAverage, diffusion_from_displacement};
+///
+/// // ⟨Δr²⟩ = 6 D t with D = ½, but for the start.
+/// let displacement: Vec<f64> = (0..20).map(|lag| (3.0 * 0.1 * f64::from(lag) - 0.1).max(0.0)).collect();
+/// let found = diffusion_from_displacement(&WindowedAverage::of(20, &displacement), 0.1, 3);
+/// assert!(found.is_some_and(|found| (found.value - 0.5).abs() < 1e-9));
+/// ```
 #[must_use]
 pub fn diffusion_from_displacement(
     displacement: &WindowedAverage,
@@ -119,6 +141,15 @@ pub fn diffusion_from_displacement(
 /// Self-diffusion coefficient D = (1/d) ∫ ⟨v(0)·v(t)⟩ dt (Green and Kubo) from windows of the velocity autocorrelation,
 /// by the trapezoidal rule up to the end of the window; what lies beyond is left out. Returns none without a full
 /// window of at least two lags.
+///
+/// ```
+/// use mesoscope::measure::correlation::{WindowedAverage, diffusion_from_velocity};
+///
+/// // ⟨v(0)·v(t)⟩ = 3 kT/m exp(-γt) with kT/m = 1 and γ = 2: D = kT/mγ.
+/// let velocities: Vec<f64> = (0..1000).map(|lag| 3.0 * (-2.0 * 0.01 * f64::from(lag)).exp()).collect();
+/// let found = diffusion_from_velocity(&WindowedAverage::of(1000, &velocities), 0.01, 3);
+/// assert!(found.is_some_and(|found| (found.value - 0.5).abs() < 1e-4 && found.standard_error.is_none()));
+/// ```
 #[must_use]
 pub fn diffusion_from_velocity(
     autocorrelation: &WindowedAverage,
@@ -233,6 +264,25 @@ const FEWEST_BLOCKS: usize = 5;
 /// 1/var ∝ C² / (1 - C² + 2 C² log C). Wave numbers are averaged with weights k² times their number of modes: the number
 /// of relaxation times that each has seen. Errors come from a jackknife over up to 20 blocks of time, each at least
 /// twice as long as the fit; there is no error if fewer than 5 fit in.
+///
+/// ```
+/// use mesoscope::measure::correlation::{TransverseMode, shear_viscosity};
+/// use mesoscope::noise::{step_key, two_gaussians};
+///
+/// // A mode that forgets at the rate η k²/ρ = 0.8 · 0.5² / 3, sampled every 0.5 units of time.
+/// let memory = (-0.5 * 0.8 * 0.25 / 3.0_f64).exp();
+/// let mut amplitude = [1.0, 0.0];
+/// let amplitudes = (0..20_000).map(|sample| {
+///     let [x, y] = two_gaussians(step_key(1, 99, sample)).map(|number| (1.0 - memory * memory).sqrt() * number);
+///     amplitude = [memory * amplitude[0] + x, memory * amplitude[1] + y];
+///     amplitude
+/// });
+/// let mode = TransverseMode { wave_number: 0.5, amplitudes: amplitudes.collect() };
+/// let found = shear_viscosity(&[mode], 3.0, 0.5, 500)?.viscosity;
+/// let error = found.standard_error.unwrap_or(f64::NAN);
+/// assert!((found.value - 0.8).abs() < 4.0 * error && error < 0.2);
+/// # Ok::<(), mesoscope::measure::correlation::ViscosityError>(())
+/// ```
 ///
 /// # Errors
 /// A [`ViscosityError`] that says which setting to change.

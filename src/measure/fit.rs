@@ -49,6 +49,18 @@ impl FittedDecay {
     /// own errors are no guide. The errors of the parameters come from leaving out one of up to 20 groups of windows at
     /// a time, which knows of all correlations.
     ///
+    /// ```
+    /// use mesoscope::measure::{correlation::WindowedAverage, fit::FittedDecay};
+    /// use mesoscope::scene::DecayFit;
+    ///
+    /// let samples: Vec<f64> = (0..50).map(|lag| 8.0 * (-3.0 * 0.02 * f64::from(lag)).exp()).collect();
+    /// let fit = FittedDecay::of_windows(&WindowedAverage::of(50, &samples), 0.02, DecayFit::Exponential)?;
+    /// let (name, rate) = fit.parameters[1];
+    /// assert!(name == "b" && (rate.value - 3.0).abs() < 1e-6);
+    /// assert!((fit.at(0.5) - (-1.5_f64).exp()).abs() < 1e-6);
+    /// # Ok::<(), mesoscope::measure::fit::FitError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`FitError`] where the points do not determine the curve.
     pub fn of_windows(average: &WindowedAverage, interval: f64, shape: DecayFit) -> Result<Self, FitError> {

@@ -4,6 +4,22 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Counts in bins of equal width, with what fell outside.
+///
+/// ```
+/// use mesoscope::measure::histogram::Histogram;
+///
+/// let mut histogram = Histogram::new([0.0, 2.0], 4);
+/// for value in [0.1, 0.6, 0.7, 1.9, 5.0_f64] {
+///     match histogram.counts.get_mut((value / 0.5) as usize) {
+///         Some(count) => *count += 1.0,
+///         None => histogram.above += 1.0,
+///     }
+/// }
+/// assert_eq!((histogram.total(), histogram.width(), histogram.centre(1)), (5.0, 0.5, 0.75));
+/// // What fell outside counts too: the density adds up to 4/5 over the range.
+/// let sum: f64 = histogram.density().iter().map(|density| density * histogram.width()).sum();
+/// assert!((sum - 0.8).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {
     /// The lower edge of the first bin and the upper edge of the last.
@@ -90,6 +106,14 @@ pub fn gaussian_density(value: f64, mean: f64, standard_deviation: f64) -> f64 {
 
 /// Maxwell's density of the magnitude of a vector of `dimension` (1 to 3) Gaussian components with this mean square of
 /// the magnitude.
+///
+/// ```
+/// use mesoscope::measure::histogram::maxwell_density;
+/// // Speeds of particles with kT/m = 1 in three dimensions have the mean √(8/π).
+/// let speeds = (0..8000).map(|index| (f64::from(index) + 0.5) * 1e-3);
+/// let mean: f64 = speeds.map(|speed| speed * maxwell_density(speed, 3.0, 3) * 1e-3).sum();
+/// assert!((mean - (8.0 / std::f64::consts::PI).sqrt()).abs() < 1e-6);
+/// ```
 #[must_use]
 pub fn maxwell_density(speed: f64, mean_square: f64, dimension: usize) -> f64 {
     let variance = mean_square / dimension as f64;

@@ -9,6 +9,22 @@ use crate::state::State;
 ///
 /// All fields are lists over the nodes, with node (k, l), at (k Δx, l Δy), in place k + l·nₓ. Derivatives are central
 /// differences across two spacings.
+///
+/// ```
+/// use mesoscope::{measure::MeshFlow, model::Model, scene};
+///
+/// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
+/// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
+/// let model = Model::new(&scene);
+/// let mut state = scene::placement::initial_state(&scene, &model);
+/// state.momenta.fill([3_000_000, 4_000_000, 0]);
+/// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
+/// let flow = MeshFlow::new(&model, water, &state);
+/// let speed = 5e6 * model.units.momentum;
+/// assert!(flow.speed().iter().all(|found| (found / speed - 1.0).abs() < 1e-12));
+/// assert!(flow.vorticity().iter().all(|found| found.abs() < 1e-9 * speed));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshFlow {
     mesh: [usize; 2],

@@ -12,6 +12,16 @@ pub const RANDOM_POINTS: [f64; 14] =
     [0.0, 0.0, 0.0, 0.0113, 0.1068, 0.2595, 0.2947, 0.1988, 0.0901, 0.0297, 0.0074, 0.0015, 0.0002, 0.0];
 
 /// Counts of cells by their number of neighbours, sample by sample.
+///
+/// ```
+/// use mesoscope::{measure::neighbours::NeighbourCounts, tessellation::Tessellation};
+///
+/// let mut counts = NeighbourCounts::default();
+/// counts.push(&Tessellation::new([3.0, 2.0], &[[0.1, 0.2], [1.1, 0.1], [2.3, 0.6], [0.6, 1.2], [1.5, 1.4]]));
+/// // By Euler's formula, whatever the points.
+/// assert_eq!(counts.mean().map(|found| found.mean), Some(6.0));
+/// assert!(counts.variance().is_some_and(|found| found.mean >= 0.0));
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NeighbourCounts {
     samples: Vec<[f64; MOST_NEIGHBOURS + 1]>,

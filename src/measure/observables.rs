@@ -3,6 +3,20 @@
 /// Raw sums over particles and pairs at the report point of one step.
 ///
 /// Whoever fills this in, the reference or a GPU, computes sums only; everything derived from them is here, once.
+///
+/// ```
+/// use mesoscope::{model::Model, reference::Reference, scene};
+///
+/// let scene = scene::load("ideal-dissipative-gas", &["space.box=[4,4,4]".to_owned(), "output={}".to_owned()])?;
+/// let model = Model::new(&scene);
+/// let state = scene::placement::initial_state(&scene, &model);
+/// let found = Reference::new(model, state).observe()?;
+/// assert_eq!((found.potential_energy, found.total_energy()), (0.0, found.kinetic_energy));
+/// // Without forces that have a potential, pressure is density times temperature.
+/// let density = found.particles as f64 / found.volume;
+/// assert!((found.conservative_pressure() - density * found.kinetic_temperature()).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observables {
     /// The step.

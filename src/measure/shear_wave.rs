@@ -28,6 +28,15 @@ impl WaveDecay {
     /// fluctuations of single cells out of it.
     ///
     /// None where the amplitudes do not decay, or are too few. The error is that of the jackknife over 20 parts.
+    ///
+    /// ```
+    /// use mesoscope::measure::shear_wave::WaveDecay;
+    ///
+    /// let amplitudes: Vec<f64> = (0..100).map(|sample| 0.3 * (-0.2 * 0.1 * f64::from(sample)).exp()).collect();
+    /// let decay = WaveDecay::of(&amplitudes, 0.1);
+    /// assert!(decay.is_some_and(|decay| (decay.rate.value - 0.2).abs() < 1e-9 && decay.amplitude == 0.3));
+    /// assert_eq!(WaveDecay::of(&amplitudes[..5], 0.1), None);
+    /// ```
     #[must_use]
     pub fn of(amplitudes: &[f64], interval: f64) -> Option<Self> {
         if amplitudes.len() < FEWEST {

@@ -32,6 +32,18 @@ pub struct Estimate {
 /// short blocks against the noise of few blocks. If no length with at least 16 blocks satisfies it, the series is too
 /// short: the largest apparent error with at least 16 blocks (or without blocking, if it is shorter than that) is
 /// given and marked as not converged.
+///
+/// ```
+/// use mesoscope::{measure::statistics::estimate, noise};
+///
+/// // Independent numbers, each of which is seen four times in a row.
+/// let number = |step: u64| noise::gaussian(noise::step_key(1, 99, step / 4));
+/// let series: Vec<f64> = (0..4096).map(number).collect();
+/// let Some(found) = estimate(&series) else { panic!("a series") };
+/// let error = found.standard_error.unwrap_or(f64::NAN);
+/// assert!(found.mean.abs() < 4.0 * error && (error - 1.0 / 32.0).abs() < 0.01);
+/// assert!(found.converged && found.correlation_samples.is_some_and(|samples| samples > 2.5 && samples < 6.0));
+/// ```
 #[must_use]
 pub fn estimate(series: &[f64]) -> Option<Estimate> {
     let mut blocks: Vec<f64> = series.iter().copied().filter(|value| value.is_finite()).collect();
@@ -87,6 +99,13 @@ fn variance_of_mean(values: &[f64]) -> Option<f64> {
 }
 
 /// Mean and standard error of independent values; none where there are no values.
+///
+/// ```
+/// use mesoscope::measure::statistics::independent;
+/// assert_eq!(independent(&[1.0, 2.0, 3.0]), Some((2.0, Some((1.0_f64 / 3.0).sqrt()))));
+/// assert_eq!(independent(&[7.0]), Some((7.0, None)));
+/// assert_eq!(independent(&[]), None);
+/// ```
 #[must_use]
 pub fn independent(values: &[f64]) -> Option<(f64, Option<f64>)> {
     if values.is_empty() {

@@ -7,6 +7,16 @@ use crate::scene::{Bath, BathScheme};
 /// s' = e s + λₑ (1 + e)/2 (h(r') - h(r)) + √(kT λₑ (1 - e²)) ξ, ξ ~ N(0, 1).
 ///
 /// Every scheme is one choice of e and λₑ. Without coupling, ⟨s²⟩ = kT λₑ.
+///
+/// ```
+/// use mesoscope::{model::BathStep, scene::BathScheme};
+///
+/// let step = BathStep::with_memory(BathScheme::Exponential, 3.0, 2.0, 0.1);
+/// assert!((step.persistence - (-0.2_f64).exp()).abs() < 1e-12);
+/// // The noise makes up for what is forgotten: without coupling the variance stays kT λₑ.
+/// let variance = step.deviation(1.5).powi(2);
+/// assert!((step.persistence.powi(2) * variance + step.noise(1.5).powi(2) - variance).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BathStep {
     /// The part e of s that one step leaves.

@@ -42,6 +42,16 @@ impl SpringChain {
 }
 
 /// A chain of single beads, of which every n make a cluster, and the two chains of clusters that are to move as it does.
+///
+/// ```
+/// use mesoscope::model::HarmonicChain;
+///
+/// let chain = HarmonicChain { clusters: 2, cluster_size: 3, mass: 1.0, stiffness: 6.0, reduced_friction: 0.5 };
+/// assert_eq!((chain.micro().beads, chain.frictionless().mass, chain.frictionless().stiffness), (6, 3.0, 2.0));
+/// // The mean displacement and the total momentum of each cluster.
+/// let found = chain.coarse_grained(&[0.0, 1.0, 2.0, 0.0, 0.0, 3.0], &[1.0, 1.0, 1.0, -2.0, 0.0, 2.0]);
+/// assert_eq!(found, (vec![1.0, 1.0], vec![3.0, 0.0]));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicChain {
     /// Number N' of clusters.

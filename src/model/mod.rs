@@ -84,6 +84,19 @@ pub struct Model {
 
 impl Model {
     /// The model of a checked scene.
+    ///
+    /// ```
+    /// use mesoscope::model::Model;
+    ///
+    /// let model = Model::new(&mesoscope::scene::load("binary-mixture", &[])?);
+    /// assert_eq!((model.units.dimension, model.particle_count()), (2, 14_400));
+    /// let names: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
+    /// assert_eq!(names, ["A", "B"]);
+    /// let repulsions = model.pair_force.as_ref().map(|force| [force.repulsion(0, 0), force.repulsion(0, 1)]);
+    /// assert_eq!(repulsions, Some([25.0, 60.0]));
+    /// assert!(model.conserves_momentum() && !model.is_coupled());
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let mut species: Vec<Species> = Vec::new();

@@ -132,6 +132,19 @@ impl ShallowWater {
     /// Kicks by the smoothed depth and by the bath are oscillators of one mode of the mesh each, with (W + B)/4 < 1 as
     /// the limit. Their stiffness is the largest eigenvalue of ∫∇ψ·∇ψ over the smoothing, and over the coupling of the
     /// bath.
+    ///
+    /// ```
+    /// use mesoscope::{model::Model, scene};
+    ///
+    /// let model = Model::new(&scene::load("shallow-water", &[])?);
+    /// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
+    /// let [x, y, _] = model.units.lengths;
+    /// let share = water.stability([x, y], model.time_step);
+    /// assert!(share > 0.0 && share < 1.0);
+    /// // Kicks grow with the square of the step.
+    /// assert!((water.stability([x, y], 2.0 * model.time_step) / share - 4.0).abs() < 0.1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn stability(&self, lengths: [f64; 2], time_step: f64) -> f64 {
         const SAMPLES: u32 = 64;

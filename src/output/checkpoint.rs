@@ -90,6 +90,24 @@ pub enum CheckpointError {
 
 /// Writes a checkpoint of `scene` and `state`, which replaces an earlier one only when it is complete on the disk.
 ///
+/// ```
+/// use mesoscope::output::checkpoint;
+/// use mesoscope::{model::Model, scene};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("checkpoint.bin");
+/// let scene = scene::load("dpd-fluid", &[])?;
+/// let state = scene::placement::initial_state(&scene, &Model::new(&scene));
+/// checkpoint::save(&path, &scene, &state, &[])?;
+/// let found = checkpoint::load(&path)?;
+/// assert!(found.scene == scene && found.state == state);
+///
+/// // What is not exactly what was written is refused.
+/// std::fs::write(&path, &std::fs::read(&path)?[..1000])?;
+/// assert!(checkpoint::load(&path).is_err_and(|error| error.to_string().contains("it was cut short")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be written; an earlier checkpoint is then still there.
 pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<u8>)]) -> Result<(), OutputError> {

@@ -6,6 +6,20 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A directory that a run writes into.
+///
+/// ```
+/// use mesoscope::output::{OutputError, RunDirectory, files};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("results");
+/// let results = RunDirectory::create(&path, false)?;
+/// results.write(files::ENERGIES, |writer| writer.write_all(b"step\n0\n"))?;
+/// // Another run takes its place only when it is told to.
+/// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::InTheWay { .. })));
+/// RunDirectory::create(&path, true)?;
+/// assert!(!results.file(files::ENERGIES).exists());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
@@ -113,6 +127,21 @@ impl RunDirectory {
 
 /// Writes a file under a temporary name beside `path` (`.tmp` added), and moves it to `path` once it is on the disk.
 /// On an error the temporary file is removed, and what was at `path` before is still there.
+///
+/// ```
+/// use mesoscope::output::write_atomically;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("results.txt");
+/// write_atomically(&path, |writer| writer.write_all(b"complete"))?;
+/// let broken = write_atomically(&path, |writer| {
+///     writer.write_all(b"half of")?;
+///     Err(std::io::Error::other("the power is gone"))
+/// });
+/// assert!(broken.is_err());
+/// assert_eq!(std::fs::read_to_string(&path)?, "complete");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be written, or with the error that `content` returns.

@@ -11,6 +11,23 @@ use std::path::Path;
 ///
 /// The first column is `step`; the others are named by the caller. Numbers have the fewest digits that give the same
 /// `f64` back, so equal values give equal bytes. Rows reach the disk at [`flush`](Self::flush), always whole.
+///
+/// ```
+/// use mesoscope::output::EnergiesFile;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("energies.csv");
+/// let mut energies = EnergiesFile::create(&path, &["temperature", "pressure"])?;
+/// energies.append(0, &[1.02, f64::NAN])?;
+/// energies.append(20, &[0.98, 23.5])?;
+/// energies.flush()?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n20,0.98,23.5\n");
+///
+/// // A run that goes on from step 10 takes the second row again.
+/// EnergiesFile::resume(&path, &["temperature", "pressure"], 10)?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct EnergiesFile {
     records: RecordFile,

@@ -184,6 +184,12 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
 }
 
 /// Whether a run may have written a file of this name, finished or not.
+///
+/// ```
+/// use mesoscope::output::files::is_of_a_run;
+/// assert!(is_of_a_run("energies.csv") && is_of_a_run("snapshot-000017.png"));
+/// assert!(!is_of_a_run("notes.txt"));
+/// ```
 #[must_use]
 pub fn is_of_a_run(name: &str) -> bool {
     let name = name.strip_suffix(".tmp").unwrap_or(name);

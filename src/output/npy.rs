@@ -24,6 +24,17 @@ pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), Out
 
 /// Writes the content of an array file; see [`write_npy`].
 ///
+/// ```
+/// use mesoscope::output::write_npy_to;
+///
+/// let mut bytes = Vec::new();
+/// write_npy_to(&mut bytes, &[2, 3], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
+/// assert!(bytes.starts_with(b"\x93NUMPY"));
+/// assert!(bytes.ends_with(&6_f64.to_le_bytes()));
+/// assert!(write_npy_to(&mut bytes, &[2, 2], &[1.0, 2.0, 3.0]).is_err());
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
 /// # Errors
 /// What the writer returns, and [`io::ErrorKind::InvalidInput`] when `shape` does not hold as many values as there are.
 pub fn write_npy_to(writer: &mut dyn Write, shape: &[usize], values: &[f64]) -> io::Result<()> {

@@ -7,6 +7,23 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// What a run did, on what, and what came out.
+///
+/// ```
+/// use mesoscope::measure::statistics::estimate;
+/// use mesoscope::output::summary::{AdapterSummary, Summary};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("run.json");
+/// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+/// let mut summary = Summary::new(scene, AdapterSummary::default(), 24_000);
+/// summary.set_duration(2000, 2000, 12.0);
+/// summary.add_mean("temperature", estimate(&[0.75, 1.25]).as_ref());
+/// summary.save(&path)?;
+/// let found = Summary::load(&path)?;
+/// assert_eq!(found.particle_steps_per_second, 4e6);
+/// assert_eq!(found.means["temperature"]["mean"], 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Version of the program.

@@ -59,6 +59,19 @@ pub fn read_table(path: &Path) -> Result<Table, OutputError> {
 
 /// Writes a whole table, which appears complete or not at all.
 ///
+/// ```
+/// use mesoscope::output::{Table, read_table, write_table};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("pressures.csv");
+/// let columns = ["density", "pressure"].map(str::to_owned).to_vec();
+/// let table = Table { columns, rows: vec![vec![3.0, 23.65], vec![4.0, 41.3]] };
+/// write_table(&path, &table)?;
+/// assert_eq!(std::fs::read_to_string(&path)?, "density,pressure\n3,23.65\n4,41.3\n");
+/// assert_eq!(read_table(&path)?.column("pressure"), Some(vec![23.65, 41.3]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`OutputError::ColumnName`] or [`OutputError::RowLength`] for what a table cannot hold, [`OutputError::Io`] when
 /// the file cannot be written.

@@ -21,6 +21,16 @@ impl Grid {
     /// The grid for a cutoff in a box.
     ///
     /// Cells are capped at 1024 an axis and, for few particles in a large box, at about four cells a particle.
+    ///
+    /// ```
+    /// use mesoscope::{plan::Grid, state::Units};
+    ///
+    /// let units = Units { dimension: 3, lengths: [10.0, 7.5, 2.5], momentum: 1.0 };
+    /// let grid = Grid::new(&units, 1.0, 500);
+    /// // No cell is narrower than the cutoff, and two cells on an axis are as good as one.
+    /// assert_eq!(grid.cells, [10, 7, 1]);
+    /// assert_eq!((grid.rows(), grid.count()), (7, 70));
+    /// ```
     #[must_use]
     pub fn new(units: &Units, cutoff: f64, particles: u64) -> Self {
         let dimension = units.dimension;

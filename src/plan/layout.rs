@@ -175,6 +175,19 @@ impl Layout {
 
     /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
     ///
+    /// ```
+    /// use mesoscope::{plan::Layout, state::State};
+    ///
+    /// let layout = Layout::Particles { dimension: 2, predicted: false };
+    /// let positions = vec![[1, 2, 0], [3, 4, 0]];
+    /// let state = State { positions, momenta: vec![[-1, 1, 0]; 2], species: vec![0, 0], ..State::default() };
+    /// // The order in storage is forgotten when the state is read back.
+    /// let words = layout.pack(&state, &[1, 0]).map_err(|misfit| format!("{misfit:?}"))?;
+    /// let contents: Vec<&[u32]> = words.iter().map(Vec::as_slice).collect();
+    /// assert_eq!(layout.unpack(0, &contents, 2)?, state);
+    /// # Ok::<(), String>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Misfit`].
     pub fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {

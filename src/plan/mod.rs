@@ -20,6 +20,22 @@ use crate::scene::Output;
 use crate::state::Units;
 
 /// Makes the plan of a model.
+///
+/// ```
+/// use mesoscope::model::Model;
+/// use mesoscope::plan::{Hardware, Options, plan};
+///
+/// // No device is needed to see what a run would do, nor to check its shaders.
+/// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+/// let model = Model::new(&scene);
+/// let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+/// assert_eq!((plan.particles, plan.cells), (24_000, [20, 20, 20]));
+/// assert!(plan.samplers[0].due(40) && !plan.samplers[0].due(41));
+/// for kernel in plan.sort.iter().chain(&plan.advance).map(|&index| &plan.kernels[index]) {
+///     mesoscope::gpu::link(kernel.name, &kernel.modules)?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let mut plan = match (&model.shallow_water, &model.voronoi) {
@@ -98,6 +114,14 @@ impl Options {
     }
 
     /// The same choices with room for any crowd of so many particles in a cell, and twice the room in lists.
+    ///
+    /// ```
+    /// use mesoscope::plan::{Options, Storage};
+    ///
+    /// let roomy = Options::default().with_room(500);
+    /// assert_eq!((roomy.copies, roomy.storage), (Some(500), Some(Storage::Sorted)));
+    /// assert!(roomy.list_growth == 1 && roomy.has_room_left());
+    /// ```
     #[must_use]
     pub fn with_room(self, particles: u64) -> Self {
         Self {
@@ -379,6 +403,18 @@ impl Plan {
     }
 
     /// Bytes of all buffers.
+    ///
+    /// ```
+    /// use mesoscope::model::Model;
+    /// use mesoscope::plan::{Hardware, Options, plan};
+    ///
+    /// let scene = mesoscope::scene::load("dpd-fluid", &["particles.0.number_density=6".to_owned()])?;
+    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// // Room for positions and momenta at least; some MiB in all for 48 000 particles.
+    /// assert!(plan.bytes() > 24 * plan.particles && plan.bytes() < 64 << 20);
+    /// assert!(plan.largest_buffer() < plan.bytes());
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.buffers.iter().map(|buffer| buffer.bytes).sum()

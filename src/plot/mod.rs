@@ -6,15 +6,23 @@
 //! linear light, so thin lines keep their weight on light and dark paper. Type and lines are sized for a picture that
 //! is shown 16 cm wide, whatever its number of pixels; [`PlotStyle::scale`](crate::scene::PlotStyle::scale) changes that.
 //!
-//! ```no_run
+//! ```
+//! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 //! use mesoscope::plot::{Chart, Panel, Plotter, Series};
-//! # fn device() -> (wgpu::Device, wgpu::Queue) { unimplemented!() }
-//! let (device, queue) = device();
+//! use mesoscope::scene::PlotStyle;
+//!
 //! let points = (0..100).map(|i| [f64::from(i), f64::from(i).sqrt()]).collect();
 //! let panel = Panel::new("time", "distance").with(Series::line("root", points));
-//! let chart = Chart { title: "A square root".into(), subtitle: String::new(), panels: vec![panel] };
-//! let picture = Plotter::new(&device, &queue)?.draw_chart(&chart, &Default::default())?;
-//! picture.save("root.png")?;
+//! let chart = Chart { title: "A square root".to_owned(), panels: vec![panel], ..Chart::default() };
+//!
+//! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+//! let style = PlotStyle { width: 640, height: 400, ..PlotStyle::default() };
+//! let picture = Plotter::new(gpu.device(), gpu.queue())?.draw_chart(&chart, &style)?;
+//! assert_eq!(picture.dimensions(), (640, 400));
+//! # let directory = tempfile::tempdir()?;
+//! # let path = directory.path().join("root.png");
+//! picture.save(&path)?;
+//! assert_eq!(image::open(&path)?.into_rgba8(), picture);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -74,6 +82,28 @@ pub fn draw_chart(
 
 /// Draws one picture of the particles; [`Plotter`] is cheaper for several.
 ///
+/// ```
+/// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+/// use mesoscope::{plot, scene};
+///
+/// let picture = plot::ParticlePicture {
+///     dimension: 3,
+///     lengths: [4.0; 3],
+///     positions: &[[1.0, 1.0, 1.0], [3.0, 2.0, 1.5]],
+///     species: &[0, 1],
+///     species_names: &["light".to_owned(), "heavy".to_owned()],
+///     speeds: None,
+///     radius: 0.4,
+///     title: "Two particles",
+///     subtitle: "",
+/// };
+/// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+/// let style = scene::Snapshot { width: 400, height: 300, ..scene::Snapshot::default() };
+/// let image = plot::draw_particles(gpu.device(), gpu.queue(), &picture, &style, scene::Theme::Light)?;
+/// assert_eq!(image.dimensions(), (400, 300));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// See [`Plotter::draw_particles`].
 pub fn draw_particles(
@@ -87,6 +117,20 @@ pub fn draw_particles(
 }
 
 /// Draws one picture of a field; [`Plotter`] is cheaper for several.
+///
+/// ```
+/// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+/// use mesoscope::{measure::Field, plot, scene::PlotStyle};
+///
+/// let wave = |[x, _]: [f64; 2]| x.sin();
+/// let field = Field::from_function("height", "height h", [16, 8], [std::f64::consts::TAU, 3.0], wave);
+/// let picture = plot::FieldPicture { title: "A wave", ..plot::FieldPicture::new(&field) };
+/// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+/// let style = PlotStyle { width: 400, height: 300, ..PlotStyle::default() };
+/// let image = plot::draw_field(gpu.device(), gpu.queue(), &picture, &style)?;
+/// assert_eq!(image.dimensions(), (400, 300));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// See [`Plotter::draw_field`].

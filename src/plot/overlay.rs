@@ -18,6 +18,18 @@ const MOST_NAMES: usize = 12;
 
 /// The curves of a quantity over each other, against time. Curves on a scale of colours are named at even distances
 /// where there are too many of them.
+///
+/// ```
+/// use mesoscope::plot::{Curve, overlay_chart};
+///
+/// let curve = |friction: f64| {
+///     let points = (0..10).map(|step| [f64::from(step), (-friction * f64::from(step)).exp()]).collect();
+///     Curve { name: format!("friction = {friction}"), points, ..Curve::default() }
+/// };
+/// let chart = overlay_chart("Damping", "", "kinetic_energy", true, vec![curve(1.0), curve(4.5)]);
+/// assert_eq!(chart.panels[0].y.label, "Kinetic energy relative to its first value");
+/// assert_eq!(chart.panels[0].series[1].name, "friction = 4.5");
+/// ```
 #[must_use]
 pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, curves: Vec<Curve>) -> Chart {
     let mut panel = Panel::new("Time (time units)", &quantity_label(quantity, relative));

@@ -27,6 +27,18 @@ impl EnergyTable {
 /// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, `bath_energy`, `extended_energy`,
 /// `temperature`, `configurational_temperature`, `pressure` and `pressure_conservative`. `temperature` is the set kT, drawn as a
 /// reference; a value that is not finite leaves it out.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, energies_chart};
+///
+/// let columns = ["time", "kinetic_energy", "temperature"].map(str::to_owned).to_vec();
+/// let table = EnergyTable { columns, rows: vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]] };
+/// let chart = energies_chart("A fluid", &table, 20, 1.0);
+/// // There is no pressure in the table, and no panel for it.
+/// assert_eq!(chart.panels.len(), 2);
+/// assert_eq!(chart.panels[0].series[0].points, [[0.0, 1.5], [0.5, 1.35]]);
+/// assert_eq!(chart.panels[1].references[0].value, 1.0);
+/// ```
 #[must_use]
 pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, temperature: f64) -> Chart {
     let per_particle = particle_count.max(1) as f64;

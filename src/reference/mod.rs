@@ -99,6 +99,21 @@ struct Report {
 }
 
 /// A model and its state, stepped on the CPU.
+///
+/// ```
+/// use mesoscope::{model::Model, reference::Reference, scene};
+///
+/// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let model = Model::new(&scene);
+/// let start = scene::placement::initial_state(&scene, &model);
+/// let mut reference = Reference::new(model, start.clone());
+/// reference.run(20)?;
+/// assert_eq!(reference.state().step, 20);
+/// assert_eq!(reference.state().total_momentum(), start.total_momentum());
+/// assert!(reference.observe()?.pressure() > 15.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Reference {
     model: Model,
@@ -226,6 +241,18 @@ impl Reference {
 
     /// Counts of unordered pairs in `bins` equal bins of distance up to `range`, which is at most half the shortest
     /// box edge.
+    ///
+    /// ```
+    /// # use mesoscope::{model::Model, reference::Reference, scene, state::State};
+    /// # let scene = scene::load("dpd-fluid", &[])?;
+    /// # let model = Model::new(&scene);
+    /// // Three particles in a row, 0.6 and 1.8 apart.
+    /// let positions = [0.0, 0.6, 2.4].map(|x| model.units.fraction([x, 0.0, 0.0])).to_vec();
+    /// let state = State { positions, momenta: vec![[0; 3]; 3], species: vec![0; 3], ..State::default() };
+    /// let reference = Reference::new(model, state);
+    /// assert_eq!(reference.radial_distribution(3.0, 6), [0, 1, 0, 1, 1, 0]);
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
     #[must_use]
     pub fn radial_distribution(&self, range: f64, bins: usize) -> Vec<u64> {
         observables::radial_distribution(self, range, bins)

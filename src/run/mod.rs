@@ -4,17 +4,26 @@
 //! one event to the next (a checkpoint, a snapshot, a frame, the end), and writes what the scene asks for. It prints
 //! nothing: an observer is told how far it is.
 //!
-//! ```no_run
+//! ```
 //! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::run::{Event, Simulation};
 //!
-//! let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-//! let outcome = Simulation::start(scene, "results", false).execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
+//! # let directory = tempfile::tempdir()?;
+//! # let results = directory.path().join("results");
+//! let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
+//! let scene = mesoscope::scene::load("dpd-fluid", &small)?;
+//! let run = Simulation::start(scene, &results, false);
+//! let outcome = run.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 //!     if let Event::Advanced(progress) = event {
 //!         println!("step {} of {}", progress.step, progress.last_step);
 //!     }
 //! })?;
 //! println!("{:?}", outcome.summary.means.get("temperature"));
+//! assert!(outcome.files.contains(&"energies.csv") && results.join("run.json").exists());
+//!
+//! // Its directory is enough to go on from.
+//! let longer = Simulation::resume(&results, Some(80))?;
+//! assert_eq!((longer.first_step(), longer.is_finished()), (40, false));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -17,6 +17,17 @@ macro_rules! builtin {
 }
 
 /// The scenes inside the program, the main one first.
+///
+/// ```
+/// use mesoscope::scene;
+///
+/// assert_eq!(scene::builtin()[0].name, "dpd-fluid");
+/// for builtin in scene::builtin() {
+///     let scene = scene::load(builtin.name, &[])?;
+///     assert!(!scene.description.is_empty(), "{}", builtin.name);
+/// }
+/// # Ok::<(), scene::SceneError>(())
+/// ```
 #[must_use]
 pub fn builtin() -> &'static [Builtin] {
     builtin![

@@ -62,6 +62,24 @@ pub fn unknown_builtin(name: &str) -> SceneError {
 
 /// Reads a scene from JSON text; `name` is what messages call it. Otherwise like [`load`].
 ///
+/// ```
+/// use mesoscope::scene::{self, SceneError};
+///
+/// let text = r#"{
+///     "title": "Soft particles", "space": {"box": [5, 5, 5]}, "time": {"step": 0.04, "steps": 100},
+///     "temperature": 1, "particles": [{"species": "A", "number_density": 3}],
+///     "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}]
+/// }"#;
+/// let scene = scene::parse("soft", text, &["seed=7".to_owned()])?;
+/// assert_eq!((scene.seed, scene.output.energies.every), (7, 20));
+///
+/// let slips = ["time.stepps=3", "temperature=-1"].map(str::to_owned);
+/// let Err(SceneError::Invalid { problems, .. }) = scene::parse("soft", text, &slips) else { panic!("two mistakes") };
+/// assert_eq!(problems[0].suggestion.as_deref(), Some("steps"));
+/// assert_eq!(problems[1].to_string(), "temperature: found -1; accepted: a number, zero or positive");
+/// # Ok::<(), SceneError>(())
+/// ```
+///
 /// # Errors
 /// Text that is not JSON, an override that does not fit, or [`SceneError::Invalid`] with all mistakes at once.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
@@ -149,6 +167,14 @@ fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
 }
 
 /// The JSON Schema of a scene (draft 2020-12), derived from [`Scene`].
+///
+/// ```
+/// let schema = mesoscope::scene::schema();
+/// assert_eq!(schema["properties"]["title"]["description"], "One line that names the scene; it heads every plot.");
+/// let validator = jsonschema::validator_for(&schema)?;
+/// assert!(!validator.is_valid(&serde_json::json!({"title": "no box, no time, no particles"})));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn schema() -> Value {
     let schema = schemars::schema_for!(Scene);

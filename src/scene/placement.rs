@@ -11,6 +11,18 @@ use crate::state::State;
 /// `scene` has been checked and `model` was made from it. The words of random placements and velocities depend on
 /// the seed and the particle's number only, and always come from Threefry: what is drawn once may cost a little more.
 /// The net momentum of all thermal groups together is zero to the last bit, so a single thermal particle is at rest.
+///
+/// ```
+/// use mesoscope::model::Model;
+/// use mesoscope::scene::{self, placement::initial_state};
+///
+/// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let state = initial_state(&scene, &Model::new(&scene));
+/// assert_eq!((state.step, state.len()), (0, 192));
+/// assert_eq!(state.total_momentum(), [0; 3]);
+/// # Ok::<(), scene::SceneError>(())
+/// ```
 #[must_use]
 pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut state = State::default();

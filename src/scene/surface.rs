@@ -4,6 +4,17 @@ use super::SurfaceFeature;
 use std::f64::consts::TAU;
 
 /// A periodic surface 1 + Σ features over a box.
+///
+/// ```
+/// use mesoscope::scene::{SurfaceFeature, surface::Surface};
+///
+/// let wave = [SurfaceFeature::Wave { periods: [1, 0], amplitude: 0.1 }];
+/// let surface = Surface::new(&wave, [std::f64::consts::TAU, 3.0]);
+/// assert!((surface.smoothed([0.0, 0.0]) - 1.1).abs() < 1e-12);
+/// assert!((surface.slope([1.0, 0.0])[0] + 0.1 * 1_f64.sin()).abs() < 1e-9);
+/// // A length of ½ smooths a wave of wave number 1 by 1 + ½².
+/// assert!((surface.unsmoothed([0.0, 0.0], 0.5, 1) - 1.0 - 0.1 * 1.25).abs() < 1e-9);
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Surface<'a> {
     features: &'a [SurfaceFeature],

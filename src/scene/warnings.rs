@@ -16,6 +16,15 @@ const FRICTION_LIMIT: f64 = 0.25;
 const FREQUENCY_LIMIT: f64 = 1.0;
 
 /// Warnings about a scene that [`super::load`] accepted.
+///
+/// ```
+/// use mesoscope::scene;
+///
+/// assert!(scene::warnings(&scene::load("dpd-fluid", &[])?).is_empty());
+/// let coarse = scene::load("dpd-fluid", &["time.step=0.5".to_owned()])?;
+/// assert!(scene::warnings(&coarse).iter().any(|warning| warning.path == "time.step"));
+/// # Ok::<(), scene::SceneError>(())
+/// ```
 #[must_use]
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = Vec::new();

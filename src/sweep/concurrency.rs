@@ -13,6 +13,15 @@ const LARGE: u64 = 16_000;
 /// it was 1.1 (nine rounds, 0.8 to 1.9; 1.0 to 1.1 in the quietest three), which is not worth twice the memory, and three at
 /// once did not differ clearly from two. The machine had other work meanwhile, so these are rough. No GPU has been
 /// measured: there, variants run one after the other unless the user says otherwise.
+///
+/// ```
+/// use mesoscope::{gpu::AdapterDescription, sweep::default_jobs};
+///
+/// let (name, backend, driver) = ("llvmpipe".to_owned(), "Vulkan".to_owned(), "Mesa".to_owned());
+/// let adapter = AdapterDescription { name, kind: "software", backend, driver };
+/// assert_eq!(default_jobs(&adapter, 3_000, 8), 2);
+/// assert_eq!(default_jobs(&adapter, 24_000, 8), 1);
+/// ```
 #[must_use]
 pub fn default_jobs(adapter: &AdapterDescription, largest: u64, variants: usize) -> usize {
     let wanted = if adapter.kind == "software" && largest < LARGE { 2 } else { 1 };

@@ -8,17 +8,23 @@
 //! A variant has the same bytes as the same scene run alone: variants under way at the same time share nothing but the
 //! adapter, each with a device of its own.
 //!
-//! ```no_run
+//! ```
 //! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::sweep::{Look, Sweep, SweepRun};
 //!
-//! let vary = ["interactions.0.friction=1,4.5,20".to_owned()];
-//! let sweep = Sweep::load("dpd-fluid", &[], &vary, &[])?;
-//! let outcome =
-//!     SweepRun::start(sweep, "frictions", Look::default(), false).execute(&AdapterChoice::Best, None, &mut |_| {})?;
+//! # let directory = tempfile::tempdir()?;
+//! # let results = directory.path().join("frictions");
+//! let small = ["space.box=[3,3,3]", "time.equilibration=0", "time.steps=20", "output={}"].map(str::to_owned);
+//! let vary = ["interactions.0.friction=1,4.5".to_owned()];
+//! let sweep = Sweep::load("dpd-fluid", &small, &vary, &[])?;
+//! let look = Look { quantities: vec!["temperature".to_owned()], ..Look::default() };
+//! let run = SweepRun::start(sweep, &results, look, false);
+//! let outcome = run.execute(&AdapterChoice::Best, None, &mut |_| {})?;
 //! for variant in &outcome.summary.variants {
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
 //! }
+//! assert_eq!(outcome.files, ["sweep.csv", "sweep.json", "sweep-temperature.png"]);
+//! assert!(outcome.failures.is_empty() && results.join("friction=4.5/run.json").exists());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -17,6 +17,16 @@ const RING: usize = 32;
 /// the force of beads that move while the means are clamped. If it decayed at once, ∫K = (γ/nm)A, equation (41) of Español
 /// 1996, doi:10.1103/PhysRevE.53.1572. But the clamped beads have a lowest frequency, near πω₀/n, so the integral over
 /// all times is zero: there is only a plateau at ω₀t ≪ n.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::MemoryKernel;
+///
+/// let kernel = MemoryKernel::new(64);
+/// // The friction of large clusters is ½, as long as no wave has crossed them.
+/// assert!(kernel.plateau().is_some_and(|plateau| (plateau.friction - 0.5).abs() < 0.02));
+/// assert!(kernel.averaged_friction(64.0) < 0.2);
+/// assert_eq!(MemoryKernel::new(8).plateau(), None);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryKernel {
     cluster_size: usize,

@@ -4,6 +4,17 @@ use crate::model::SpringChain;
 use std::f64::consts::PI;
 
 /// The normal modes of a chain between fixed ends: sin(πik/(N+1)), bead i = 1 … N, mode k = 1 … N.
+///
+/// ```
+/// use mesoscope::{measure::harmonic_chain::NormalModes, model::SpringChain};
+///
+/// // One bead between two walls swings with frequency √2, in units of √(κ/m).
+/// let bead = SpringChain { beads: 1, mass: 1.0, stiffness: 1.0, friction: 0.0 };
+/// let (displacements, momenta) = NormalModes::new(bead).evolved(&[0.3], &[0.0], 1.0);
+/// let (sine, cosine) = 2_f64.sqrt().sin_cos();
+/// assert!((displacements[0] - 0.3 * cosine).abs() < 1e-12);
+/// assert!((momenta[0] + 0.3 * 2_f64.sqrt() * sine).abs() < 1e-12);
+/// ```
 #[derive(Debug, Clone)]
 pub struct NormalModes {
     chain: SpringChain,

@@ -36,6 +36,14 @@ pub struct HalfPulse {
 
 /// The halves of a pulse on the left and on the right of the middle of a chain of clusters. Where the displacements of
 /// a half add up to nothing, as in a chain at rest, the half is not a number.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::half_pulses;
+///
+/// let [left, right] = half_pulses(&[0.0, 1.0, 2.0, 1.0, 3.0, 0.0, 3.0, 0.0]);
+/// assert_eq!((left.peak, left.centre, left.variance), (2.0, 2.0, 0.5));
+/// assert_eq!((right.peak, right.centre, right.variance), (3.0, 5.0, 1.0));
+/// ```
 #[must_use]
 pub fn half_pulses(displacements: &[f64]) -> [HalfPulse; 2] {
     let middle = displacements.len() / 2;

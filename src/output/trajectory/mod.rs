@@ -10,6 +10,23 @@ use crate::state::{State, Units};
 use std::path::Path;
 
 /// A trajectory, open for writing. Frames reach the disk at [`flush`](Self::flush), always whole.
+///
+/// ```
+/// use mesoscope::{model::Model, output::TrajectoryWriter, scene};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("trajectory.xyz");
+/// let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let model = Model::new(&scene);
+/// let state = scene::placement::initial_state(&scene, &model);
+/// let mut trajectory = TrajectoryWriter::create(&path, scene::TrajectoryFormat::ExtendedXyz, &model)?;
+/// trajectory.append(&state)?;
+/// trajectory.flush()?;
+/// let text = std::fs::read_to_string(&path)?;
+/// assert!(text.starts_with("81\n") && text.lines().count() == 2 + 81);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct TrajectoryWriter {
     description: Description,

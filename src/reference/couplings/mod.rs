@@ -40,6 +40,19 @@ use motion::Motion;
 /// With the integrator `groot-warren` baths without memory see velocities, as they do in
 /// [`Reference`](super::Reference); with every other one they see the discrete gradient of `cotter-reich`. Baths with
 /// memory are the same in both.
+///
+/// ```
+/// use mesoscope::{model::Model, reference::CouplingsReference, scene};
+///
+/// let scene = scene::load("langevin-gas", &["space.box=[4,4,4]".to_owned()])?;
+/// let model = Model::new(&scene);
+/// assert!(model.is_coupled() && !model.conserves_momentum());
+/// let start = scene::placement::initial_state(&scene, &model);
+/// let mut reference = CouplingsReference::new(model, start.clone());
+/// reference.run(10)?;
+/// assert_ne!(reference.state().total_momentum(), start.total_momentum());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct CouplingsReference {
     model: Model,

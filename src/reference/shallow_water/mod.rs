@@ -66,6 +66,22 @@ struct Report {
 /// A model of shallow water and its state, stepped on the CPU.
 ///
 /// Bath variables and masses of nodes are kept in float64; in the state they are rounded to what it can hold.
+///
+/// ```
+/// use mesoscope::{model::Model, reference::ShallowWaterReference, scene};
+///
+/// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
+/// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
+/// let model = Model::new(&scene);
+/// let start = scene::placement::initial_state(&scene, &model);
+/// let mut reference = ShallowWaterReference::new(model, start).ok_or("no shallow water")?;
+/// let energy = reference.observe()?.total_energy();
+/// reference.run(5)?;
+/// assert!((reference.observe()?.total_energy() / energy - 1.0).abs() < 1e-4);
+/// // The mean depth is one.
+/// assert!((reference.depth().iter().sum::<f64>() - 256.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone)]
 pub struct ShallowWaterReference {
     model: Model,

@@ -44,6 +44,22 @@ use exchange::{Exchange, Ledger};
 use faces::{Cells, Face, dot};
 
 /// A model of Voronoi DPD and its state, stepped on the CPU.
+///
+/// ```
+/// use mesoscope::{model::Model, reference::VoronoiReference, scene};
+///
+/// let small = ["space.box=[6,6]", "particles.0.count=36", "output={}"].map(str::to_owned);
+/// let scene = scene::load("voronoi-dpd", &small)?;
+/// let model = Model::new(&scene);
+/// let start = scene::placement::initial_state(&scene, &model);
+/// let mass = |masses: &[u32]| masses.iter().map(|&units| u64::from(units)).sum::<u64>();
+/// let mut reference = VoronoiReference::new(model, start.clone()).ok_or("no Voronoi cells")?;
+/// reference.run(10)?;
+/// // Cells exchange mass, and none is lost.
+/// assert_ne!(reference.state().masses, start.masses);
+/// assert_eq!(mass(&reference.state().masses), mass(&start.masses));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct VoronoiReference {
     model: Model,
