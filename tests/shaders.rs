@@ -309,8 +309,9 @@ fn water_plans() -> Vec<(String, Plan)> {
         };
         combinations = combinations.iter().flat_map(more).collect();
     }
-    // The narrowest mesh, on which only the lowest splines have room, and a long line.
+    // The narrowest mesh, on which only the lowest splines have room, and a long line; the longest that is transformed whole.
     combinations.push(vec!["interactions.0.spline_order=1", "interactions.0.mesh=[2,128]"]);
+    combinations.push(vec!["interactions.0.mesh=[4,64]"]);
     let mut plans = Vec::new();
     for changes in combinations {
         // A bath takes its scales from the smoothing.

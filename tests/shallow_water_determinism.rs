@@ -32,6 +32,9 @@ const CHEBYSHEV: &str = r#"interactions.0.smoothing={"length":0.8,"power":2,"sol
 const SPECTRAL: &str = r#"interactions.0.smoothing={"length":0.5,"solver":{"type":"fft","symbol":"spectral"}}"#;
 const OBLONG: [&str; 2] = ["space.box=[12,7]", "interactions.0.mesh=[20,13]"];
 const NARROW: &str = "space.box=[3,12]";
+/// Cells without particles, and eights of them with eight.
+const SPARSE: &str =
+    r#"particles=[{"species":"water","count":1800,"placement":{"type":"random"},"velocities":{"type":"geostrophic"}}]"#;
 const TRACERS: &str = r#"particles=[
     {"species":"water","count":2048,"placement":{"type":"random"},"velocities":{"type":"geostrophic"}},
     {"species":"water","count":1024,"placement":{"type":"lattice"},"velocities":{"type":"geostrophic"}},
@@ -49,6 +52,7 @@ fn scenes() -> Vec<Scene> {
         sampled(&[]),
         sampled(&[ROTATE, MEMORY, WARM, TRACERS, CHEBYSHEV, "interactions.0.mesh=[24,10]"]),
         sampled(&[NARROW, "interactions.0.mesh=[8,32]"]),
+        sampled(&[SPARSE, "interactions.0.mesh=[32,64]"]),
         sampled(&[ROTATE, QUADRATIC, WHITE, WARM]),
         sampled(&[LINEAR, MEMORY, WARM, TRACERS, r#"noise={"generator":"threefry2x32-20"}"#]),
         sampled(&[&[CHEBYSHEV, EXPONENTIAL, WARM, TRACERS], &OBLONG[..]].concat()),

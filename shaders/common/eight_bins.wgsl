@@ -65,8 +65,9 @@ fn store_moved_of_eight(eight: Eight, bin: Bin, cell: u32, owner: u32, first: u3
     if (inside) { bins[place] = packed(particle); }
 }
 fn end_moving_eight(eight: Eight, bin: Bin, cell: u32) {
-    // What ends with the eight may have no number after it.
-    kept = select(stayed_at_end, stayed_so_far, eight.end == eight.count) - stayed_at_begin;
+    // What begins or ends with the end of the eight may have no number there.
+    let at_begin = select(stayed_at_begin, stayed_so_far, eight.begin == eight.count);
+    kept = select(stayed_at_end, stayed_so_far, eight.end == eight.count) - at_begin;
     failures_of_motion |= select(0u, FAILURE_FRAMES, kept > CAPACITY);
     end_moving(cell, bin);
 }

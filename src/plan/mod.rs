@@ -349,8 +349,9 @@ impl Plan {
     /// moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs more than it saves),
     /// and few lanes wait for each other where one workgroup has all of the work.
     fn suit_serial_memory(&mut self) {
-        const SUITED: [(&str, &str, &str); 6] = [
+        const SUITED: [(&str, &str, &str); 7] = [
             ("deposit", "common/storage", "common/storage_paired"),
+            ("gather_nodes", "common/storage", "common/storage_paired"),
             ("scatter", "common/storage", "common/storage_paired"),
             ("arrange", "common/storage", "common/storage_paired"),
             ("push", "common/storage", "common/storage_paired"),

@@ -25,6 +25,9 @@ const LARGEST_BINDING: u64 = 1 << 27;
 /// Bytes of bins up to which they were found faster than sorting on two cores of lavapipe: at 64² nodes they are, at 128² not.
 const CACHED_BINS: u64 = 1 << 24;
 
+/// Nodes above each other that one invocation gathers, as the shader for eights of cells has it.
+const GATHERED_ROWS: u64 = 4;
+
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let eights = takes_eights(water, hardware, options);
@@ -256,16 +259,22 @@ impl Builder<'_> {
                 ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
             }
         };
-        let (spread, gather) = match self.water.spline_order {
-            1 => ("common/spread1", "common/gather_each"),
-            2 => ("common/spread2", "common/gather_each"),
-            _ if self.eights => ("common/spread3_of_eight", "common/gather_of_eight"),
-            _ => ("common/spread3", "common/gather_each"),
+        let spread = match self.water.spline_order {
+            1 => "common/spread1",
+            2 => "common/spread2",
+            _ if self.eights => "common/spread3_of_eight",
+            _ => "common/spread3",
         };
         let passes = [collect, "common/deposit", moments, spread, "passes/deposit", self.each_cell()];
         let modules = [self.stored(), begin, &passes].concat();
         let deposit = self.kernel("deposit", &modules, cell_groups);
-        let gather = self.kernel("gather_nodes", &[gather, "kernels/gather_nodes"], cell_groups);
+        let gather = if self.eights {
+            let [columns, rows] = self.water.mesh.map(u64::from);
+            let strips = (columns * rows.div_ceil(GATHERED_ROWS)).div_ceil(self.options.workgroup());
+            self.kernel("gather_nodes", &["common/storage", "kernels/gather_nodes_of_eight"], strips)
+        } else {
+            self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups)
+        };
         self.plan.before_report.extend([deposit, gather]);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
         let smoothing = smoothing(self.water, lengths, self.options);

@@ -10,8 +10,10 @@ use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
-/// The largest radix of a pass, as a power of two.
-const LARGEST_RADIX: u32 = 6;
+/// The longest lines that a pass transforms whole, as a power of two: short ones cost little but the passes.
+const WHOLE_LINE: u32 = 6;
+/// The largest radix of a pass over longer lines, as a power of two: with larger ones fewer passes take longer.
+const LARGEST_RADIX: u32 = 4;
 /// The fewest lanes of a workgroup of a transform, and the fewest workgroups as long as there are more lanes.
 const FEWEST_LANES: u64 = 8;
 const FEWEST_WORKGROUPS: u64 = 8;
@@ -264,7 +266,7 @@ fn root(index: u32, count: u32) -> [f32; 2] {
 /// The radices of the passes along a line, whose length is a power of two: as few as possible, and as equal.
 fn radices(length: u32) -> Vec<u32> {
     let bits = length.trailing_zeros();
-    let passes = bits.div_ceil(LARGEST_RADIX);
+    let passes = if bits <= WHOLE_LINE { 1 } else { bits.div_ceil(LARGEST_RADIX) };
     (0..passes).map(|pass| 1 << ((bits + passes - 1 - pass) / passes)).collect()
 }
 
@@ -385,7 +387,7 @@ mod tests {
             let radices = radices(1 << bits);
             assert_eq!(radices.iter().product::<u32>(), 1 << bits);
             assert!(radices.iter().all(|radix| (2..=64).contains(radix)));
-            assert_eq!(radices.len(), bits.div_ceil(6) as usize);
+            assert_eq!(radices.len(), if bits <= 6 { 1 } else { bits.div_ceil(4) as usize });
         }
     }
 
