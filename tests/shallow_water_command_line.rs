@@ -325,7 +325,7 @@ fn check_says_what_the_scene_requires() {
         "of the limit",
         "deposit",
         "smooth rows",
-        "kernels/push",
+        "passes/push",
         "node_masses",
         "depth.png",
         "potential_vorticity.npy",
