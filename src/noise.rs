@@ -94,7 +94,6 @@ pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
 /// // The noise of particles 7 and 12 at step 1000 of the run with seed 1: the same whenever it is drawn.
 /// let key = step_key(1, stream::PAIR, 1000);
 /// let noise = words(Generator::Threefry2x32, key, [7, 12]);
-/// assert_eq!(noise, words(Generator::Threefry2x32, key, [7, 12]));
 /// assert_ne!(noise, words(Generator::Threefry2x32, key, [7, 13]));
 /// assert_ne!(noise, words(Generator::Threefry2x32, step_key(1, stream::PAIR, 1001), [7, 12]));
 /// ```

@@ -32,7 +32,7 @@ const CHEBYSHEV: &str = r#"interactions.0.smoothing={"length":0.8,"power":2,"sol
 const SPECTRAL: &str = r#"interactions.0.smoothing={"length":0.5,"solver":{"type":"fft","symbol":"spectral"}}"#;
 const OBLONG: [&str; 2] = ["space.box=[12,7]", "interactions.0.mesh=[20,13]"];
 const NARROW: &str = "space.box=[3,12]";
-/// Cells without particles, and eights of them with eight.
+/// Cells without particles, and eights of cells with just eight particles.
 const SPARSE: &str =
     r#"particles=[{"species":"water","count":1800,"placement":{"type":"random"},"velocities":{"type":"geostrophic"}}]"#;
 const TRACERS: &str = r#"particles=[

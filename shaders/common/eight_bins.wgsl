@@ -4,7 +4,7 @@ struct Eight {
     ends: array<u32, 8>, // the first number that is not in this cell nor in one before
     begin: u32,          // of this lane's cell
     end: u32,
-    count: u32,
+    count: u32,          // of all eight
 }
 var<private> stayed_so_far: u32;   // of all eight cells
 var<private> stayed_at_begin: u32; // when this lane's cell began, and when it ended

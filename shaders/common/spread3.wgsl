@@ -1,7 +1,7 @@
 // Hands out the rounded masses of a cell, and what is left of the total to one node.
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
-fn spread(cell: u32, weights: Square, total: i32) {
+fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {
     let count = CELLS_X * CELLS_Y;
     let share0 = IntegerPowers(round(weights[0]));
     let share1 = IntegerPowers(round(weights[1]));
@@ -14,7 +14,7 @@ fn spread(cell: u32, weights: Square, total: i32) {
     contributions[2u * count + cell] = share0.z;
     contributions[3u * count + cell] = share0.w;
     contributions[4u * count + cell] = share1.x;
-    contributions[5u * count + cell] = share1.y + left;
+    contributions[5u * count + cell] = select(share1.y + left, TOO_MUCH, too_much);
     contributions[6u * count + cell] = share1.z;
     contributions[7u * count + cell] = share1.w;
     contributions[8u * count + cell] = share2.x;

@@ -15,7 +15,7 @@ fn gather(share: vec4<i32>) {
 fn shares(first: u32, width: u32, row: u32, index: u32) -> vec4<i32> {
     return bitcast<vec4<i32>>(four_words(contributions[first + width * ((row + index + CELLS_Y - 2u) % CELLS_Y)]));
 }
-// Seven cells above each other have the four nodes among those that they reach.
+// Seven cells above each other reach the four nodes: from two rows below the first of them to one above the last.
 fn gather_column(first: u32, width: u32, row: u32) {
     gather(vec4<i32>(shares(first, width, row, 0u).w, 0, 0, 0));
     gather(vec4<i32>(shares(first, width, row, 1u).zw, 0, 0));

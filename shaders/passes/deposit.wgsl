@@ -3,8 +3,9 @@
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
 
-// The most that the integers of a cell hold.
+// The most that the integers of a cell hold, and what stands for more: less than nothing, which the nodes notice.
 const MOST: f32 = 2.1e9;
+const TOO_MUCH: i32 = i32(-2147483648);
 
 fn visit_cell(cell: u32) {
     if (cell == 0u) { begin_unsorted_step(); }
@@ -18,6 +19,5 @@ fn visit_cell(cell: u32) {
         add_particle(&moments, particle);
     }
     moments = without_rounding(moments, i32(bin.count));
-    spread(cell, node_weights(moments), moments[0].x);
-    raise_at(select(0u, FAILURE_CROWDING, total > MOST), cell);
+    spread(cell, node_weights(moments), moments[0].x, total > MOST);
 }

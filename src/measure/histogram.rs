@@ -9,16 +9,20 @@ use std::f64::consts::PI;
 /// use mesoscope::measure::histogram::Histogram;
 ///
 /// let mut histogram = Histogram::new([0.0, 2.0], 4);
-/// for value in [0.1, 0.6, 0.7, 1.9, 5.0_f64] {
-///     match histogram.counts.get_mut((value / 0.5) as usize) {
-///         Some(count) => *count += 1.0,
-///         None => histogram.above += 1.0,
+/// for value in [-0.3, 0.1, 0.6, 0.7, 5.0_f64] {
+///     let bin = ((value - histogram.range[0]) / histogram.width()).floor();
+///     if bin < 0.0 {
+///         histogram.below += 1.0;
+///     } else if let Some(count) = histogram.counts.get_mut(bin as usize) {
+///         *count += 1.0;
+///     } else {
+///         histogram.above += 1.0;
 ///     }
 /// }
 /// assert_eq!((histogram.total(), histogram.width(), histogram.centre(1)), (5.0, 0.5, 0.75));
-/// // What fell outside counts too: the density adds up to 4/5 over the range.
+/// // What fell outside counts too: the density adds up to 3/5 over the range.
 /// let sum: f64 = histogram.density().iter().map(|density| density * histogram.width()).sum();
-/// assert!((sum - 0.8).abs() < 1e-12);
+/// assert!((sum - 0.6).abs() < 1e-12);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Histogram {

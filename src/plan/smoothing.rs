@@ -10,9 +10,9 @@ use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
-/// The longest lines that a pass transforms whole, as a power of two: short ones cost little but the passes.
+/// The longest lines that a pass transforms whole, as a power of two: on lavapipe short ones cost little but the passes.
 const WHOLE_LINE: u32 = 6;
-/// The largest radix of a pass over longer lines, as a power of two: with larger ones fewer passes take longer.
+/// The largest radix of a pass over longer lines, as a power of two: with larger ones fewer passes take longer there.
 const LARGEST_RADIX: u32 = 4;
 /// The fewest lanes of a workgroup of a transform, and the fewest workgroups as long as there are more lanes.
 const FEWEST_LANES: u64 = 8;
@@ -32,7 +32,7 @@ pub struct SmoothingPlan {
 /// The kernels and buffers that turn the masses of the nodes (`node_masses`, unsigned integers in units of the model)
 /// into the smoothed deviation of the depth from its mean of 1 (`depths`, real numbers). Both these buffers belong to the
 /// caller. `lengths` are the edges of the box. A plan whose workgroups are not of the default size has to have the
-/// constant `WORKGROUP`.
+/// constant `WORKGROUP`, which kernels of transforms have of their own.
 ///
 /// With [`SmoothingSolver::Fft`] and a smoothing length the edges of the mesh have to be powers of two, at least 2.
 #[must_use]
@@ -229,7 +229,7 @@ impl Fourier<'_> {
         let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
         // A small mesh has few butterflies, which are to be shared out all the same.
         let butterflies = u64::from(lines) * u64::from(length / pass.radix);
-        let share = (butterflies / FEWEST_WORKGROUPS).next_power_of_two().max(FEWEST_LANES);
+        let share = (1_u64 << (butterflies / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
         let workgroup = self.workgroup.min(share);
         constants.push(("WORKGROUP", workgroup as f64));
         Kernel::new(pass.name, modules, workgroups(butterflies, workgroup))

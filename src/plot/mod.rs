@@ -101,6 +101,7 @@ pub fn draw_chart(
 /// let style = scene::Snapshot { width: 400, height: 300, ..scene::Snapshot::default() };
 /// let image = plot::draw_particles(gpu.device(), gpu.queue(), &picture, &style, scene::Theme::Light)?;
 /// assert_eq!(image.dimensions(), (400, 300));
+/// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -129,6 +130,7 @@ pub fn draw_particles(
 /// let style = PlotStyle { width: 400, height: 300, ..PlotStyle::default() };
 /// let image = plot::draw_field(gpu.device(), gpu.queue(), &picture, &style)?;
 /// assert_eq!(image.dimensions(), (400, 300));
+/// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

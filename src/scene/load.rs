@@ -173,6 +173,10 @@ fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
 /// assert_eq!(schema["properties"]["title"]["description"], "One line that names the scene; it heads every plot.");
 /// let validator = jsonschema::validator_for(&schema)?;
 /// assert!(!validator.is_valid(&serde_json::json!({"title": "no box, no time, no particles"})));
+/// assert!(validator.is_valid(&serde_json::json!({
+///     "title": "an ideal gas", "space": {"box": [8, 8]}, "time": {"step": 0.01, "steps": 10}, "temperature": 1,
+///     "particles": [{"species": "A", "count": 10}], "interactions": []
+/// })));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
