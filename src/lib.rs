@@ -26,7 +26,7 @@
 //! let rows = samples.iter().map(|sample| measure::observables_of(sample, engine.plan(), &model));
 //! let settled: Vec<f64> = rows.filter(|row| row.step >= 100).map(|row| row.kinetic_temperature()).collect();
 //!
-//! let Some(temperature) = measure::statistics::estimate(&settled) else { panic!("21 rows") };
+//! let temperature = measure::statistics::estimate(&settled).ok_or("there is no row to average")?;
 //! assert_eq!(temperature.samples, 21);
 //! assert!((temperature.mean - 1.0).abs() < 0.1, "{temperature:?}");
 //! assert_eq!(engine.reported()?.total_momentum(), [0; 3]);

@@ -39,10 +39,11 @@ pub struct Estimate {
 /// // Independent numbers, each of which is seen four times in a row.
 /// let number = |step: u64| noise::gaussian(noise::step_key(1, 99, step / 4));
 /// let series: Vec<f64> = (0..4096).map(number).collect();
-/// let Some(found) = estimate(&series) else { panic!("a series") };
+/// let found = estimate(&series).ok_or("there is no number to average")?;
 /// let error = found.standard_error.unwrap_or(f64::NAN);
 /// assert!(found.mean.abs() < 4.0 * error && (error - 1.0 / 32.0).abs() < 0.01);
 /// assert!(found.converged && found.correlation_samples.is_some_and(|samples| samples > 2.5 && samples < 6.0));
+/// # Ok::<(), &str>(())
 /// ```
 #[must_use]
 pub fn estimate(series: &[f64]) -> Option<Estimate> {
