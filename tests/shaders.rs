@@ -296,7 +296,7 @@ fn water_plans() -> Vec<(String, Plan)> {
             &[r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":0.1}"#],
             &[
                 r#"interactions.0.smoothing={"length":0.3,"power":2,"solver":{"type":"chebyshev","tolerance":0.1}}"#,
-                "interactions.0.mesh=[12,15]",
+                "interactions.0.mesh=[15,12]",
             ],
             &["interactions.0.smoothing.length=0"],
         ],

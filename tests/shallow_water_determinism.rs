@@ -30,7 +30,7 @@ const LINEAR: &str = "interactions.0.spline_order=1";
 const QUADRATIC: &str = "interactions.0.spline_order=2";
 const CHEBYSHEV: &str = r#"interactions.0.smoothing={"length":0.8,"power":2,"solver":{"type":"chebyshev"}}"#;
 const SPECTRAL: &str = r#"interactions.0.smoothing={"length":0.5,"solver":{"type":"fft","symbol":"spectral"}}"#;
-const OBLONG: [&str; 2] = ["space.box=[12,7]", "interactions.0.mesh=[20,13]"];
+const OBLONG: [&str; 2] = ["space.box=[12,7]", "interactions.0.mesh=[21,13]"];
 const NARROW: &str = "space.box=[3,12]";
 /// Cells without particles, and eights of cells with just eight particles.
 const SPARSE: &str =
@@ -50,7 +50,7 @@ fn sampled(changes: &[&str]) -> Scene {
 fn scenes() -> Vec<Scene> {
     vec![
         sampled(&[]),
-        sampled(&[ROTATE, MEMORY, WARM, TRACERS, CHEBYSHEV, "interactions.0.mesh=[24,10]"]),
+        sampled(&[ROTATE, MEMORY, WARM, TRACERS, CHEBYSHEV, "interactions.0.mesh=[24,12]"]),
         sampled(&[NARROW, "interactions.0.mesh=[8,32]"]),
         sampled(&[SPARSE, "interactions.0.mesh=[32,64]"]),
         sampled(&[ROTATE, QUADRATIC, WHITE, WARM]),

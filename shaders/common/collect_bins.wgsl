@@ -1,2 +1,2 @@
 // Particles in bins are where they should be.
-fn collect(cell: u32) {}
+fn collect(cell: u32, bin: Bin) {}

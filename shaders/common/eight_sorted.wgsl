@@ -7,6 +7,6 @@ fn opened_eight(bin: Bin) -> Eight {
 }
 fn place_in_eight(eight: Eight, bin: Bin, number: u32) -> u32 { return eight.begin + number; }
 fn store_moved_of_eight(eight: Eight, bin: Bin, cell: u32, owner: u32, first: u32, index: u32, particle: Water) {
-    if (first + lane_of_eight < eight.count) { store_moved(cell, bin, index, particle); }
+    if (first + lane_of_eight < eight.count) { store_moved(cell - lane_of_eight + owner, bin, index, particle); }
 }
 fn end_moving_eight(eight: Eight, bin: Bin, cell: u32) {}

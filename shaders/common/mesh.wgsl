@@ -2,6 +2,9 @@
 override CELLS_X: u32;
 override CELLS_Y: u32;
 
+// Where there is no mass, rounding alone leaves no less than this.
+const LEAST_MASS: i32 = -65536;
+
 // The cell along an axis and the place in it, from 0 to 1, of a fraction of the box: an exact product of 32 by 12 bits.
 struct Place { cell: u32, offset: f32 }
 fn place_along(fraction: u32, count: u32) -> Place {

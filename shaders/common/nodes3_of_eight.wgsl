@@ -1,18 +1,27 @@
-// The surface under the splines of order 3, for the lanes of a subgroup whose cells lie side by side: each loads one column, and
+// The surface under the splines of order 3, for the cells of a strip: each lane loads one column of nodes, row after row, and
 // three lanes those beside them.
-fn column_of_nodes(column: u32, rows: vec4<u32>) -> vec4<f32> {
-    return vec4<f32>(surface_at(column + rows[0]), surface_at(column + rows[1]), surface_at(column + rows[2]), surface_at(column + rows[3]));
+var<private> own: vec4<f32>;    // of the nodes above each other
+var<private> beside: vec4<f32>; // the column before the eight, and the two after it
+var<private> beside_column: u32;
+
+fn load_row(column: u32, row: u32) {
+    own = vec4<f32>(own.yzw, surface_at(CELLS_X * row + column));
+    if (lane_of_eight < 3u) { beside = vec4<f32>(beside.yzw, surface_at(CELLS_X * row + beside_column)); }
 }
-// The surface on the nodes of a cell, [along x][along y].
+fn begin_strip(column: u32, row: u32) {
+    let lane = lane_of_eight;
+    beside_column = (column - lane + select(7u + lane, CELLS_X - 1u, lane == 0u)) % CELLS_X;
+    load_row(column, node_along(row, 0u, CELLS_Y));
+    load_row(column, node_along(row, 1u, CELLS_Y));
+    load_row(column, node_along(row, 2u, CELLS_Y));
+}
+// The surface on the nodes of a cell, [along x][along y], row after row of a strip.
 fn nodes_of(column: u32, row: u32) -> Square {
     let lane = lane_of_eight;
-    let rows = CELLS_X * vec4<u32>(node_along(row, 0u, CELLS_Y), node_along(row, 1u, CELLS_Y), node_along(row, 2u, CELLS_Y), node_along(row, 3u, CELLS_Y));
-    let own = column_of_nodes(column, rows);
-    var beside = own;
-    // The column before the eight, and the two after it.
-    if (lane < 3u) { beside = column_of_nodes((column - lane + select(7u + lane, CELLS_X - 1u, lane == 0u)) % CELLS_X, rows); }
+    load_row(column, node_along(row, 3u, CELLS_Y));
     let before = select(subgroupShuffle(own, (lane + 7u) & 7u), beside, lane == 0u);
     let after = select(subgroupShuffle(own, (lane + 1u) & 7u), subgroupShuffle(beside, 1u), lane == 7u);
     let beyond = select(subgroupShuffle(own, (lane + 2u) & 7u), subgroupShuffle(beside, (lane + 3u) & 3u), lane > 5u);
     return Square(before, own, after, beyond);
 }
+fn end_strip(column: u32, row: u32) {}

@@ -1,10 +1,39 @@
-// Hands out the rounded masses of a cell for splines of order 3, and what is left of the total to one node: eight cells of a row
-// add up what they bring to the same nodes, so that each has one column of four to store, and three more are left over.
-@group(0) @binding(18) var<storage, read_write> contributions: array<Four>; // [cell], then [eight of cells][column beside it]
+// Hands out the rounded masses of a cell for splines of order 3, and what is left of the total to one node. The cells of a strip
+// add up what they bring to the same nodes: each column has seven rows of nodes to store, four in the strip and three that
+// belong to those below and above, and three columns more are left over beside it.
+@group(0) @binding(18) var<storage, read_write> contributions: array<Four>; // [strip][column][which rows], then [strip][eight][column beside it][which rows]
+
+// Sums over the rows of a strip so far.
+struct Column {
+    finished: vec4<i32>, // the last four rows of nodes that no cell will add to
+    open: vec4<i32>,     // the rows after them
+    least: vec4<i32>,    // of all that was added, and of all sums
+}
+var<private> own: Column;
+var<private> beside: Column;
+
+// Adds what a row of cells brings.
+fn with_row(column: Column, share: IntegerPowers) -> Column {
+    let sum = column.open + share;
+    return Column(vec4<i32>(column.finished.yzw, sum.x), vec4<i32>(sum.yzw, 0), min(column.least, min(share, sum)));
+}
+fn store_column(place: u32, column: Column) {
+    var inside = vec4<i32>(column.finished.yzw, column.open.x);
+    // A cell has too much, or a sum has gone round.
+    let least = min(min(column.least.x, column.least.y), min(column.least.z, column.least.w));
+    inside.x = select(inside.x, TOO_MUCH, least < LEAST_MASS);
+    let outside = vec4<i32>(column.open.yz, column.finished.x, 0);
+    contributions[2u * place] = four(bitcast<vec4<u32>>(inside));
+    contributions[2u * place + 1u] = four(bitcast<vec4<u32>>(outside));
+}
 
 // What another lane brings to this lane's column.
 fn from_lane(share: IntegerPowers, lane: u32, inside: bool) -> IntegerPowers {
     return select(IntegerPowers(0), subgroupShuffle(share, lane & 7u), inside);
+}
+fn begin_strip(column: u32, row: u32) {
+    own = Column();
+    beside = Column();
 }
 fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {
     let lane = lane_of_eight;
@@ -17,12 +46,15 @@ fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {
     var column = share1 + from_lane(share0, lane + 1u, lane < 7u) + from_lane(share2, lane - 1u, lane > 0u)
         + from_lane(share3, lane - 2u, lane > 1u);
     column.y = select(column.y, TOO_MUCH, too_much);
-    contributions[cell] = four(bitcast<vec4<u32>>(column));
+    own = with_row(own, column);
     let before = subgroupShuffle(share0, 0u);
     let after = subgroupShuffle(share3, 6u) + subgroupShuffle(share2, 7u);
     let beyond = subgroupShuffle(share3, 7u);
-    if (lane < 3u) {
-        let beside = select(select(beyond, after, lane == 1u), before, lane == 0u);
-        contributions[CELLS_X * CELLS_Y + 3u * (cell / 8u) + lane] = four(bitcast<vec4<u32>>(beside));
-    }
+    beside = with_row(beside, select(select(beyond, after, lane == 1u), before, lane == 0u));
+}
+fn end_strip(column: u32, row: u32) {
+    let lane = lane_of_eight;
+    let place = row / STRIP * CELLS_X + column;
+    store_column(place, own);
+    if (lane < 3u) { store_column(CELLS_X * CELLS_Y / STRIP + 3u * (place / 8u) + lane, beside); }
 }

@@ -1,7 +1,11 @@
 // Particles in order of their cells, sorted anew every step: for any crowd.
 @group(0) @binding(2) var<storage, read_write> sorted: array<StoredWater>;
+@group(0) @binding(3) var<storage, read_write> cells: array<u32>; // where each cell ends
 
 struct Bin { begin: u32, count: u32 }
-fn opened_bin(cell: u32) -> Bin { return Bin(cells[cell], cells[cell + 1u] - cells[cell]); }
+fn opened_bin(cell: u32) -> Bin {
+    let begin = select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
+    return Bin(begin, cells[cell] - begin);
+}
 fn place_in(bin: Bin, k: u32) -> u32 { return bin.begin + k; }
 fn stored(index: u32) -> Water { return unpacked(sorted[index]); }

@@ -1,13 +1,12 @@
-// Counts freshly uploaded particles into the cells of the mesh; every later step counts as it advances.
+// Counts freshly uploaded particles in the cells of the mesh; every later step keeps count as it advances.
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Water>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    ranks[index] = atomicAdd(&counts[cell_of(particles[index].position)], 1u);
+    atomicAdd(&counts[cell_of(particles[index].position)], 1u);
 }

@@ -2,9 +2,6 @@
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 @group(0) @binding(18) var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
-// Rounding alone leaves no less than this.
-const LEAST: i32 = -65536;
-
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
@@ -24,6 +21,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         }
     }
     // A cell has too much, or the sum has gone round.
-    raise_at(select(0u, FAILURE_CROWDING, least < LEAST), node);
+    raise_at(select(0u, FAILURE_CROWDING, least < LEAST_MASS), node);
     node_masses[node] = u32(mass);
 }

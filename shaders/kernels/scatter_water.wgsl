@@ -1,8 +1,8 @@
-// Puts every particle into its cell of the mesh.
+// Puts every particle into its cell of the mesh, in any order: what is made of them are sums of integers.
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<StoredWater>;
 @group(0) @binding(2) var<storage, read_write> sorted: array<StoredWater>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
+@group(0) @binding(3) var<storage, read_write> cells: array<atomic<u32>>; // where each cell begins, then where it ends
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -10,5 +10,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
     let particle = particles[index];
-    sorted[cells[cell_of(two_words(particle.position))] + ranks[index]] = particle;
+    sorted[atomicAdd(&cells[cell_of(two_words(particle.position))], 1u)] = particle;
 }

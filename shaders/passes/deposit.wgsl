@@ -9,10 +9,10 @@ const TOO_MUCH: i32 = i32(-2147483648);
 
 fn visit_cell(cell: u32) {
     if (cell == 0u) { begin_unsorted_step(); }
-    collect(cell);
     var moments: Moments;
     var total = 0.0;
     let bin = opened_bin(cell);
+    collect(cell, bin);
     for (var k = 0u; k < bin.count; k++) {
         let particle = stored(place_in(bin, k));
         total += f32(particle.mass);

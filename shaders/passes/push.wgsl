@@ -3,9 +3,10 @@ override CLOSES: u32; // 1 from before the closing kick
 override LEAST_DEPTH: f32; // less its mean
 
 fn visit_cell(cell: u32) {
+    let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
-    raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > LEAST_DEPTH), cell);
-    let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
+    raise_at(select(FAILURE_DEPTH, 0u, depth_in_cell(cell, nodes) > LEAST_DEPTH), cell);
+    let polynomial = surface_of(nodes);
     let closes = CLOSES == 1u && control.closing == 1;
     let bin = opened_bin(cell);
     begin_moving(cell);

@@ -9,9 +9,10 @@ fn of_lane(polynomial: Square, lane: u32) -> Square {
 }
 
 fn visit_cell(cell: u32) {
+    let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
-    raise_at(select(FAILURE_DEPTH, 0u, depths[cell] > LEAST_DEPTH), cell);
-    let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
+    raise_at(select(FAILURE_DEPTH, 0u, depth_in_cell(cell, nodes) > LEAST_DEPTH), cell);
+    let polynomial = surface_of(nodes);
     let closes = CLOSES == 1u && control.closing == 1;
     let bin = opened_bin(cell);
     let eight = opened_eight(bin);

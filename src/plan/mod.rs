@@ -349,13 +349,16 @@ impl Plan {
     /// shares of nodes are moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs
     /// more than it saves), and few lanes wait for each other where one workgroup has all of the work.
     fn suit_serial_memory(&mut self) {
-        const SUITED: [(&str, &str, &str); 7] = [
+        const SUITED: [(&str, &str, &str); 10] = [
             ("deposit", "common/storage", "common/storage_paired"),
             ("gather_nodes", "common/storage", "common/storage_paired"),
             ("scatter", "common/storage", "common/storage_paired"),
             ("arrange", "common/storage", "common/storage_paired"),
             ("push", "common/storage", "common/storage_paired"),
             ("push_from_report", "common/storage", "common/storage_paired"),
+            ("scan", "common/storage", "common/storage_paired"),
+            ("scan_blocks", "common/storage", "common/storage_paired"),
+            ("scan_rows", "common/storage", "common/storage_paired"),
             ("scan", "common/scan_wide", "common/scan_narrow"),
         ];
         for kernel in &mut self.kernels {

@@ -200,7 +200,8 @@ impl Builder<'_> {
             &["common/same_step"]
         };
         let modules = space(&self.model.units, self.predicted());
-        let sum = PrefixSum { modules, clock, rows: self.grid.rows(), cells: self.grid.count() };
+        let sum =
+            PrefixSum { modules, row_scan: "common/row_scan", clock, rows: self.grid.rows(), cells: self.grid.count() };
         let mut kernels: Vec<usize> =
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
         let scatter = self.kernel(

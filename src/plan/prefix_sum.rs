@@ -9,6 +9,8 @@ const SINGLE_SCAN_CELLS: u64 = 1 << 14;
 pub(super) struct PrefixSum<'a> {
     /// Modules of every kernel, those that know rows and cells among them.
     pub modules: Vec<&'static str>,
+    /// The module that sums up a row.
+    pub row_scan: &'static str,
     /// Modules that begin the step, or `common/same_step` where it has begun.
     pub clock: &'a [&'static str],
     /// Rows of cells.
@@ -23,7 +25,7 @@ impl PrefixSum<'_> {
         let kernel = |name, more: &[&[&'static str]], workgroups| {
             Kernel::new(name, [&self.modules[..], &more.concat()].concat(), workgroups)
         };
-        let sums = ["common/row_scan", "common/scan_wide", "common/workgroup_scan"];
+        let sums = [self.row_scan, "common/scan_wide", "common/workgroup_scan"];
         if !needs_levels(self.cells, options) {
             return vec![kernel("scan", &[&sums, self.clock, &["kernels/scan"]], 1)];
         }
@@ -34,7 +36,7 @@ impl PrefixSum<'_> {
                 &[&["common/scan_wide", "common/workgroup_scan"], self.clock, &["kernels/scan_tops"]],
                 1,
             ),
-            kernel("scan_rows", &[&["common/row_scan", "kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
+            kernel("scan_rows", &[&[self.row_scan, "kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
         ]
     }
 }

@@ -25,8 +25,10 @@ const LARGEST_BINDING: u64 = 1 << 27;
 /// Bytes of bins up to which they were found faster than sorting on two cores of lavapipe: at 64² nodes they are, at 128² not.
 const CACHED_BINS: u64 = 1 << 24;
 
-/// Nodes above each other that one invocation gathers, as the shader for eights of cells has it.
-const GATHERED_ROWS: u64 = 4;
+/// Rows of a strip of cells, as the shaders for eights of cells have it.
+const STRIP: u64 = 4;
+/// The fewest workgroups that take strips, as long as each has an eight.
+const FEWEST_WORKGROUPS: u64 = 8;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
@@ -41,11 +43,12 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
     builder.plan
 }
 
-/// Whether the lanes of a subgroup take eight cells side by side, share what they load for them, and take their particles
-/// whichever their cells.
+/// Whether the lanes of a subgroup take eight cells side by side, row after row of a strip, share what they load and store for
+/// them, and take their particles whichever their cells.
 fn takes_eights(water: &ShallowWater, hardware: Hardware, options: Options) -> bool {
     let wanted = options.traversal.map_or(hardware.subgroup_size == Some(8), |asked| asked == Traversal::Clusters);
-    wanted && water.mesh[0].is_multiple_of(8) && water.spline_order == 3 && options.workgroup() >= 8
+    let strips = water.mesh[0].is_multiple_of(8) && u64::from(water.mesh[1]).is_multiple_of(STRIP);
+    wanted && strips && water.spline_order == 3 && options.workgroup() >= 8
 }
 
 /// Places of a bin, for particles that stay and for those that arrive in a step: more than enough for particles spread at
@@ -70,7 +73,7 @@ fn bin_bytes(water: &ShallowWater, (capacity, arrivals): (u64, u64)) -> u64 {
 /// in eights, which suits sorted particles more, only as long as bins stay in the caches of a processor.
 fn best_storage(model: &Model, water: &ShallowWater, eights: bool) -> Storage {
     let bins = bin_bytes(water, bin_places(model, water));
-    let sorted = (2 * WATER + 4) * water.carriers;
+    let sorted = 2 * WATER * water.carriers;
     let most = if eights { CACHED_BINS } else { LARGEST_BINDING };
     if bins <= 4 * sorted && bins <= most { Storage::Bins } else { Storage::Sorted }
 }
@@ -199,7 +202,22 @@ impl Builder<'_> {
 
     /// The module that visits the cells.
     fn each_cell(&self) -> &'static str {
-        if self.eights { "kernels/each_cell_of_eight" } else { "kernels/each_cell" }
+        if self.eights { "kernels/each_strip_of_eight" } else { "kernels/each_cell" }
+    }
+
+    /// A kernel that visits the cells.
+    fn cell_kernel(&mut self, name: &'static str, extra: &[&'static str]) -> usize {
+        let modules = [extra, &[self.each_cell()]].concat();
+        let workgroup = self.options.workgroup();
+        if !self.eights {
+            return self.kernel(name, &modules, self.water.nodes().div_ceil(workgroup));
+        }
+        // A small mesh has few strips, which are to be shared out all the same.
+        let invocations = self.water.nodes() / STRIP;
+        let workgroup = workgroup.min((invocations / FEWEST_WORKGROUPS / 8 * 8).max(8));
+        let kernel = self.kernel(name, &modules, invocations.div_ceil(workgroup));
+        self.plan.kernels[kernel].constants.push(("WORKGROUP", workgroup as f64));
+        kernel
     }
 
     fn gyrates(&self) -> bool {
@@ -228,8 +246,14 @@ impl Builder<'_> {
         let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
         let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
         self.plan.prepare.push(bin);
+        let (cells, row_scan) = if self.water.mesh[0].is_multiple_of(2) {
+            (&["common/storage", "common/mesh_cells_paired"][..], "common/row_scan_paired")
+        } else {
+            (&["common/mesh_cells"][..], "common/row_scan")
+        };
         let sum = PrefixSum {
-            modules: [&self.mesh()[..], &["common/mesh_cells"]].concat(),
+            modules: [&self.mesh()[..], cells].concat(),
+            row_scan,
             clock: &["common/begin_step", "common/threefry"],
             rows: u64::from(self.water.mesh[1]),
             cells: self.water.nodes(),
@@ -239,7 +263,7 @@ impl Builder<'_> {
             let kernel = self.plan.add_kernel(kernel);
             self.plan.sort.push(kernel);
         }
-        let modules = ["common/mesh_cells", "common/storage", "common/stored_water", "kernels/scatter_water"];
+        let modules = ["common/storage", "common/stored_water", "kernels/scatter_water"];
         let scatter = self.kernel("scatter", &modules, particle_groups);
         self.plan.sort.push(scatter);
         self.plan.swapped = Some(["particles", "sorted"]);
@@ -265,13 +289,12 @@ impl Builder<'_> {
             _ if self.eights => "common/spread3_of_eight",
             _ => "common/spread3",
         };
-        let passes = [collect, "common/deposit", moments, spread, "passes/deposit", self.each_cell()];
+        let passes = [collect, "common/deposit", moments, spread, "passes/deposit"];
         let modules = [self.stored(), begin, &passes].concat();
-        let deposit = self.kernel("deposit", &modules, cell_groups);
+        let deposit = self.cell_kernel("deposit", &modules);
         let gather = if self.eights {
-            let [columns, rows] = self.water.mesh.map(u64::from);
-            let strips = (columns * rows.div_ceil(GATHERED_ROWS)).div_ceil(self.options.workgroup());
-            self.kernel("gather_nodes", &["common/storage", "kernels/gather_nodes_of_eight"], strips)
+            let columns = (self.water.nodes() / STRIP).div_ceil(self.options.workgroup());
+            self.kernel("gather_nodes", &["common/storage", "kernels/gather_nodes_of_eight"], columns)
         } else {
             self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups)
         };
@@ -301,7 +324,7 @@ impl Builder<'_> {
     /// Modules of the stored particles.
     fn stored(&self) -> &'static [&'static str] {
         match self.storage {
-            Storage::Sorted => &["common/storage", "common/stored_water", "common/mesh_cells", "common/store_sorted"],
+            Storage::Sorted => &["common/storage", "common/stored_water", "common/store_sorted"],
             Storage::Bins => &["common/storage", "common/stored_water", "common/store_bins"],
         }
     }
@@ -336,11 +359,10 @@ impl Builder<'_> {
             (true, Storage::Sorted) => &["common/eight_sorted", "passes/push_of_eight"],
             (true, Storage::Bins) => &["common/eight_bins", "passes/push_of_eight"],
         };
-        let push_modules =
-            [&self.moving(self.eights)[..], self.stored(), &[store_moved], push, &[self.each_cell()]].concat();
+        let push_modules = [&self.moving(self.eights)[..], self.stored(), &[store_moved], push].concat();
         let report = with(&[store_reported, "common/sum64", "common/reduce", "kernels/report_water"]);
-        let push = self.kernel("push", &push_modules, groups);
-        let push_on = self.kernel("push_from_report", &push_modules, groups);
+        let push = self.cell_kernel("push", &push_modules);
+        let push_on = self.cell_kernel("push_from_report", &push_modules);
         let report = self.kernel("report", &report, groups);
         self.plan.kernels[push].constants.push(("CLOSES", 1.0));
         self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
@@ -398,9 +420,8 @@ impl Builder<'_> {
             Storage::Sorted => {
                 self.plan.add_buffer("particles", "particles in the order of the step before", WATER * particles);
                 self.plan.add_buffer("sorted", "particles in order of cells", WATER * particles);
-                self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * particles);
                 self.plan.add_buffer("counts", "particles in each cell", 4 * nodes);
-                self.plan.add_buffer("cells", "where each cell begins", 4 * (nodes + 1 + rows));
+                self.plan.add_buffer("cells", "where each cell begins, and ends", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
                 let (capacity, arrivals) = bin_places(self.model, self.water);
@@ -410,7 +431,8 @@ impl Builder<'_> {
                 self.plan.add_buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
             }
         }
-        let shares = if self.eights { width * (nodes + 3 * nodes / 8) } else { width * width * nodes };
+        // Seven rows of a strip of four, and one that fills up the last word.
+        let shares = if self.eights { 2 * (nodes + 3 * nodes / 8) } else { width * width * nodes };
         self.plan.add_buffer("contributions", "what cells add to the nodes around them", 4 * shares);
         self.plan.add_buffer("node_masses", "mass on each node", 4 * nodes);
         self.plan.add_buffer("depths", "smoothed depth on each node", 4 * nodes);
