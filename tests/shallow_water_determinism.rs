@@ -15,7 +15,7 @@ use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 use support::bytes::{self, Bytes};
-use support::{engine, largest_difference, start, water};
+use support::{engine, in_eights, largest_difference, start, water};
 
 const STEPS: u64 = 12;
 const BATCH: u64 = 5;
@@ -69,37 +69,36 @@ fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
 #[test]
 fn a_rerun_gives_the_same_bytes() {
     for scene in scenes() {
-        let once = run(&scene, Options::default(), BATCH);
+        let once = run(&scene, in_eights(), BATCH);
         assert_eq!(once.state.step, STEPS);
         let tracers = scene.particles.iter().any(|group| group.tracer);
         let samples = |sampler: usize| once.samples.iter().filter(|sample| sample.sampler == sampler).count();
         assert_eq!([samples(0), samples(1)], [5, if tracers { 5 } else { 0 }], "steps 0, 3, 6, 9, 12");
         assert!(once.samples.iter().all(|sample| sample.sums.iter().any(|sum| *sum != 0)));
-        assert!(once == run(&scene, Options::default(), BATCH), "{:?}", scene.interactions);
+        assert!(once == run(&scene, in_eights(), BATCH), "{:?}", scene.interactions);
     }
 }
 
 #[test]
 fn storage_traversals_scans_and_workgroup_sizes_give_the_same_bytes() {
     for scene in scenes() {
-        let plain = run(&scene, Options { storage: Some(Storage::Sorted), ..Options::default() }, BATCH);
+        let plain = run(&scene, Options { storage: Some(Storage::Sorted), ..in_eights() }, BATCH);
         let sorted = |workgroup_size: u32, many_level_scan: bool| Options {
             storage: Some(Storage::Sorted),
             workgroup_size: Some(workgroup_size),
             serial_memory: (workgroup_size == 32).then_some(false),
             many_level_scan,
-            ..Options::default()
+            ..in_eights()
         };
         let bins = |workgroup_size: u32| Options { storage: Some(Storage::Bins), ..sorted(workgroup_size, false) };
         // Bins are not sorted, and need no scan.
         for options in [sorted(32, true), sorted(64, true), sorted(128, false), bins(32), bins(64), bins(128)] {
-            // Cells in eights, where there are subgroups for it, are the default.
-            for traversal in [None, Some(Traversal::Rows)] {
+            for traversal in [in_eights().traversal, Some(Traversal::Rows)] {
                 let options = Options { traversal, ..options };
                 assert!(plain == run(&scene, options, BATCH), "{options:?} {:?}", scene.interactions);
             }
         }
-        let roomy = Options::default().with_room(scene.particles.len() as u64);
+        let roomy = in_eights().with_room(scene.particles.len() as u64);
         assert!(plain == run(&scene, roomy, BATCH), "with room for a crowd");
     }
 }
@@ -107,21 +106,21 @@ fn storage_traversals_scans_and_workgroup_sizes_give_the_same_bytes() {
 #[test]
 fn batches_of_any_size_give_the_same_bytes() {
     for scene in scenes() {
-        let steps = run(&scene, Options::default(), 1);
+        let steps = run(&scene, in_eights(), 1);
         for batch in [3, 1000] {
-            assert!(steps == run(&scene, Options::default(), batch), "batches of {batch}");
+            assert!(steps == run(&scene, in_eights(), batch), "batches of {batch}");
         }
-        let pieces = bytes::in_pieces(&scene, Options::default(), &[1, 4, 5, 2], 3);
+        let pieces = bytes::in_pieces(&scene, in_eights(), &[1, 4, 5, 2], 3);
         assert!(steps == pieces, "piece by piece: {:?}", scene.interactions);
         for storage in [Storage::Bins, Storage::Sorted] {
-            let options = Options { storage: Some(storage), ..Options::default() };
+            let options = Options { storage: Some(storage), ..in_eights() };
             let watched = bytes::watched(&scene, options, STEPS);
             assert!(steps == watched, "watched at every step, {storage:?}: {:?}", scene.interactions);
         }
         // How often it is sampled changes no state.
         let mut seldom = scene.clone();
         seldom.output.energies.every = 7;
-        let seldom = run(&seldom, Options::default(), BATCH);
+        let seldom = run(&seldom, in_eights(), BATCH);
         assert!(steps.state == seldom.state && steps.reported == seldom.reported, "sampled seldom");
     }
 }
@@ -130,9 +129,9 @@ fn batches_of_any_size_give_the_same_bytes() {
 fn the_storage_order_does_not_matter() {
     let mut random = rand::rngs::StdRng::seed_from_u64(1);
     for scene in scenes() {
-        let expected = run(&scene, Options::default(), BATCH);
+        let expected = run(&scene, in_eights(), BATCH);
         for storage in [Storage::Bins, Storage::Sorted] {
-            let options = Options { storage: Some(storage), ..Options::default() };
+            let options = Options { storage: Some(storage), ..in_eights() };
             let shuffled = bytes::shuffled(&scene, options, STEPS, BATCH, &mut random);
             assert!(expected == shuffled, "{storage:?}: {:?}", scene.interactions);
         }
@@ -151,9 +150,9 @@ fn through_a_checkpoint(scene: &Scene, state: &State) -> State {
 fn a_run_split_in_two_at_any_step_is_the_run() {
     for scene in scenes() {
         let (_, state) = start(&scene);
-        let unbroken = run(&scene, Options::default(), BATCH);
-        let mut before = engine(&scene, &state, Options::default());
-        let mut after = engine(&scene, &state, Options { storage: Some(Storage::Sorted), ..Options::default() });
+        let unbroken = run(&scene, in_eights(), BATCH);
+        let mut before = engine(&scene, &state, in_eights());
+        let mut after = engine(&scene, &state, Options { storage: Some(Storage::Sorted), ..in_eights() });
         for first in 1..STEPS {
             before.advance(1, 1).unwrap();
             let halfway = before.state().unwrap();
@@ -180,7 +179,7 @@ fn the_mass_on_the_mesh_is_constant_to_the_last_unit() {
         let total = model.shallow_water.as_ref().unwrap().total_mass();
         assert_eq!(state.masses.iter().map(|mass| u64::from(*mass)).sum::<u64>(), total, "of the particles");
         for storage in [Storage::Bins, Storage::Sorted] {
-            let mut engine = engine(&scene, &state, Options { storage: Some(storage), ..Options::default() });
+            let mut engine = engine(&scene, &state, Options { storage: Some(storage), ..in_eights() });
             let mut seen = HashSet::new();
             for step in 0..40 {
                 let reported = engine.reported().unwrap();
@@ -202,7 +201,7 @@ fn the_mass_on_the_mesh_is_constant_for_twenty_thousand_steps() {
     let scene = sampled(&[MEMORY, WARM, LINEAR]);
     let (model, state) = start(&scene);
     let total = model.shallow_water.as_ref().unwrap().total_mass();
-    let mut engine = engine(&scene, &state, Options::default());
+    let mut engine = engine(&scene, &state, in_eights());
     for _ in 0..200 {
         engine.advance(100, 50).unwrap();
         engine.reported().unwrap();
@@ -217,7 +216,7 @@ fn the_mass_on_the_mesh_is_constant_for_twenty_thousand_steps() {
 /// Bath variables and masses of the step before, as at a step that is not the first.
 fn under_way(scene: &Scene) -> State {
     let (_, state) = start(scene);
-    let mut engine = engine(scene, &state, Options::default());
+    let mut engine = engine(scene, &state, in_eights());
     engine.advance(2, 2).unwrap();
     engine.state().unwrap()
 }
@@ -229,7 +228,7 @@ fn the_clock_goes_past_any_power_of_two() {
         for first in [(1 << 32) - 2, u64::MAX - 5] {
             for storage in [Storage::Bins, Storage::Sorted] {
                 let state = State { step: first, ..middle.clone() };
-                let mut device = engine(&scene, &state, Options { storage: Some(storage), ..Options::default() });
+                let mut device = engine(&scene, &state, Options { storage: Some(storage), ..in_eights() });
                 let mut reference = ShallowWaterReference::new(Model::new(&scene), state).unwrap();
                 device.advance(4, 3).unwrap();
                 reference.run(4).unwrap();
@@ -243,7 +242,7 @@ fn the_clock_goes_past_any_power_of_two() {
             }
         }
         let last = State { step: u64::MAX - 1, ..middle };
-        let mut device = engine(&scene, &last, Options::default());
+        let mut device = engine(&scene, &last, in_eights());
         assert!(matches!(device.advance(2, 1), Err(EngineError::State { .. })));
         device.advance(1, 1).unwrap();
         assert!(matches!(device.advance(1, 1), Err(EngineError::State { .. })));
@@ -260,7 +259,7 @@ fn every_word_of_seed_and_step_counts() {
         let mut seen = HashSet::new();
         for seed in words {
             scene.seed = seed;
-            let mut device = engine(&scene, &middle, Options::default());
+            let mut device = engine(&scene, &middle, in_eights());
             for step in words {
                 let state = State { step, ..middle.clone() };
                 device.upload(&state).unwrap();
@@ -283,7 +282,7 @@ fn every_word_of_seed_and_step_counts() {
 fn another_seed_is_another_run_only_where_there_is_noise() {
     for (changes, noisy) in [(&[MEMORY, WARM][..], true), (&[WHITE, WARM], true), (&[MEMORY], false), (&[], false)] {
         let [one, two] =
-            ["seed=1", "seed=2"].map(|seed| run(&sampled(&[changes, &[seed]].concat()), Options::default(), BATCH));
+            ["seed=1", "seed=2"].map(|seed| run(&sampled(&[changes, &[seed]].concat()), in_eights(), BATCH));
         assert_eq!(one.reported.momenta != two.reported.momenta, noisy, "{changes:?}");
         assert_eq!(one != two, noisy, "{changes:?}");
     }
@@ -293,7 +292,7 @@ fn another_seed_is_another_run_only_where_there_is_noise() {
 fn states_without_what_a_step_needs_are_refused() {
     let scene = sampled(&[MEMORY, WARM]);
     let middle = under_way(&scene);
-    let mut engine = engine(&scene, &middle, Options::default());
+    let mut engine = engine(&scene, &middle, in_eights());
     for wrong in [
         State { masses: Vec::new(), ..middle.clone() },
         State { node_bath: Vec::new(), ..middle.clone() },

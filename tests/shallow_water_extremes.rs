@@ -10,7 +10,7 @@ use mesoscope::plan::{Options, Storage};
 use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
-use support::{engine, largest_difference, start, water};
+use support::{engine, in_eights, largest_difference, start, water};
 
 const ROTATE: &str = r#"integrator={"type":"rotate"}"#;
 const WHITE: &str = r#"interactions.0.bath={"type":"white"}"#;
@@ -21,7 +21,7 @@ const CHEBYSHEV: &str = r#"interactions.0.smoothing={"length":0.8,"solver":{"typ
 const STORAGES: [Storage; 2] = [Storage::Bins, Storage::Sorted];
 
 fn stored(storage: Storage) -> Options {
-    Options { storage: Some(storage), ..Options::default() }
+    Options { storage: Some(storage), ..in_eights() }
 }
 
 fn shallow_water(scene: &Scene) -> ShallowWater {

@@ -27,8 +27,8 @@ const CACHED_BINS: u64 = 1 << 24;
 
 /// Rows of a strip of cells, as the shaders for eights of cells have it.
 const STRIP: u64 = 4;
-/// The fewest workgroups that take strips, as long as each has an eight.
-const FEWEST_WORKGROUPS: u64 = 8;
+/// The fewest nodes for which eights of cells are worth their larger kernels, which take longer to compile.
+const FEWEST_NODES: u64 = 1 << 12;
 
 /// Makes the plan of a model of shallow water.
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
@@ -46,7 +46,8 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
 /// Whether the lanes of a subgroup take eight cells side by side, row after row of a strip, share what they load and store for
 /// them, and take their particles whichever their cells.
 fn takes_eights(water: &ShallowWater, hardware: Hardware, options: Options) -> bool {
-    let wanted = options.traversal.map_or(hardware.subgroup_size == Some(8), |asked| asked == Traversal::Clusters);
+    let worthwhile = hardware.subgroup_size == Some(8) && water.nodes() >= FEWEST_NODES;
+    let wanted = options.traversal.map_or(worthwhile, |asked| asked == Traversal::Clusters);
     let strips = water.mesh[0].is_multiple_of(8) && u64::from(water.mesh[1]).is_multiple_of(STRIP);
     wanted && strips && water.spline_order == 3 && options.workgroup() >= 8
 }
@@ -208,16 +209,8 @@ impl Builder<'_> {
     /// A kernel that visits the cells.
     fn cell_kernel(&mut self, name: &'static str, extra: &[&'static str]) -> usize {
         let modules = [extra, &[self.each_cell()]].concat();
-        let workgroup = self.options.workgroup();
-        if !self.eights {
-            return self.kernel(name, &modules, self.water.nodes().div_ceil(workgroup));
-        }
-        // A small mesh has few strips, which are to be shared out all the same.
-        let invocations = self.water.nodes() / STRIP;
-        let workgroup = workgroup.min((invocations / FEWEST_WORKGROUPS / 8 * 8).max(8));
-        let kernel = self.kernel(name, &modules, invocations.div_ceil(workgroup));
-        self.plan.kernels[kernel].constants.push(("WORKGROUP", workgroup as f64));
-        kernel
+        let lanes = self.water.nodes() / if self.eights { STRIP } else { 1 };
+        self.kernel(name, &modules, lanes.div_ceil(self.options.workgroup()))
     }
 
     fn gyrates(&self) -> bool {

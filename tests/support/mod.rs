@@ -9,7 +9,7 @@ use mesoscope::engine::Engine;
 use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Options};
+use mesoscope::plan::{self, Hardware, Options, Traversal};
 use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
@@ -21,6 +21,11 @@ pub fn gpu() -> &'static Gpu {
         let name = std::env::var("MESOSCOPE_ADAPTER").ok();
         Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements::default()).expect("an adapter")
     })
+}
+
+/// Cells of a mesh in eights, on small meshes too, where the adapter has subgroups for it.
+pub fn in_eights() -> Options {
+    Options { traversal: (gpu().subgroup_size() == Some(8)).then_some(Traversal::Clusters), ..Options::default() }
 }
 
 /// A scene from its JSON text.
