@@ -631,6 +631,7 @@ fn more_mass_than_fits_is_caught() {
     // The first node that the splines of the cell reach.
     for (around, order, node) in [
         (on_nodes, 3, "(2, 4), where x = 0.7854 and y = 1.5708"),
+        ([on_nodes[0], 6 << 28], 3, "(2, 5), where x = 0.7854 and y = 1.9635"),
         (on_nodes, 1, "(3, 5), where x = 1.1781 and y = 1.9635"),
         (between, 2, "(3, 5), where x = 1.1781 and y = 1.9635"),
     ] {

@@ -7,21 +7,19 @@
 struct Column {
     finished: vec4<i32>, // the last four rows of nodes that no cell will add to
     open: vec4<i32>,     // the rows after them
-    least: vec4<i32>,    // of all that was added, and of all sums
 }
 var<private> own: Column;
 var<private> beside: Column;
 
-// Adds what a row of cells brings.
+// Adds what a row of cells brings. Where a cell has too much, or a sum goes round, the node has too much for good.
 fn with_row(column: Column, share: IntegerPowers) -> Column {
-    let sum = column.open + share;
-    return Column(vec4<i32>(column.finished.yzw, sum.x), vec4<i32>(sum.yzw, 0), min(column.least, min(share, sum)));
+    let added = column.open + share;
+    let least = min(min(column.open, share), added);
+    let sum = select(added, vec4<i32>(TOO_MUCH), least < vec4<i32>(LEAST_MASS));
+    return Column(vec4<i32>(column.finished.yzw, sum.x), vec4<i32>(sum.yzw, 0));
 }
 fn store_column(place: u32, column: Column) {
-    var inside = vec4<i32>(column.finished.yzw, column.open.x);
-    // A cell has too much, or a sum has gone round.
-    let least = min(min(column.least.x, column.least.y), min(column.least.z, column.least.w));
-    inside.x = select(inside.x, TOO_MUCH, least < LEAST_MASS);
+    let inside = vec4<i32>(column.finished.yzw, column.open.x);
     let outside = vec4<i32>(column.open.yz, column.finished.x, 0);
     contributions[2u * place] = four(bitcast<vec4<u32>>(inside));
     contributions[2u * place + 1u] = four(bitcast<vec4<u32>>(outside));
