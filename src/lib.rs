@@ -41,6 +41,7 @@ pub mod noise;
 pub mod output;
 pub mod plan;
 pub mod plot;
+mod prediction;
 pub mod reference;
 pub mod run;
 pub mod scene;

@@ -8,7 +8,8 @@
 mod support;
 
 use mesoscope::plan::{Options, Traversal};
-use support::{engine, fluid, largest_difference, observables, reference, start};
+use mesoscope::reference::Reference;
+use support::{engine, fluid, largest_difference, observables, predictions_agree, reference, start};
 
 const UNITS: i64 = 100;
 
@@ -26,6 +27,10 @@ fn check(changes: &[&str], options: Options) {
         // In these boxes a unit of momentum moves a particle up to four units of position a step.
         assert!(position <= 4 * UNITS * step, "step {step}: positions differ by {position} units ({changes:?})");
         assert_eq!(found.total_momentum(), state.total_momentum(), "momentum moved ({changes:?})");
+        if !found.predicted.is_empty() {
+            predictions_agree(&found, reference.state());
+            reference = Reference::new(reference.model().clone(), found);
+        }
     }
     let measured = observables(&mut device, &scene);
     let expected = reference.observe().unwrap();

@@ -14,7 +14,7 @@ use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::Hold;
-use support::{INTEGRATORS, PREDICTED, cells, fluid, water};
+use support::{INTEGRATORS, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -550,12 +550,9 @@ fn host_structs_lie_as_in_the_shaders() {
     let mut tables = 0;
     for (scene, plan) in plans() {
         // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
-        let (predicted, stride) = match plan.layout {
-            Layout::Particles { predicted, .. } | Layout::Coupled { predicted, .. } => {
-                (predicted, if predicted { 48 } else { 32 })
-            }
-            Layout::Water { .. } => (false, 24),
-            Layout::Cells { .. } => (false, 32),
+        let stride = match plan.layout {
+            Layout::Water { .. } => 24,
+            Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => 32,
         };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
         if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
@@ -581,9 +578,6 @@ fn host_structs_lie_as_in_the_shaders() {
                 assert_eq!(offset(shader, "Particle", ""), stride, "`{}` in {scene}", kernel.name);
                 assert_eq!(offset(shader, "Particle", "position"), 0);
                 assert_eq!(offset(shader, "Particle", "momentum"), 16);
-                if predicted {
-                    assert_eq!(offset(shader, "Particle", "predicted"), 32);
-                }
             }
             if declared("Water") {
                 let members = [("position", 0), ("velocity", 8), ("mass", 16), ("id", 20), ("", 24)];
@@ -663,11 +657,10 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
     }
 }
 
-/// Unless a particle carries predicted momenta, which are half as much again.
 #[test]
 fn the_standard_fluid_needs_at_most_a_hundred_bytes_a_particle() {
-    let integrators = INTEGRATORS.iter().filter(|integrator| **integrator != PREDICTED);
-    for (integrator, edge) in integrators.flat_map(|integrator| [20, 25, 40, 69, 160].map(|edge| (integrator, edge))) {
+    let edges = [20, 25, 40, 69, 160];
+    for (integrator, edge) in INTEGRATORS.iter().flat_map(|integrator| edges.map(|edge| (integrator, edge))) {
         let measured = [
             "time.steps=1000",
             "output.energies.every=20",

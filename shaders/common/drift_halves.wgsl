@@ -2,6 +2,6 @@
 // report between the two changes nothing.
 override HALVES: i32;
 fn half_drift_steps(momentum: vec4<i32>) -> Steps {
-    return Steps(round(Vector(steps_of(momentum)) * (0.5 * drift_of(momentum.w) / unit_lengths())));
+    return Steps(round(Vector(steps_of(momentum)) * (0.5 * drift_of(species_in(momentum)) / unit_lengths())));
 }
 fn drift_steps(momentum: vec4<i32>) -> Steps { return HALVES * half_drift_steps(momentum); }

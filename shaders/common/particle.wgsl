@@ -4,10 +4,10 @@ struct Particle {
     position: vec4<u32>,
     momentum: vec4<i32>,
 }
-const FOURS: u32 = 2u; // of words
 
 // The rest of the word carries, within a step, what a pass leaves for the next.
-fn species_of(particle: Particle) -> i32 { return particle.momentum.w & 255; }
+fn species_in(momentum: vec4<i32>) -> i32 { return momentum.w & 255; }
+fn species_of(particle: Particle) -> i32 { return species_in(particle.momentum); }
 fn friction_momentum(particle: Particle) -> Steps { return steps_of(particle.momentum); }
 fn advanced_particle(position: vec4<u32>, momentum: vec4<i32>, kick: Steps) -> Particle {
     return Particle(position, momentum);

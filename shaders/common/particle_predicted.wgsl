@@ -1,18 +1,31 @@
-// A particle that carries, beside its momentum, the predicted momentum that the friction sees (lambda other than 1/2).
+// A particle whose friction sees a predicted momentum (lambda other than 1/2): what the prediction adds is kept in the upper
+// bits of momentum.w, three components of six bits with an exponent in common. `src/prediction.rs` does the same.
 struct Particle {
     position: vec4<u32>,
     momentum: vec4<i32>,
-    predicted: vec4<i32>,
 }
-const FOURS: u32 = 3u; // of words
 
 // 2 lambda - 1: the part of the opening half kick that the prediction adds.
 override PREDICTION: f32;
 
-// The rest of the word carries, within a step, what a pass leaves for the next.
-fn species_of(particle: Particle) -> i32 { return particle.momentum.w & 255; }
-fn friction_momentum(particle: Particle) -> Steps { return steps_of(particle.predicted); }
+fn species_in(momentum: vec4<i32>) -> i32 { return momentum.w & 255; }
+fn species_of(particle: Particle) -> i32 { return species_in(particle.momentum); }
+
+// An exponent that lets the largest component round to at most 31, and the components in its units.
+fn packed_shift(shift: vec4<i32>) -> i32 {
+    let size = abs(shift);
+    let largest = max(max(size.x, size.y), size.z);
+    let exponent = u32(max(firstLeadingBit(largest + (largest >> 5u)) - 4, 0));
+    let rounded = ((shift + ((1i << exponent) >> 1u)) >> vec4<u32>(exponent)) & vec4<i32>(63);
+    return i32(exponent) | (rounded.x << 5u) | (rounded.y << 11u) | (rounded.z << 17u);
+}
+fn friction_momentum(particle: Particle) -> Steps {
+    let word = particle.momentum.w;
+    let exponent = vec4<u32>(extractBits(u32(word), 8u, 5u));
+    let shift = vec4<i32>(extractBits(word, 13u, 6u), extractBits(word, 19u, 6u), extractBits(word, 25u, 6u), 0) << exponent;
+    return steps_of(particle.momentum + shift);
+}
 fn advanced_particle(position: vec4<u32>, momentum: vec4<i32>, kick: Steps) -> Particle {
-    let shift = Steps(round(PREDICTION * Vector(kick)));
-    return Particle(position, momentum, momentum_word(steps_of(momentum) + shift, momentum.w));
+    let shift = packed_shift(momentum_word(Steps(round(PREDICTION * Vector(kick))), 0));
+    return Particle(position, vec4<i32>(momentum.xyz, momentum.w | (shift << 8u)));
 }

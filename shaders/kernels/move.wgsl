@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let impulse = position_impulse(bath);
     let kick = steps_of(kicks[slot]) + Steps(round(impulse));
     kicks[slot] = vec4<i32>(0);
-    let opening = kick + held.opening;
+    let opening = select(kick + held.opening, Steps(0), is_fixed(species));
     var momentum = steps_of(me.momentum) + control.closing * (kick + held.closing) + opening;
     momentum = select(momentum, Steps(0), is_fixed(species));
     let travelled = abs(Vector(momentum)) * drift_of(species);

@@ -92,6 +92,13 @@ enum Phase {
 /// engine.upload(&start)?;
 /// engine.advance(30, 7)?;
 /// assert_eq!(engine.state()?, state);
+///
+/// // Nor does the order count in which the particles are stored; a buffer of the plan can be read as it is.
+/// let backwards: Vec<usize> = (0..start.len()).rev().collect();
+/// engine.upload_in_order(&start, &backwards)?;
+/// assert_eq!(engine.words("particles")?[3] as usize, start.len() - 1, "the last particle is stored first");
+/// engine.advance(30, 10)?;
+/// assert_eq!(engine.state()?, state);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Engine<'a> {

@@ -1,12 +1,16 @@
 //! How the integer state lies in the buffers of a plan.
 
 use crate::model::LARGEST_MASS;
+use crate::prediction;
 use crate::state::{Hold, PairBath, State};
+
+/// Bytes of a particle of [`Layout::Particles`] and [`Layout::Coupled`].
+pub(super) const PARTICLE: u64 = 32;
 
 /// How the integer state lies in buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
-    /// One array `particles` of position and id, momentum and species, and predicted momentum where there is one.
+    /// One array `particles` of position and id, momentum and species, with what a predicted momentum adds.
     Particles {
         /// Number of dimensions.
         dimension: usize,
@@ -284,9 +288,8 @@ impl Layout {
             Self::Cells { energies } => unpack_cells(&mut state, contents(0), energies, place)?,
             Self::Coupled { dimension, predicted, .. } => {
                 unpack_particles(&mut state, contents(0), dimension, predicted, place)?;
-                let width = if predicted { 12 } else { 8 };
-                let numbers: Vec<u32> =
-                    contents(0).chunks_exact(width).take(count).map(|particle| particle[3]).collect();
+                let particles = contents(0).chunks_exact(PARTICLE as usize / 4);
+                let numbers: Vec<u32> = particles.take(count).map(|particle| particle[3]).collect();
                 for (index, name) in self.buffers().into_iter().enumerate() {
                     self.unpack_array(&mut state, name, contents(index), &numbers, contents(index.saturating_sub(1)));
                 }
@@ -361,17 +364,18 @@ fn pack_particles(state: &State, order: &[usize], predicted: bool) -> Result<Vec
     if predicted && state.step > 0 && state.predicted.len() != state.len() {
         return Err("predicted momenta are".into());
     }
-    let mut words: Vec<u32> = Vec::with_capacity(12 * state.len());
+    let mut words: Vec<u32> = Vec::with_capacity(PARTICLE as usize / 4 * state.len());
     for &id in order {
         words.extend(state.positions[id]);
         words.push(id as u32);
         words.extend(state.momenta[id].map(|unit| unit as u32));
-        words.push(state.species[id]);
-        if predicted {
-            let predicted = state.predicted.get(id).unwrap_or(&state.momenta[id]);
-            words.extend(predicted.map(|unit| unit as u32));
-            words.push(state.species[id]);
-        }
+        let prediction = match state.predicted.get(id) {
+            Some(seen) if predicted => {
+                prediction::packed(prediction::shifted(*seen, state.momenta[id].map(i32::wrapping_neg)))
+            }
+            _ => 0,
+        };
+        words.push(state.species[id] | (prediction << 8));
     }
     Ok(words)
 }
@@ -385,18 +389,18 @@ fn unpack_particles(
     mut place: impl FnMut(u32) -> Result<usize, String>,
 ) -> Result<(), String> {
     let count = state.positions.len();
-    let width = if predicted { 12 } else { 8 };
     state.species = vec![0; count];
     if predicted {
         state.predicted = vec![[0; 3]; count];
     }
-    for particle in words.chunks_exact(width).take(count) {
+    for particle in words.chunks_exact(PARTICLE as usize / 4).take(count) {
         let id = place(particle[3])?;
         state.positions[id] = [particle[0], particle[1], if dimension == 3 { particle[2] } else { 0 }];
         state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
-        state.species[id] = particle[7];
+        state.species[id] = particle[7] & 255;
         if predicted {
-            state.predicted[id] = [particle[8] as i32, particle[9] as i32, particle[10] as i32];
+            let shift = prediction::unpacked(particle[7] >> 8);
+            state.predicted[id] = prediction::shifted(state.momenta[id], shift);
         }
     }
     Ok(())

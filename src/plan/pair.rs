@@ -1,6 +1,7 @@
 //! The plan of a scene whose particles interact in pairs.
 
 use super::analyses::{self, Reported};
+use super::layout::PARTICLE;
 use super::prefix_sum::PrefixSum;
 use super::recording::record_histogram;
 use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
@@ -478,7 +479,6 @@ impl Builder<'_> {
     }
 
     fn buffers(&mut self) {
-        let particle = if self.predicted() { 48 } else { 32 };
         let rows = self.grid.rows();
         let cells = self.grid.count();
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
@@ -489,8 +489,8 @@ impl Builder<'_> {
         } else {
             "particles in the order they were advanced"
         };
-        self.plan.add_buffer("particles", purpose, particle * self.particles);
-        self.plan.add_buffer("sorted", "particles in order of cells", particle * (self.particles + copies));
+        self.plan.add_buffer("particles", purpose, PARTICLE * self.particles);
+        self.plan.add_buffer("sorted", "particles in order of cells", PARTICLE * (self.particles + copies));
         self.plan.add_buffer("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies));
         self.plan.add_buffer("cells", "where each cell begins", 4 * (rows * width + 1 + rows));
         self.plan.add_buffer("counts", "particles in each cell", 4 * cells);

@@ -35,6 +35,23 @@ pub struct SmoothingPlan {
 /// constant `WORKGROUP`, which kernels of transforms have of their own.
 ///
 /// With [`SmoothingSolver::Fft`] and a smoothing length the edges of the mesh have to be powers of two, at least 2.
+///
+/// ```
+/// use mesoscope::plan::{Options, smoothing};
+/// use mesoscope::{model::Model, scene};
+///
+/// let iterated = [r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#.to_owned()];
+/// let model = Model::new(&scene::load("shallow-water", &iterated)?);
+/// let water = model.shallow_water.ok_or("no shallow water")?;
+/// let lengths = [model.units.lengths[0], model.units.lengths[1]];
+/// let plan = smoothing::smoothing(&water, lengths, Options::default());
+/// assert_eq!(plan.order.len() as u32, smoothing::iterations(&water, lengths, 1e-3));
+///
+/// // Within the tolerance the depth of a uniform layer stays, and the finest waves are damped.
+/// assert!((smoothing::transfer(&water, lengths, [0, 0]) - 1.0).abs() < 1e-3);
+/// assert!(smoothing::transfer(&water, lengths, [32, 32]) < 0.02);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> SmoothingPlan {
     let workgroup = options.workgroup();

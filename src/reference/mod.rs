@@ -27,6 +27,7 @@ pub use voronoi::VoronoiReference;
 
 use crate::measure::Observables;
 use crate::model::Model;
+use crate::prediction;
 use crate::scene::Integrator;
 use crate::state::State;
 use pairs::Pair;
@@ -160,12 +161,7 @@ impl Reference {
         if let Integrator::GrootWarren { lambda } = self.model.integrator
             && lambda != 0.5
         {
-            for (momentum, kick) in momenta.iter_mut().zip(&kick) {
-                for axis in 0..3 {
-                    momentum[axis] += ((2.0 * lambda - 1.0) * kick[axis] as f64).round_ties_even() as i64;
-                }
-            }
-            next.predicted = narrow(&momenta, self.state.step)?;
+            next.predicted = prediction::predicted(&next.momenta, &kick, lambda);
         }
         let kept = std::mem::replace(&mut self.state.momenta, next.momenta);
         let drifts: Vec<[i64; 3]> = (0..kept.len()).map(|particle| self.drift(particle)).collect();

@@ -6,14 +6,15 @@
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
-//! use mesoscope::run::{Event, Simulation};
+//! use mesoscope::output::RunDirectory;
+//! use mesoscope::run::{self, Event, Simulation};
 //!
 //! # let directory = tempfile::tempdir()?;
 //! # let results = directory.path().join("results");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
 //! let scene = mesoscope::scene::load("dpd-fluid", &small)?;
-//! let run = Simulation::start(scene, &results, false);
-//! let outcome = run.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
+//! let simulation = Simulation::start(scene, &results, false);
+//! let outcome = simulation.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 //!     if let Event::Advanced(progress) = event {
 //!         println!("step {} of {}", progress.step, progress.last_step);
 //!     }
@@ -24,6 +25,11 @@
 //! // Its directory is enough to go on from.
 //! let longer = Simulation::resume(&results, Some(80))?;
 //! assert_eq!((longer.first_step(), longer.is_finished()), (40, false));
+//!
+//! // Or to draw its pictures again, larger.
+//! let directory = RunDirectory::open(&results)?;
+//! let drawn = run::redraw(&directory, &AdapterChoice::Best, &["output.plot.width=1600".to_owned()])?;
+//! assert!(drawn.contains(&"energies.png"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -74,9 +74,13 @@ pub fn unknown_builtin(name: &str) -> SceneError {
 /// assert_eq!((scene.seed, scene.output.energies.every), (7, 20));
 ///
 /// let slips = ["time.stepps=3", "temperature=-1"].map(str::to_owned);
-/// let Err(SceneError::Invalid { problems, .. }) = scene::parse("soft", text, &slips) else { panic!("two mistakes") };
-/// assert_eq!(problems[0].suggestion.as_deref(), Some("steps"));
-/// assert_eq!(problems[1].to_string(), "temperature: found -1; accepted: a number, zero or positive");
+/// match scene::parse("soft", text, &slips) {
+///     Err(SceneError::Invalid { problems, .. }) => {
+///         assert_eq!(problems[0].suggestion.as_deref(), Some("steps"));
+///         assert_eq!(problems[1].to_string(), "temperature: found -1; accepted: a number, zero or positive");
+///     }
+///     other => unreachable!("two mistakes went unnoticed: {other:?}"),
+/// }
 /// # Ok::<(), SceneError>(())
 /// ```
 ///

@@ -10,20 +10,21 @@
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
-//! use mesoscope::sweep::{Look, Sweep, SweepRun};
+//! use mesoscope::sweep::{self, Look, Sweep, SweepRun};
 //!
 //! # let directory = tempfile::tempdir()?;
 //! # let results = directory.path().join("frictions");
 //! let small = ["space.box=[3,3,3]", "time.equilibration=0", "time.steps=20", "output={}"].map(str::to_owned);
 //! let vary = ["interactions.0.friction=1,4.5".to_owned()];
-//! let sweep = Sweep::load("dpd-fluid", &small, &vary, &[])?;
+//! let asked = Sweep::load("dpd-fluid", &small, &vary, &[])?;
 //! let look = Look { quantities: vec!["temperature".to_owned()], ..Look::default() };
-//! let run = SweepRun::start(sweep, &results, look, false);
+//! let run = SweepRun::start(asked, &results, look, false);
 //! let outcome = run.execute(&AdapterChoice::Best, None, &mut |_| {})?;
 //! for variant in &outcome.summary.variants {
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
 //! }
 //! assert_eq!(outcome.files, ["sweep.csv", "sweep.json", "sweep-temperature.png"]);
+//! assert_eq!(sweep::redraw(&results, &AdapterChoice::Best, &["output.plot.width=1600".to_owned()])?, ["sweep-temperature.png"]);
 //! assert!(outcome.failures.is_empty() && results.join("friction=4.5/run.json").exists());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

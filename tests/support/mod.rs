@@ -159,6 +159,26 @@ pub fn deviate(seed: u64, counters: [u32; 2]) -> f64 {
     mesoscope::noise::gaussian(mesoscope::noise::words(scene::Generator::Threefry2x32, key, counters))
 }
 
+/// That the predicted momenta of two implementations are the same, but for some whose shift, kept in few bits, lies just
+/// between two of them.
+pub fn predictions_agree(found: &State, expected: &State) {
+    let shifts = |state: &State| -> Vec<[i64; 3]> {
+        let pairs = state.predicted.iter().zip(&state.momenta);
+        pairs
+            .map(|(seen, momentum)| std::array::from_fn(|axis| i64::from(seen[axis]) - i64::from(momentum[axis])))
+            .collect()
+    };
+    let (found, expected) = (shifts(found), shifts(expected));
+    assert_eq!(found.len(), expected.len());
+    for (particle, (a, b)) in found.iter().zip(&expected).enumerate() {
+        let largest = b.iter().map(|units| units.abs()).max().unwrap();
+        let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs()).max().unwrap();
+        assert!(difference <= largest / 15 + 100, "particle {particle}: shifts {a:?} and {b:?}");
+    }
+    let differing = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
+    assert!(differing * 20 <= found.len(), "{differing} of {} shifts differ", found.len());
+}
+
 /// The largest difference of any momentum or position, in integer units.
 pub fn largest_difference(a: &State, b: &State) -> (i64, i64) {
     assert_eq!(a.len(), b.len());

@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::model::{Model, PairForce};
 use crate::noise::{self, stream};
+use crate::plan::layout::PARTICLE;
 use crate::plan::prefix_sum::PrefixSum;
 use crate::plan::{Kernel, Options, folded};
 use std::f64::consts::PI;
@@ -148,9 +149,8 @@ impl Builder<'_> {
 
     /// Buffers of particles in order of cells.
     pub(super) fn ordering_buffers(&mut self) {
-        let particle = if self.predicted() { 48 } else { 32 };
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
-        self.plan.add_buffer("sorted", "particles in order of cells, while the list is made", particle * particles);
+        self.plan.add_buffer("sorted", "particles in order of cells, while the list is made", PARTICLE * particles);
         self.plan.add_buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
         self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
         self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * particles);

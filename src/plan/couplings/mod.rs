@@ -13,6 +13,7 @@ mod motion;
 mod pairs;
 mod tethers;
 
+use super::layout::PARTICLE;
 use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, pair};
 use crate::model::{BathStep, Model, PairForce};
 use crate::noise::stream;
@@ -258,11 +259,10 @@ impl Builder<'_> {
     }
 
     fn buffers(&mut self) {
-        let particle = if self.predicted() { 48 } else { 32 };
         self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
-        self.plan.add_buffer("particles", "particles, in the order of the last list", particle * self.particles);
+        self.plan.add_buffer("particles", "particles, in the order of the last list", PARTICLE * self.particles);
         self.plan.add_buffer("kicks", "impulses of half a step", 16 * self.particles);
-        self.plan.add_buffer("reported", "particles of the last report by number", 32 * self.particles);
+        self.plan.add_buffer("reported", "particles of the last report by number", PARTICLE * self.particles);
         if !self.single() {
             let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
             let purpose = "coefficients of each pair of species, then of each species";

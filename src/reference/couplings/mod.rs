@@ -29,6 +29,7 @@ mod tethers;
 use super::{MOST_DRIFT, Unstable, add, narrow, widen};
 use crate::measure::Observables;
 use crate::model::Model;
+use crate::prediction;
 use crate::scene::Integrator;
 use crate::state::State;
 use bath::BathSums;
@@ -109,12 +110,7 @@ impl CouplingsReference {
         if let Integrator::GrootWarren { lambda } = self.model.integrator
             && lambda != 0.5
         {
-            for (momentum, kick) in momenta.iter_mut().zip(&opening) {
-                for axis in 0..3 {
-                    momentum[axis] += ((2.0 * lambda - 1.0) * kick[axis] as f64).round_ties_even() as i64;
-                }
-            }
-            predicted = narrow(&momenta, step)?;
+            predicted = prediction::predicted(&advanced, &opening, lambda);
         }
         let drifts = motion::drifts(&self.model, &self.masses, &advanced);
         let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
