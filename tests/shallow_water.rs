@@ -201,18 +201,13 @@ fn a_material_loop_keeps_its_circulation_under_noise() {
     for (name, change) in change_of_circulation(&with_loop(16384, &["temperature=4e-4", &slow]), 40) {
         assert!(change < 1e-5, "{name}: {change}");
     }
-    // Stronger noise folds the loop; once its points are further apart than nodes, at t = 2, it is no curve any more.
+    // Stronger noise folds the loop: by t = 2 its points are one and a half nodes apart, and it is no curve any more.
     let bath = memory("cotter-reich", 1.0);
-    for (name, change) in change_of_circulation(&with_loop(16384, &["temperature=4e-4", &bath]), 25) {
+    for (name, change) in change_of_circulation(&with_loop(16384, &["temperature=4e-4", &bath]), 35) {
         assert!(change < 1e-5, "{name}: {change}");
     }
-}
-
-#[test]
-#[ignore = "minutes"]
-fn a_material_loop_of_many_points_keeps_its_circulation_under_strong_noise() {
-    let bath = memory("cotter-reich", 1.0);
-    for (name, change) in change_of_circulation(&with_loop(131_072, &["temperature=4e-4", &bath]), 40) {
+    // With four times as many they are half a node apart.
+    for (name, change) in change_of_circulation(&with_loop(65536, &["temperature=4e-4", &bath]), 40) {
         assert!(change < 1e-5, "{name}: {change}");
     }
 }
