@@ -45,4 +45,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         }
         if (first + lane < row_last) { pass_end(row, index, me, sums); }
     }
+    pass_finish(group, lane);
 }

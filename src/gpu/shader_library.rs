@@ -224,6 +224,7 @@ library![
     "common/random_off",
     "common/random_on",
     "common/reduce",
+    "common/reduce_of_eight",
     "common/relaxation",
     "common/report_bins",
     "common/report_energy",

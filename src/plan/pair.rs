@@ -311,21 +311,18 @@ impl Builder<'_> {
         self.plan.operations_per_particle = self.operations();
     }
 
-    /// How the pairs are visited where speed is not what counts.
-    fn portable(&self) -> Traversal {
-        if self.traversal == Traversal::Alone { Traversal::Alone } else { Traversal::Rows }
+    /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
+    fn observation(&mut self, name: &'static str, pass: &[&'static str]) -> usize {
+        let reduce = if self.traversal == Traversal::Clusters { "common/reduce_of_eight" } else { "common/reduce" };
+        let modules = [&["common/sum64", reduce, "common/observation"], pass].concat();
+        self.traversal(name, self.traversal, Masks::Unkept, &modules)
     }
 
     /// One pass a step. Returns the number of workgroups of the report.
     fn leapfrog_step(&mut self, forces: &'static str) -> u32 {
         let pass = ["common/advance", "passes/leapfrog"];
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
-        let report = self.traversal(
-            "report",
-            self.portable(),
-            Masks::Unkept,
-            &["common/sum64", "common/reduce", "common/observation", forces, "passes/observe_leapfrog"],
-        );
+        let report = self.observation("report", &[forces, "passes/observe_leapfrog"]);
         self.plan.advance = vec![advance];
         self.plan.report = vec![report];
         self.plan.finish_report = vec![advance];
@@ -335,7 +332,6 @@ impl Builder<'_> {
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
-        let observe = ["common/sum64", "common/reduce", "common/observation"];
         let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
         let relax_pass = ["common/advance", "passes/relax"];
@@ -343,18 +339,8 @@ impl Builder<'_> {
         self.plan.kernels[relax].constants.push(("HALVES", 2.0));
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &relax_pass);
         self.plan.kernels[relax_to_report].constants.push(("HALVES", 1.0));
-        let motion = self.traversal(
-            "report_motion",
-            Traversal::Rows,
-            Masks::Unkept,
-            &[&observe[..], &[forces, momenta, "passes/observe_motion"]].concat(),
-        );
-        let configuration = self.traversal(
-            "report_configuration",
-            Traversal::Rows,
-            Masks::Unkept,
-            &[&observe[..], &["passes/observe_configuration"]].concat(),
-        );
+        let motion = self.observation("report_motion", &[forces, momenta, "passes/observe_motion"]);
+        let configuration = self.observation("report_configuration", &["passes/observe_configuration"]);
         let coefficients = self.coefficients();
         let rest = self.kernel(
             "drift_rest",

@@ -1,0 +1,10 @@
+// Sums over the eight lanes of a workgroup that is a subgroup, one row of QUANTITIES sums a workgroup.
+@group(0) @binding(9) var<storage, read_write> partial_sums: array<vec2<u32>>;
+
+fn reduce_quantity(group: u32, lane: u32, quantity: u32, value: Sum64) {
+    var sum = value;
+    for (var distance = 4u; distance > 0u; distance >>= 1u) {
+        sum = sum64_add(sum, subgroupShuffle(sum, lane ^ distance));
+    }
+    if (lane == 0u) { partial_sums[group * QUANTITIES + quantity] = sum; }
+}
