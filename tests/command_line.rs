@@ -202,7 +202,12 @@ fn an_explosion_is_reported_with_its_step() {
     let message = fails(
         &["run", &scene, "--out", &out],
         4,
-        &["became unstable at step ", "try a time step of 0.2 or less", "checkpoint, of step 0", "warning: time.step"],
+        &[
+            "became unstable at step ",
+            "try a time step of 0.001 or less",
+            "checkpoint, of step 0",
+            "warning: time.step",
+        ],
     );
     assert!(message.contains(place.path("out").join(files::CHECKPOINT).to_str().unwrap()), "{message}");
     let kept = state(&place.path("out"));
@@ -210,6 +215,7 @@ fn an_explosion_is_reported_with_its_step() {
     // What was measured until then is a whole table.
     read_table(&place.path("out").join(files::ENERGIES)).unwrap();
     assert!(!place.path("out").join(files::SUMMARY).exists());
+    fails(&["plot", &out], 5, &["run.json", "no run has been finished there", "mesoscope resume"]);
     let found = |message: &str| message.lines().find(|line| line.contains("became unstable")).map(str::to_owned);
     assert_eq!(found(&fails(&["resume", &out], 4, &[])), found(&message));
 }
@@ -252,19 +258,32 @@ fn files_that_cannot_be_written_or_read() {
     fails(&["run", &scene, "--out", &below_a_file], 5, &["cannot create the directory", "scene.json"]);
     fails(&["resume", &place.argument("nowhere")], 5, &["checkpoint.bin"]);
     fails(&["plot", &place.argument("nowhere")], 5, &["nowhere"]);
+    fails(&["resume", &place.argument("nowhere")], 5, &["hint: give the directory that `mesoscope run` wrote"]);
     place.run("out", &["--quiet"]);
     let path = place.path("out").join(files::CHECKPOINT);
     let whole = bytes(&path);
     let mut damaged = whole.clone();
     damaged[whole.len() / 2] ^= 1;
     fs::write(&path, &damaged).unwrap();
-    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["damaged"]);
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["damaged", "hint: it cannot be repaired"]);
     fs::write(&path, &whole[..whole.len() / 2]).unwrap();
     fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["cut short"]);
     fs::write(&path, "{}").unwrap();
     fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["not a checkpoint"]);
     fs::write(&path, &whole).unwrap();
-    fs::remove_file(place.path("out").join(files::ENERGIES)).unwrap();
+    // A table that lost a row, or its end, is left as it is.
+    let energies = place.path("out").join(files::ENERGIES);
+    let table = fs::read_to_string(&energies).unwrap();
+    let lines: Vec<&str> = table.split_inclusive('\n').collect();
+    let without = [&lines[..2], &lines[3..]].concat().concat();
+    for (left, missing) in [(without.as_str(), lines[2]), (&table[..lines[..3].concat().len() - 2], lines[2])] {
+        fs::write(&energies, left).unwrap();
+        let step = missing.split(',').next().unwrap();
+        let told = format!("the row of step {step} is missing");
+        fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv", &told, "--force"]);
+        assert_eq!(fs::read_to_string(&energies).unwrap(), left);
+    }
+    fs::remove_file(energies).unwrap();
     fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv"]);
 }
 
@@ -275,6 +294,21 @@ fn wrong_scenes_run_nothing() {
     fails(&["run", &scene, "--out", &out, "--set", "time.step=0"], 2, &["time.step", "0"]);
     fails(&["run", &scene, "--out", &out, "--set", "fricton=1"], 2, &["fricton"]);
     fails(&["run", "no-such-scene", "--out", &out], 2, &["no-such-scene", "dpd-fluid"]);
+    // Numbers that single precision cannot hold.
+    for (path, value) in [
+        ("time.step", "1e300"),
+        ("time.step", "1e-300"),
+        ("temperature", "1e300"),
+        ("particles[0].mass", "1e300"),
+        ("particles[0].mass", "1e-300"),
+        ("interactions[0].repulsion", "1e300"),
+        ("interactions[0].friction", "1e300"),
+    ] {
+        let set = format!("{}={value}", path.replace('[', ".").replace(']', ""));
+        let told = format!("{path}: found {value}; accepted: a number nearer to the others");
+        fails(&["run", &scene, "--out", &out, "--set", &set], 2, &[&told, "choose other units"]);
+        fails(&["check", &scene, "--set", &set], 2, &[&told]);
+    }
     assert!(!place.path("out").exists());
 }
 

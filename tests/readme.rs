@@ -40,6 +40,12 @@ fn the_commands_run() {
                 arguments.extend(["--set", "time.equilibration=0", "--set", "output.diffusion.window=4"]);
             }
         }
+        if arguments.first() == Some(&"resume") {
+            let steps = arguments.iter().position(|argument| *argument == "--steps").expect("steps to go on to") + 1;
+            let shipped: u64 = mesoscope::scene::load("dpd-fluid", &[]).unwrap().time.steps;
+            assert!(arguments[steps].parse::<u64>().unwrap() > shipped, "nothing would be left to do");
+            arguments[steps] = "60";
+        }
         mesoscope(directory.path(), &arguments);
     }
     for file in [

@@ -49,6 +49,34 @@ fn array(path: &Path) -> (String, Vec<f64>) {
     (header, values.collect())
 }
 
+/// Without a rotation, from rest: the circulation is 0 and stays so.
+#[test]
+fn circulations_of_nothing() {
+    let place = place().with("/interactions/0/rotation", json!(0)).with(
+        "/particles",
+        json!([
+            {"species": "water", "count": 1024, "placement": {"type": "lattice"}, "velocities": {"type": "rest"}},
+            {"species": "inner", "count": 200, "tracer": true, "velocities": {"type": "rest"},
+             "placement": {"type": "circle", "center": [3, 3], "radius": 0.5}},
+            {"species": "outer", "count": 2, "tracer": true, "velocities": {"type": "rest"},
+             "placement": {"type": "circle", "center": [3, 3], "radius": 0.1}},
+        ]),
+    );
+    let said = place.run("out", &[]);
+    assert!(said.contains("circulation of `inner`  0.0000, changes by up to"), "{said}");
+    assert!(!said.contains("circulation of `outer`"), "{said}");
+    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    let circulation = &summary.results["circulation"];
+    assert_eq!(circulation["inner"]["initial"], 0.0);
+    assert!(circulation["inner"]["largest_relative_change"].is_null(), "{circulation}");
+    let change = circulation["inner"]["largest_change"].as_f64().unwrap();
+    assert!(change < 1e-5, "{change}");
+    // Two points are no loop.
+    let nothing =
+        json!({"initial": null, "resolved_until": null, "largest_change": null, "largest_relative_change": null});
+    assert_eq!(circulation["outer"], nothing);
+}
+
 #[test]
 fn a_run_leaves_everything_the_scene_asks_for() {
     let place = place().with(
@@ -110,6 +138,9 @@ fn a_run_leaves_everything_the_scene_asks_for() {
         assert!(values.iter().all(|value| (value / values[0] - 1.0).abs() < 1e-3), "{name}: {values:?}");
     }
     let summary = Summary::load(&out.join(files::SUMMARY)).unwrap();
+    let inner = circulation.column("inner").unwrap();
+    let change = inner.iter().map(|value| (value - inner[0]).abs()).fold(0.0, f64::max);
+    assert_eq!(summary.results["circulation"]["inner"]["largest_change"], change);
     assert_eq!((summary.steps, summary.particles), (40, 1629));
     assert!(summary.results["circulation"]["outer"]["initial"].is_number(), "{:?}", summary.results);
     assert!(summary.conserved_exactly.iter().any(|entry| entry.contains("mass on the mesh")));

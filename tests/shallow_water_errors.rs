@@ -18,7 +18,7 @@ fn base() -> Value {
         "temperature": 0,
         "particles": [
             {"species": "water", "count": 1024, "velocities": {"type": "geostrophic"}},
-            {"species": "loop", "count": 16, "tracer": true,
+            {"species": "loop", "count": 32, "tracer": true,
              "placement": {"type": "circle", "center": [3, 3], "radius": 1}},
         ],
         "interactions": [{
@@ -241,6 +241,13 @@ fn loops_of_the_same_name() {
          tracers",
     );
     accepted(&[&particles("b")]);
+    refused(
+        &[&particles("time")],
+        "particles[2].species: found \"time\"; accepted: another name: `time` heads the first column of the table of circulations",
+    );
+    // Water may be called as it likes.
+    let loop_called_water = particles("b").replace("\"a\"", "\"water\"");
+    accepted(&[&loop_called_water]);
 }
 
 // ---- What does not go together
@@ -352,18 +359,40 @@ fn warned(overrides: &[&str]) -> String {
 }
 
 #[test]
+fn a_loop_of_too_few_points() {
+    let of = |count: u32| {
+        format!(
+            r#"particles=[{{"species":"water","count":99}},{{"species":"a","count":{count},"tracer":true,
+                "placement":{{"type":"circle","center":[1,1],"radius":0.5}}}}]"#
+        )
+    };
+    assert!(warnings(&[&of(100)]).is_empty());
+    for count in [1, 2, 3] {
+        let warning = warned(&[&of(count)]);
+        assert!(
+            warning.starts_with(&format!("particles[1].count: the {count} points of the loop `a` are ")),
+            "{warning}"
+        );
+        let advised: u32 = warning.rsplit(' ').next().unwrap().parse().unwrap();
+        assert!(advised >= 3 && warnings(&[&of(advised)]).is_empty(), "{warning}");
+    }
+}
+
+#[test]
 fn a_time_step_beyond_the_limit() {
-    // p grows with dt².
-    let share = Model::new(&accepted(&["time.step=1"])).shallow_water.unwrap().stability([6.0, 6.0], 1.0);
+    // Without the turn of `gyro` p grows with dt².
+    let rotate = r#"integrator={"type":"rotate"}"#;
+    let model = Model::new(&accepted(&[rotate, "time.step=1"]));
+    let share = model.shallow_water.unwrap().stability(&model.integrator, [6.0, 6.0], 1.0);
     let step = |p: f64| format!("time.step={}", (p / share).sqrt());
-    assert!(warnings(&[&step(0.69)]).is_empty());
-    let near = warned(&[&step(0.8)]);
+    assert!(warnings(&[rotate, &step(0.69)]).is_empty());
+    let near = warned(&[rotate, &step(0.8)]);
     assert!(near.starts_with("time.step: the stiffest wave on the mesh takes p = 0.800 "), "{near}");
     assert!(
         near.contains("of the limit of stability, where p < 1 is stable and up to 0.7 is clean: the limit is near"),
         "{near}"
     );
-    let beyond = warned(&[&step(1.234)]);
+    let beyond = warned(&[rotate, &step(1.234)]);
     assert!(
         beyond.contains("takes p = 1.234 ") && beyond.contains("the run will become unstable; a step of "),
         "{beyond}"

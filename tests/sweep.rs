@@ -229,6 +229,22 @@ fn nothing_is_overwritten_unless_asked() {
 }
 
 #[test]
+fn the_run_of_another_scene_is_not_taken_for_a_variant() {
+    let place = place();
+    succeeds(&borrowed(&sweep_into(&place, "out", &["--vary", "seed=1,2", "--quiet"])));
+    let second = place.path("out").join("seed=2");
+    fs::remove_dir_all(&second).unwrap();
+    let foreign = place.argument("out/seed=2");
+    succeeds(&["run", &place.scene(), "--set", "seed=7", "--out", &foreign, "--quiet"]);
+    let before = bytes(&second.join(files::ENERGIES));
+    fails(&["sweep", "--resume", &place.argument("out")], 5, &["seed=2", "in the way"]);
+    assert_eq!(bytes(&second.join(files::ENERGIES)), before);
+    assert_eq!(states(&summary(&place, "out")), [VariantState::Finished, VariantState::Failed]);
+    fs::remove_dir_all(&second).unwrap();
+    succeeds(&["sweep", "--resume", &place.argument("out")]);
+}
+
+#[test]
 fn an_interrupted_sweep_can_be_finished() {
     let place = place();
     let vary = ["--vary", "seed=1,2,3", "--quiet"];

@@ -9,7 +9,7 @@ use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, FieldQuantity, Integrator, Interaction,
-    LaplacianSymbol, MeshBath, Scene, SmoothingSolver, VoronoiForm,
+    LaplacianSymbol, MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
 };
 
 use super::table::{aligned, bytes, grouped};
@@ -38,6 +38,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
     let portable = planned(Hardware::default());
+    plan::check_precision(&scene, &portable)?;
     let requirements =
         Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
     let (hardware, adapter) = match Gpu::open(&AdapterChoice::parse(arguments.adapter.as_deref()), requirements) {
@@ -235,8 +236,11 @@ fn mesh(
         }
         None => {}
     }
-    let share = water.stability(lengths, scene.time.step);
-    rows.push(("stability", format!("the stiffest wave takes p = {share:.3} of the limit, where p < 1 is stable")));
+    let share = water.stability(&scene.integrator, lengths, scene.time.step);
+    rows.push((
+        "stability",
+        format!("the stiffest wave takes p = {} of the limit, where p < 1 is stable", short(share)),
+    ));
     rows
 }
 
@@ -373,6 +377,7 @@ fn outputs(scene: &Scene, model: &Model) -> String {
     let output = &scene.output;
     let mut rows = vec![
         (files::ENERGIES.to_owned(), format!("a row {}", interval(0, output.energies.every))),
+        (format!("{}, {}", files::ENERGIES_PLOT, files::SUMMARY), "at the end".to_owned()),
         (files::CHECKPOINT.to_owned(), format!("{} and at the end", interval(0, output.checkpoint.every))),
     ];
     if let Some(water) = &model.shallow_water {
@@ -392,11 +397,18 @@ fn outputs(scene: &Scene, model: &Model) -> String {
                 rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));
             }
         }
-    } else if output.snapshot.every > 0 {
-        rows.push(("snapshot-….png".to_owned(), interval(0, output.snapshot.every)));
+    } else if model.units.dimension > 1 {
+        rows.push((files::SNAPSHOT.to_owned(), "at the end".to_owned()));
+        if output.snapshot.every > 0 {
+            rows.push(("snapshot-….png".to_owned(), interval(0, output.snapshot.every)));
+        }
     }
     if let Some(trajectory) = &output.trajectory {
-        rows.push(("trajectory".to_owned(), format!("a frame {}", interval(0, trajectory.every))));
+        let name = match trajectory.format {
+            TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
+            TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
+        };
+        rows.push((name.to_owned(), format!("a frame {}", interval(0, trajectory.every))));
     }
     rows.extend(analyses(scene));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use mesoscope::gpu::GpuError;
-use mesoscope::output::OutputError;
+use mesoscope::output::checkpoint::CheckpointError;
+use mesoscope::output::{OutputError, files};
 use mesoscope::plot::PlotError;
 use mesoscope::run::RunError;
 use mesoscope::scene::SceneError;
@@ -88,6 +89,14 @@ impl From<RunError> for Failure {
         match error {
             RunError::Gpu(error) => error.into(),
             RunError::Scene(error) => error.into(),
+            RunError::Checkpoint(CheckpointError::Output(_)) => Self::input_output(format!(
+                "{error}\nhint: give the directory that `mesoscope run` wrote, with its {}",
+                files::CHECKPOINT
+            )),
+            RunError::Checkpoint(CheckpointError::Version { .. }) => Self::input_output(error.to_string()),
+            RunError::Checkpoint(_) => Self::input_output(format!(
+                "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene anew with --force"
+            )),
             error => Self::of_run(&error, error.to_string()),
         }
     }

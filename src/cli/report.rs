@@ -216,8 +216,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     }
     for (name, circulation) in summary.results.get("circulation").and_then(Value::as_object).into_iter().flatten() {
         let Some(initial) = circulation["initial"].as_f64() else { continue };
-        let change = circulation["largest_relative_change"].as_f64();
-        let change = change.map_or_else(String::new, |change| format!(", changes by up to {change:.1e} of it"));
+        let change = match [&circulation["largest_relative_change"], &circulation["largest_change"]].map(Value::as_f64)
+        {
+            [Some(relative), _] => format!(", changes by up to {relative:.1e} of it"),
+            [None, Some(change)] => format!(", changes by up to {change:.1e}"),
+            [None, None] => String::new(),
+        };
         rows.push(vec![format!("circulation of `{name}`"), format!("{initial:.4}{change}")]);
     }
     if summary.particle_steps_per_second > 0.0 {

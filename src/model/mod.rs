@@ -9,6 +9,7 @@ mod dpd;
 mod harmonic_chain;
 mod position;
 mod shallow_water;
+mod time_scales;
 mod topology;
 mod voronoi;
 
@@ -22,6 +23,7 @@ pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use position::PositionBath;
 pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
+pub(crate) use time_scales::{FREQUENCY_LIMIT, FRICTION_LIMIT};
 pub use topology::ChainGroup;
 pub use voronoi::{NETWORK_VISCOSITY, Voronoi};
 

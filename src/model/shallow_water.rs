@@ -2,7 +2,9 @@
 
 use super::bath::BathStep;
 use crate::scene::surface::Surface;
-use crate::scene::{BathRate, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature};
+use crate::scene::{
+    BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature,
+};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -131,7 +133,8 @@ impl ShallowWater {
     ///
     /// Kicks by the smoothed depth and by the bath are oscillators of one mode of the mesh each, with (W + B)/4 < 1 as
     /// the limit. Their stiffness is the largest eigenvalue of ∫∇ψ·∇ψ over the smoothing, and over the coupling of the
-    /// bath.
+    /// bath. With rotation the drift of [`Integrator::Gyro`] turns a particle by θ = f₀ dt, which leaves less room: the limit
+    /// is then (W + B)/4 < (θ/2) cot(θ/2) for θ < π, from the trace 1 + 2 cos θ - (W + B) sin(θ)/θ of one step.
     ///
     /// ```
     /// use mesoscope::{model::Model, scene};
@@ -139,14 +142,31 @@ impl ShallowWater {
     /// let model = Model::new(&scene::load("shallow-water", &[])?);
     /// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
     /// let [x, y, _] = model.units.lengths;
-    /// let share = water.stability([x, y], model.time_step);
+    /// let share = water.stability(&model.integrator, [x, y], model.time_step);
     /// assert!(share > 0.0 && share < 1.0);
     /// // Kicks grow with the square of the step.
-    /// assert!((water.stability([x, y], 2.0 * model.time_step) / share - 4.0).abs() < 0.1);
+    /// assert!((water.stability(&model.integrator, [x, y], 2.0 * model.time_step) / share - 4.0).abs() < 0.1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn stability(&self, lengths: [f64; 2], time_step: f64) -> f64 {
+    pub fn stability(&self, integrator: &Integrator, lengths: [f64; 2], time_step: f64) -> f64 {
+        self.kicks(lengths, time_step) / self.room(integrator, time_step)
+    }
+
+    /// The part of (W + B)/4 that is left to a stable step by the drift before it.
+    fn room(&self, integrator: &Integrator, time_step: f64) -> f64 {
+        let half_turn = 0.5 * (self.rotation * time_step).abs();
+        if *integrator != (Integrator::Gyro {}) || half_turn < 1e-6 {
+            return 1.0;
+        }
+        // Where sin θ < 0 kicks push the other way, and the other bound of the trace is the one that counts. The room that this
+        // leaves to steps of more than half a turn is not counted on.
+        let tangent = half_turn.tan();
+        (half_turn * if tangent > 0.0 { 1.0 / tangent } else { -tangent }).min(1.0)
+    }
+
+    /// (W + B)/4 of the stiffest mode.
+    fn kicks(&self, lengths: [f64; 2], time_step: f64) -> f64 {
         const SAMPLES: u32 = 64;
         let spacing = [lengths[0] / f64::from(self.mesh[0]), lengths[1] / f64::from(self.mesh[1])];
         let coupling = self.bath.as_ref().map_or(0.0, |bath| bath.coupling);
@@ -168,10 +188,24 @@ impl ShallowWater {
 
     /// A time step that takes no more than a clean share of the limit of stability, from one that takes more.
     #[must_use]
-    pub fn advisable_step(&self, lengths: [f64; 2], time_step: f64) -> f64 {
-        let ratio = CLEAN_SHARE / self.stability(lengths, time_step);
-        // Without memory or with little, the coupling of the bath itself depends on the step: p is between dt and dt².
-        time_step * if self.bath.is_some() { ratio } else { ratio.sqrt() }
+    pub fn advisable_step(&self, integrator: &Integrator, lengths: [f64; 2], time_step: f64) -> f64 {
+        let kicks = self.kicks(lengths, time_step);
+        // Without memory or with little, the coupling of the bath itself depends on the step: kicks are between dt and dt².
+        let order = if self.bath.is_some() { 1 } else { 2 };
+        let clean = |share: f64| {
+            let step = share * time_step;
+            (self.rotation * step).abs() < PI && kicks * share.powi(order) <= CLEAN_SHARE * self.room(integrator, step)
+        };
+        let mut share = 1.0;
+        while !clean(share) && share > f64::MIN_POSITIVE {
+            share *= 0.5;
+        }
+        let mut above = 2.0 * share;
+        for _ in 0..40 {
+            let middle = 0.5 * (share + above);
+            if clean(middle) { share = middle } else { above = middle }
+        }
+        share * time_step
     }
 }
 
@@ -233,7 +267,7 @@ mod tests {
             tracers: Vec::new(),
         };
         // 4p/dt² in units of c₀²/Δx², without smoothing.
-        let stiffness = 4.0 * water.stability([64.0, 64.0], 1.0);
+        let stiffness = 4.0 * water.stability(&Integrator::Gyro {}, [64.0, 64.0], 1.0);
         assert!((stiffness - 1.1).abs() < 0.05, "{stiffness}");
     }
 }

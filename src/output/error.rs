@@ -51,6 +51,20 @@ pub enum OutputError {
         /// What is wrong with it.
         problem: String,
     },
+    /// A table to continue lacks a row that was written before.
+    #[error("`{}` cannot be continued: the row of step {step} is missing; restore the file, or run the scene anew with --force", path.display())]
+    MissingRow {
+        /// The table.
+        path: PathBuf,
+        /// The step of the first row that is missing.
+        step: u64,
+    },
+    /// No run has been finished in the directory.
+    #[error("`{}` is missing: no run has been finished there; `mesoscope resume` goes on from the last checkpoint", path.display())]
+    Unfinished {
+        /// The summary that a finished run leaves.
+        path: PathBuf,
+    },
     /// The file to continue has other columns than the run.
     #[error("`{}` cannot be continued: it has the columns `{found}` and this run writes `{expected}`", path.display())]
     Columns {

@@ -112,9 +112,12 @@ impl Summary {
     /// Reads the summary of an earlier run.
     ///
     /// # Errors
-    /// [`OutputError::Io`] when the file cannot be read, [`OutputError::Line`] where it is not a summary.
+    /// [`OutputError::Unfinished`] when there is none, [`OutputError::Io`] when it cannot be read, [`OutputError::Line`] where it is not a summary.
     pub fn load(path: &Path) -> Result<Self, OutputError> {
-        let text = std::fs::read(path).map_err(OutputError::io("read", path))?;
+        let text = std::fs::read(path).map_err(|source| match source.kind() {
+            std::io::ErrorKind::NotFound => OutputError::Unfinished { path: path.to_path_buf() },
+            _ => OutputError::io("read", path)(source),
+        })?;
         serde_json::from_slice(&text).map_err(|error| OutputError::Line {
             path: path.to_path_buf(),
             line: error.line() as u64,

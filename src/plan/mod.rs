@@ -5,6 +5,7 @@ mod couplings;
 mod grid;
 mod layout;
 mod pair;
+mod precision;
 mod prefix_sum;
 mod recording;
 mod shallow_water;
@@ -13,6 +14,7 @@ mod voronoi;
 
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
+pub use precision::check_precision;
 
 use crate::model::Model;
 use crate::noise;
@@ -327,7 +329,7 @@ impl Plan {
             seed_key: noise::seed_key(model.seed, stream),
             time_step: model.time_step,
             force_unit: 0.0,
-            suggested_step: 0.25 * model.time_step,
+            suggested_step: (0.25 * model.time_step).min(model.pair_step()),
             kernels: Vec::new(),
             constants: Vec::new(),
             buffers: Vec::new(),

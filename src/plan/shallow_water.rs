@@ -101,7 +101,10 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let cells = [water.mesh[0], water.mesh[1], 1];
     let plan = Plan::new(model, cells, layout, quanta(model, water), noise::stream::MESH);
-    Plan { suggested_step: water.advisable_step(lengths, model.time_step).min(plan.suggested_step), ..plan }
+    Plan {
+        suggested_step: water.advisable_step(&model.integrator, lengths, model.time_step).min(plan.suggested_step),
+        ..plan
+    }
 }
 
 /// Units of the sums: small against the 24 bits of a single term, and large enough for 64 bits to hold all of them. The

@@ -119,16 +119,24 @@ pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option
     chart
 }
 
-/// Circulations of material loops over time, relative to their first values.
+/// Changes of the circulations of material loops over time, relative to their first values unless one of these is 0.
 #[must_use]
 pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
-    let mut panel = Panel::new("Time (time units)", "Relative change of the circulation").with_reference("none", 0.0);
-    for column in table.columns.iter().filter(|column| *column != "time") {
-        let points = table.points(column, 1.0).unwrap_or_default();
-        let first = points.first().map_or(f64::NAN, |point| point[1]);
-        panel
-            .series
-            .push(Series::line(column, points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect()));
+    let loops: Vec<(&String, Vec<[f64; 2]>)> = table
+        .columns
+        .iter()
+        .filter(|column| *column != "time")
+        .map(|column| (column, table.points(column, 1.0).unwrap_or_default()))
+        .collect();
+    let first = |points: &[[f64; 2]]| points.first().map_or(f64::NAN, |point| point[1]);
+    let relative = loops.iter().all(|(_, points)| first(points) != 0.0);
+    let label = if relative { "Relative change of the circulation" } else { "Change of the circulation" };
+    let mut panel = Panel::new("Time (time units)", label).with_reference("none", 0.0);
+    for (name, points) in &loops {
+        let first = first(points);
+        let scale = if relative { first } else { 1.0 };
+        let changes = points.iter().map(|[time, value]| [*time, (value - first) / scale]).collect();
+        panel.series.push(Series::line(name, changes));
     }
     Chart { title: title.to_owned(), panels: vec![panel], ..Chart::default() }
 }

@@ -52,7 +52,7 @@ impl Circulations {
                 positions.push([x, y, 0]);
                 velocities.push([u as i32, v as i32, 0]);
             }
-            let resolved = largest_gap(&self.units, &positions) < self.spacing;
+            let resolved = positions.len() > 2 && largest_gap(&self.units, &positions) < self.spacing;
             row.push(if resolved {
                 circulation(&self.units, &positions, &velocities, self.rotation)
             } else {
@@ -68,15 +68,21 @@ impl Circulations {
     }
 
     /// First value of each loop, the time up to which its points are closer together than nodes, and the largest
-    /// relative change until then.
+    /// change until then, relative too unless the first value is 0; null where there is none.
     pub(super) fn result(&self) -> Value {
         let result = |(index, (name, _)): (usize, &(String, Range<usize>))| {
             let values = || self.rows.iter().map(move |row| row[index + 1]);
             let first = values().next().unwrap_or(f64::NAN);
             let resolved = || values().zip(&self.rows).take_while(|(value, _)| value.is_finite());
-            let change = resolved().map(|(value, _)| (value / first - 1.0).abs()).fold(0.0, f64::max);
+            let change = resolved().map(|(value, _)| (value - first).abs()).reduce(f64::max);
+            let relative = change.filter(|_| first != 0.0).map(|change| change / first.abs());
             let until = resolved().last().map(|(_, row)| row[0]);
-            let result = json!({ "initial": first, "resolved_until": until, "largest_relative_change": change });
+            let result = json!({
+                "initial": first,
+                "resolved_until": until,
+                "largest_change": change,
+                "largest_relative_change": relative,
+            });
             (name.clone(), result)
         };
         Value::Object(self.loops.iter().enumerate().map(result).collect::<Map<_, _>>())

@@ -4,7 +4,7 @@ use super::RunError;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
 use crate::model::{Model, Voronoi};
-use crate::output::{EnergiesFile, Summary, files, read_table};
+use crate::output::{EnergiesFile, OutputError, Summary, files, read_table};
 use crate::plot::EnergyTable;
 use crate::scene::{Integrator, Scene};
 use std::path::Path;
@@ -85,6 +85,15 @@ pub(super) struct EnergyRecorder {
     equilibration: u64,
 }
 
+/// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.
+fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputError> {
+    let text = std::fs::read_to_string(path).map_err(OutputError::io("continue", path))?;
+    let whole = text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n'));
+    let mut steps = whole.map_while(|line| line.split([',', '\n']).next()?.parse::<u64>().ok());
+    let mut wanted = (0..end).step_by(usize::try_from(every).unwrap_or(usize::MAX).max(1));
+    Ok(wanted.find(|step| steps.next() != Some(*step)))
+}
+
 impl EnergyRecorder {
     /// Begins the table at step 0, or continues it before `step` with what [`Self::section`] returned there.
     pub(super) fn open(
@@ -99,6 +108,9 @@ impl EnergyRecorder {
         let (file, rows) = if step == 0 {
             (EnergiesFile::create(path, &names)?, Vec::new())
         } else {
+            if let Some(step) = missing_row(path, step, scene.output.energies.every)? {
+                return Err(OutputError::MissingRow { path: path.to_path_buf(), step }.into());
+            }
             let file = EnergiesFile::resume(path, &names, step - 1)?;
             (file, read_table(path)?.rows)
         };

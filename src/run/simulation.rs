@@ -204,6 +204,7 @@ pub(super) fn open_adapter(
     options: Options,
 ) -> Result<Gpu, RunError> {
     let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
+    plan::check_precision(scene, &portable)?;
     let requirements =
         Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
     Ok(Gpu::open(choice, requirements)?)

@@ -104,6 +104,21 @@ pub enum SceneError {
         /// All mistakes, in the order of the scene.
         problems: Vec<Problem>,
     },
+    /// With the numbers of the scene a kernel would need one that single precision cannot hold.
+    #[error(
+        "{path}: found {number:e}; accepted: a number nearer to the others of the scene, for `{constant}` of the kernels would be \
+         {value:e}, and single precision holds 1e-38 to 3e38: choose other units"
+    )]
+    Precision {
+        /// The number of the scene that is furthest from one.
+        path: String,
+        /// What it is.
+        number: f64,
+        /// The constant that does not fit.
+        constant: String,
+        /// What it would be.
+        value: f64,
+    },
     /// The scene satisfies its schema and yet the program does not understand it: a defect of the program.
     #[error(
         "scene `{name}` satisfies the schema but cannot be read ({message}); this is a defect of mesoscope, please report it"

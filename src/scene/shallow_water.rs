@@ -86,7 +86,11 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut V
             problems.push(Problem::new(&path, found, "tracers after all other groups"));
         }
         let closed = group.tracer && matches!(group.placement, Placement::Circle { .. });
-        if let (true, Some(earlier)) = (closed, loops.insert(&group.species, index)) {
+        if closed && group.species == "time" {
+            let accepted = "another name: `time` heads the first column of the table of circulations";
+            problems.push(Problem::new(format!("{path}.species"), "found \"time\"", accepted));
+        }
+        if let Some(earlier) = closed.then(|| loops.insert(&group.species, index)).flatten() {
             let found = format!("found \"{}\", the name of the loop of particles[{earlier}]", group.species);
             problems.push(Problem::new(
                 format!("{path}.species"),

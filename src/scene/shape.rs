@@ -67,7 +67,8 @@ impl<'a> Walker<'a> {
         }
         // Whatever the value comes nearest to being is what its author meant.
         let mut fewest: Option<(Vec<Problem>, Value)> = None;
-        for branch in alternatives {
+        // But for a null, nobody means none by saying something.
+        for branch in alternatives.iter().filter(|branch| value.is_null() || branch["type"] != "null") {
             let mut attempt = Walker { root: self.root, problems: Vec::new() };
             let mut mended = value.clone();
             attempt.check(branch, &mut mended, path);
@@ -311,6 +312,7 @@ impl Range {
             (_, Some(above), None, None) => format!("{kind} greater than {above}"),
             (_, Some(above), Some(most), _) => format!("{kind} greater than {above}, at most {most}"),
             (_, _, Some(most), _) => format!("{kind} of at most {most}"),
+            (_, Some(above), _, Some(below)) => format!("{kind} above {above} and below {below}"),
             (_, _, _, Some(below)) => format!("{kind} below {below}"),
             (None, None, None, None) => kind.to_owned(),
         }
@@ -489,6 +491,32 @@ mod tests {
                 "mode: found \"exat\"; did you mean `exact`? accepted: \"fast\", \"exact\"",
                 "maybe.n: found 1.5; accepted: a whole number",
             ]
+        );
+    }
+
+    #[test]
+    fn every_mistake_in_an_optional_object_is_told() {
+        let schema = json!({"type": "object", "properties": {"maybe": {"anyOf": [
+            {"type": "object", "additionalProperties": false, "required": ["every"],
+                "properties": {"every": {"type": "integer", "minimum": 1}, "window": {"type": "integer", "minimum": 1}}},
+            {"type": "null"},
+        ]}}});
+        assert!(messages(&schema, json!({"maybe": null})).is_empty());
+        assert_eq!(
+            messages(&schema, json!({"maybe": {"every": 0, "window": 0}})),
+            [
+                "maybe.every: found 0; accepted: a whole number of at least 1",
+                "maybe.window: found 0; accepted: a whole number of at least 1",
+            ]
+        );
+        assert_eq!(
+            messages(&schema, json!({"maybe": {"evry": 5, "windw": 20}})).len(),
+            2,
+            "what a slip stands for is not missing too"
+        );
+        assert_eq!(
+            messages(&schema, json!({"maybe": {}})),
+            ["maybe.every: missing; accepted: a whole number of at least 1"]
         );
     }
 

@@ -1,19 +1,15 @@
 //! What is allowed but deserves a second look.
 
-use std::f64::consts::PI;
-
 use super::error::Warning;
 use super::{
-    ColouredNoiseInteraction, InitialMasses, Integrator, Interaction, NoiseProcess, Scene, Velocities, VoronoiForm,
-    VoronoiInteraction,
+    ColouredNoiseInteraction, InitialMasses, Integrator, Interaction, NoiseProcess, Placement, Scene, Velocities,
+    VoronoiForm, VoronoiInteraction,
 };
-use crate::model::{CLEAN_SHARE, Model, PairForce, ShallowWater, Species, Voronoi};
+use crate::model::{CLEAN_SHARE, FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, ShallowWater, Species, Voronoi};
+use std::f64::consts::PI;
 
-/// Friction that relaxes a velocity by more than this in one step is not resolved.
-const FRICTION_LIMIT: f64 = 0.25;
-
-/// A harmonic oscillator of frequency ω is stable in a Verlet scheme up to ω·dt = 2; half of it leaves some accuracy.
-const FREQUENCY_LIMIT: f64 = 1.0;
+/// Units of momentum that a thermal momentum or an impulse should have: it is rounded to a whole number of them.
+const FEWEST_UNITS: f64 = 1000.0;
 
 /// Warnings about a scene that [`super::load`] accepted.
 ///
@@ -30,8 +26,9 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let model = Model::new(scene);
     if let Some(force) = &model.pair_force {
-        warn_of_friction(scene, &model.species, force, &mut warnings);
-        warn_of_stiffness(scene, &model.species, force, &mut warnings);
+        warn_of_friction(scene, &model, force, &mut warnings);
+        warn_of_stiffness(scene, &model, force, &mut warnings);
+        warn_of_rounding(&model, force, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
         match interaction {
@@ -51,38 +48,22 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn_of_fluid(scene, &model, voronoi, cells, &mut warnings);
     }
     match &model.shallow_water {
-        Some(water) => warn_of_waves(scene, water, &mut warnings),
+        Some(water) => {
+            warn_of_waves(scene, water, &mut warnings);
+            warn_of_sparse_loops(scene, water, &model, &mut warnings);
+        }
         None => warn_of_momentum(scene, &mut warnings),
     }
     warnings
 }
 
-/// The largest value of a property among the species that have particles, and the first species that has it.
-fn largest(species: &[Species], property: impl Fn(usize) -> f64) -> (f64, usize) {
-    let present = (0..species.len()).filter(|index| species[*index].count > 0);
-    present.fold((0.0, 0), |most, index| {
-        let value = property(index);
-        if value > most.0 { (value, index) } else { most }
-    })
+/// A number short enough for a sentence.
+pub(crate) fn brief(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.2e}") }
 }
 
 fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {
     warnings.push(Warning { path: path.into(), message });
-}
-
-/// Mean friction rate of a species: Γ = Σ γρ \[ω\] / (d·m), with \[ω\] the weight integrated over the sphere (disc).
-fn friction_rate(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
-    let dimension = scene.space.lengths.len();
-    let exponent = force.weight_exponent;
-    let weight = match dimension {
-        1 => 2.0 * force.cutoff / (exponent + 1.0),
-        2 => 2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
-        _ => 8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
-    };
-    let volume = scene.space.volume();
-    let density = |other: usize| species[other].count as f64 / volume;
-    let sum: f64 = (0..species.len()).map(|other| force.friction(index, other) * density(other)).sum();
-    sum * weight / (dimension as f64 * species[index].mass)
 }
 
 /// Chains that no bond holds together are nothing but a way to place particles.
@@ -103,71 +84,101 @@ fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
     }
 }
 
-fn warn_of_friction(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
+fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let (rate, index) = largest(species, |index| friction_rate(scene, species, force, index));
+    let (rate, index) = model.largest_friction_rate(force);
     if rate * step > FRICTION_LIMIT {
         warn(
             warnings,
             "time.step",
             format!(
-                "friction relaxes the velocities of `{}` at a mean rate of {rate:.3}, by {:.2} in one step of {step}; \
+                "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; \
                  temperatures are reliable up to {FRICTION_LIMIT}, a step of {:.2e}",
-                species[index].name,
-                rate * step,
+                model.species[index].name,
+                brief(rate),
+                brief(rate * step),
                 FRICTION_LIMIT / rate
             ),
         );
     }
 }
 
-/// The frequency of a particle held by evenly spread neighbours: ω² = Σ aρV(rc) / (d·rc·m), from the radial parts of
-/// their force constants a/rc alone, which makes it an upper estimate.
-fn frequency(scene: &Scene, species: &[Species], force: &PairForce, index: usize) -> f64 {
-    let dimension = scene.space.lengths.len();
-    let sphere = match dimension {
-        1 => 2.0 * force.cutoff,
-        2 => PI * force.cutoff.powi(2),
-        _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
-    };
-    let volume = scene.space.volume();
-    let stiffness: f64 = (0..species.len())
-        .map(|other| force.repulsion(index, other).abs() * species[other].count as f64 / volume)
-        .sum();
-    (stiffness * sphere / (dimension as f64 * force.cutoff * species[index].mass)).sqrt()
-}
-
-fn warn_of_stiffness(scene: &Scene, species: &[Species], force: &PairForce, warnings: &mut Vec<Warning>) {
+fn warn_of_stiffness(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let (frequency, index) = largest(species, |index| frequency(scene, species, force, index));
+    let (frequency, index) = model.largest_repulsion_frequency(force);
     if frequency * step > FREQUENCY_LIMIT {
         warn(
             warnings,
             "time.step",
             format!(
-                "repulsion shakes `{}` at a frequency of about {frequency:.3}, {:.2} radians in one step of {step}; \
+                "repulsion shakes `{}` at a frequency of about {}, {} radians in one step of {step}; \
                  2 is the limit of stability, and up to {FREQUENCY_LIMIT}, a step of {:.2e}, is advisable",
-                species[index].name,
-                frequency * step,
+                model.species[index].name,
+                brief(frequency),
+                brief(frequency * step),
                 FREQUENCY_LIMIT / frequency
             ),
         );
     }
 }
 
+/// Momenta are integers, in a unit that suits the heaviest species: what is far smaller is lost in rounding.
+fn warn_of_rounding(model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let units = |momentum: f64| momentum / model.units.momentum;
+    let thermal = |species: &Species| units((species.mass * model.pair_temperature()).sqrt());
+    let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
+    let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
+    let told = |name: &str, value: f64| {
+        format!(
+            "{name} is {value:.1} units of the integer momenta, which follow the heaviest species, and is lost in rounding below \
+             some {FEWEST_UNITS}: results will be wrong; choose masses that are nearer to each other"
+        )
+    };
+    let warmth = thermal(lightest);
+    if warmth > 0.0 && warmth < FEWEST_UNITS {
+        warn(warnings, "particles", told(&format!("the thermal momentum of `{}`", lightest.name), warmth));
+    }
+    let impulse = units(force.largest_repulsion() * model.time_step);
+    if impulse > 0.0 && impulse < FEWEST_UNITS {
+        warn(warnings, "interactions", told("the impulse of the repulsion in a step", impulse));
+    }
+}
+
+/// A loop whose points are further apart than nodes is no curve to the flow.
+fn warn_of_sparse_loops(scene: &Scene, water: &ShallowWater, model: &Model, warnings: &mut Vec<Warning>) {
+    let spacing = water.spacing(model.units.lengths);
+    let volume = scene.space.volume();
+    for (index, group) in scene.particles.iter().enumerate() {
+        let Placement::Circle { radius, .. } = group.placement else { continue };
+        let points = group.resolved_count(volume);
+        let gap = 2.0 * radius * (PI / points as f64).sin();
+        if group.tracer && points > 0 && (points < 3 || gap >= spacing) {
+            let message = format!(
+                "the {points} points of the loop `{}` are {} apart, nodes {}: its circulation cannot be told; give at least {:.0}",
+                group.species,
+                brief(gap),
+                brief(spacing),
+                (2.0 * PI * radius / spacing).ceil().max(3.0) + 1.0
+            );
+            warn(warnings, format!("particles[{index}].count"), message);
+        }
+    }
+}
+
 fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
     let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
-    let share = water.stability(lengths, step);
+    let share = water.stability(&scene.integrator, lengths, step);
     if share > CLEAN_SHARE {
-        let advisable = water.advisable_step(lengths, step);
+        let advisable = water.advisable_step(&scene.integrator, lengths, step);
         let verdict = if share >= 1.0 { "the run will become unstable" } else { "the limit is near" };
         warn(
             warnings,
             "time.step",
             format!(
-                "the stiffest wave on the mesh takes p = {share:.3} of the limit of stability, where p < 1 is stable and \
-                 up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable"
+                "the stiffest wave on the mesh takes p = {} of the limit of stability, where p < 1 is stable and \
+                 up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable",
+                brief(share)
             ),
         );
     }

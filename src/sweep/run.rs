@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Summary, files as run_files};
 use crate::run::{self, Event, Outcome, Progress, RunError, Simulation};
+use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -109,7 +110,7 @@ impl SweepRun {
         let look = look.unwrap_or_else(|| summary.plots.clone());
         summary = SweepSummary { adapter: summary.adapter.take(), ..SweepSummary::new(&sweep, look) };
         for (variant, entry) in sweep.variants().iter().zip(&mut summary.variants) {
-            if let Some(run) = finished(&directory.join(&variant.name), variant.scene.time.steps) {
+            if let Some(run) = finished(&directory.join(&variant.name), variant) {
                 entry.finish(&run);
             }
         }
@@ -242,6 +243,10 @@ fn save(directory: &Path, sweep: &Sweep, summary: &SweepSummary) -> Result<(), S
 fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Simulation {
     let steps = variant.scene.time.steps;
     match Simulation::resume(directory, Some(steps)) {
+        // The run of another scene is nothing to go on from, nor to be overwritten.
+        Ok(simulation) if !is_of(variant, simulation.scene()) => {
+            Simulation::start(variant.scene.clone(), directory, false)
+        }
         Ok(simulation) if resuming && simulation.first_step() <= steps => simulation,
         // What is there without a checkpoint is the beginning of this very run.
         _ => Simulation::start(variant.scene.clone(), directory, resuming),
@@ -260,7 +265,16 @@ fn work(number: usize, simulation: Simulation, choice: &AdapterChoice, sender: &
     tell(Message::Ended(Box::new(result)));
 }
 
-/// The summary of a run that came to step `steps`, if it did.
-fn finished(directory: &Path, steps: u64) -> Option<Summary> {
-    Summary::load(&directory.join(run_files::SUMMARY)).ok().filter(|summary| summary.steps >= steps)
+/// The summary of a run that came to the last step of a variant, if it did.
+fn finished(directory: &Path, variant: &Variant) -> Option<Summary> {
+    let came_to_its_end =
+        |summary: &Summary| summary.steps >= variant.scene.time.steps && is_of(variant, &summary.scene);
+    Summary::load(&directory.join(run_files::SUMMARY)).ok().filter(came_to_its_end)
+}
+
+/// Whether a scene is that of a variant, but for how long it runs.
+fn is_of(variant: &Variant, scene: &Scene) -> bool {
+    let mut as_long = scene.clone();
+    as_long.time.steps = variant.scene.time.steps;
+    as_long == variant.scene
 }
