@@ -77,6 +77,14 @@ fn circulations_of_nothing() {
     assert_eq!(circulation["outer"], nothing);
 }
 
+/// What the plan for any adapter would need lavapipe cannot bind; what it needs itself it can.
+#[test]
+fn a_large_mesh_is_planned_for_the_adapter_that_is_there() {
+    let place = place().with("/interactions/0/mesh", json!([2048, 2048]));
+    let said = succeeds(&["check", &place.scene()]);
+    assert!(said.contains("2,048 × 2,048 nodes") && !said.contains("none that could run it"), "{said}");
+}
+
 #[test]
 fn a_run_leaves_everything_the_scene_asks_for() {
     let place = place().with(

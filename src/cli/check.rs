@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu::{self, AdapterChoice, Gpu, GpuError, Requirements};
+use mesoscope::gpu::{self, AdapterChoice, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
+use mesoscope::run::{self, RunError};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, FieldQuantity, Integrator, Interaction,
     LaplacianSymbol, MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
@@ -37,14 +38,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
-    let portable = planned(Hardware::default());
-    plan::check_precision(&scene, &portable)?;
-    let requirements =
-        Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
-    let (hardware, adapter) = match Gpu::open(&AdapterChoice::parse(arguments.adapter.as_deref()), requirements) {
+    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
+    let (hardware, adapter) = match run::adapter_for(&scene, &choice) {
         Ok(gpu) => (Hardware::from(&gpu), gpu.description().name.clone()),
-        Err(error @ GpuError::NoSuchAdapter { .. }) => return Err(error.into()),
-        Err(GpuError::NoAdapter) => (Hardware::default(), "none here; the plan is the one for any adapter".to_owned()),
+        Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
+        Err(RunError::Gpu(GpuError::NoAdapter)) => {
+            (Hardware::default(), "none here; the plan is the one for any adapter".to_owned())
+        }
         Err(error) => {
             warnings.push(error.to_string());
             (Hardware::default(), "none that could run it; the plan is the one for any adapter".to_owned())

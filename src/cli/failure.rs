@@ -58,7 +58,9 @@ impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
             SceneError::Read { .. } => Self::input_output(error.to_string()),
-            SceneError::NotFound { .. } => Self::usage(format!("{error}\nhint: `mesoscope scenes` lists them")),
+            SceneError::NotFound { .. } => {
+                Self::usage(format!("{error}\nhint: `mesoscope scenes` says what each is for"))
+            }
             SceneError::Invalid { .. } => Self::usage(format!(
                 "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes dpd-fluid` a complete scene"
             )),

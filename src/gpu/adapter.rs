@@ -105,6 +105,7 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
         }
         AdapterChoice::Named(name) => match name.parse::<usize>() {
             Ok(number) => (number < adapters.len()).then_some(number),
+            Err(_) if name.is_empty() => None,
             Err(_) => names.iter().position(|known| known.to_lowercase().contains(&name.to_lowercase())),
         },
     };

@@ -51,8 +51,7 @@ pub(crate) use energies::quantities;
 pub use error::RunError;
 pub use pictures::redraw;
 pub(crate) use pictures::{save, show_settled};
-pub(crate) use simulation::adapter_for;
-pub use simulation::{Outcome, Simulation};
+pub use simulation::{Outcome, Simulation, adapter_for};
 
 use crate::gpu::AdapterDescription;
 use std::time::Duration;

@@ -11,7 +11,7 @@ use super::pictures::Pictures;
 use super::schedule::Schedule;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
-use crate::gpu::{AdapterChoice, Gpu, Requirements};
+use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::measure::observables_of;
 use crate::model::{Model, ShallowWater};
 use crate::output::summary::AdapterSummary;
@@ -203,15 +203,35 @@ pub(super) fn open_adapter(
     choice: &AdapterChoice,
     options: Options,
 ) -> Result<Gpu, RunError> {
-    let portable = plan::plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
-    plan::check_precision(scene, &portable)?;
-    let requirements =
-        Requirements { largest_buffer: portable.largest_buffer(), storage_buffers: portable.storage_buffers };
-    Ok(Gpu::open(choice, requirements)?)
+    let open = |hardware| {
+        let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
+        plan::check_precision(scene, &plan)?;
+        let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
+        Ok(Gpu::open(choice, Requirements { largest_buffer, storage_buffers })?)
+    };
+    match open(Hardware::default()) {
+        // What the plan for any adapter needs this one may not: some get by with smaller buffers.
+        Err(RunError::Gpu(GpuError::TooSmall { .. })) => {
+            open(Hardware::from(&Gpu::open(choice, Requirements::default())?))
+        }
+        opened => opened,
+    }
 }
 
 /// Opens the adapter that a run of this scene would open.
-pub(crate) fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+///
+/// ```
+/// use mesoscope::gpu::AdapterChoice;
+/// use mesoscope::{run, scene};
+///
+/// let gpu = run::adapter_for(&scene::load("dpd-fluid", &[])?, &AdapterChoice::Best)?;
+/// println!("{}", gpu.description().name);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError::Gpu`] without an adapter that has room for it, [`RunError::Scene`] if its numbers are beyond single precision.
+pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
     open_adapter(scene, &Model::new(scene), choice, Options::default())
 }
 
