@@ -61,7 +61,10 @@ fn values_out_of_range_or_of_another_type() {
     );
     refused(&["space.box=[9,9,9,9]"], &["space.box: found a list of 4 entries"]);
     refused(&["space.box=[9,9,-9]"], &["space.box[2]: found -9; accepted: a number greater than zero"]);
-    refused(&["time.steps=ten"], &["time.steps: found the text \"ten\"; accepted: a whole number, zero or positive"]);
+    refused(
+        &["time.steps=ten"],
+        &["time.steps: found the text \"ten\"; accepted: a whole number, zero or positive, up to 18446744073709551615"],
+    );
     refused(&["time.steps=1.5"], &["time.steps: found 1.5; accepted: a whole number"]);
     refused(&["time.steps=null"], &["time.steps: found null"]);
     refused(&["version=2"], &["version: found 2; accepted: the number 1"]);

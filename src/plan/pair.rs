@@ -358,7 +358,8 @@ impl Builder<'_> {
         self.plan.kernels[motion].workgroups
     }
 
-    /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff.
+    /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as
+    /// often as they are visited, with the forces that there are.
     fn operations(&self) -> f64 {
         let density = self.particles as f64 / self.model.units.volume();
         let cutoff = self.force.cutoff;
@@ -367,7 +368,13 @@ impl Builder<'_> {
         } else {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
-        12.0 * candidates + if self.splits() { 130.0 } else { 70.0 } * pairs + 60.0
+        let visits = if self.splits() { 2.0 } else { 1.0 };
+        let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
+        let frictional = self.force.largest_friction() > 0.0;
+        let pair = visits * (22.0 + cost(self.force.largest_repulsion() > 0.0, 8.0))
+            + cost(frictional, 15.0 * visits)
+            + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 } else { 25.0 });
+        12.0 * candidates + pair * pairs + 60.0
     }
 
     fn analyses(&mut self, output: &Output) {

@@ -306,6 +306,7 @@ impl Range {
         match (self.least, self.above, self.most, self.below) {
             (Some(least), _, Some(most), _) if least == most => format!("the number {least}"),
             (Some(least), _, Some(most), _) => format!("{kind} from {least} to {most}"),
+            (Some(0.0), _, _, _) if self.integer => format!("{kind}, zero or positive, up to {}", u64::MAX),
             (Some(0.0), _, _, _) => format!("{kind}, zero or positive"),
             (Some(least), _, _, _) => format!("{kind} of at least {least}"),
             (_, Some(0.0), None, None) => format!("{kind} greater than zero"),
