@@ -52,6 +52,21 @@ fn unknown_keys() {
 }
 
 #[test]
+fn an_override_that_goes_nowhere_hides_no_other_mistake() {
+    assert_eq!(
+        problems(&["particles.3.count=1", "time.stp=1", "temperature=-1", "seed"]),
+        [
+            "override `particles.3.count=1`: found `3`; accepted: an index from 0 to 1 of the list `particles`",
+            "override `seed`: found no `=`; accepted: path.to.key=value, as in time.step=0.02",
+            "time.stp: unknown key; did you mean `step`? accepted: step, steps, equilibration",
+            "temperature: found -1; accepted: a number, zero or positive",
+        ]
+    );
+    // Lists that are left out begin at their first index.
+    parse(&[r#"interactions.0.pairs.0.between=["water","oil"]"#, "interactions.0.pairs.0.repulsion=40"]).unwrap();
+}
+
+#[test]
 fn values_out_of_range_or_of_another_type() {
     refused(&["particles.0.mass=-1"], &["particles[0].mass: found -1; accepted: a number greater than zero"]);
     refused(&["time.step=0"], &["time.step: found 0; accepted: a number greater than zero"]);

@@ -64,7 +64,7 @@ impl Reporter {
                 let keys: Vec<&str> = self.sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
                 let all = self.sweep.variants().len();
                 let count = if waiting == all {
-                    format!("{all} variants")
+                    format!("{all} variant{}", if all == 1 { "" } else { "s" })
                 } else {
                     format!("{waiting} of {all} variants left")
                 };

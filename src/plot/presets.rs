@@ -130,7 +130,8 @@ pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
         .collect();
     let first = |points: &[[f64; 2]]| points.first().map_or(f64::NAN, |point| point[1]);
     let relative = loops.iter().all(|(_, points)| first(points) != 0.0);
-    let label = if relative { "Relative change of the circulation" } else { "Change of the circulation" };
+    let label =
+        if relative { "Relative change of the circulation" } else { "Change of the circulation (length²/time)" };
     let mut panel = Panel::new("Time (time units)", label).with_reference("none", 0.0);
     for (name, points) in &loops {
         let first = first(points);

@@ -88,14 +88,6 @@ pub enum SceneError {
         /// What is wrong and, where it is known, what to do.
         message: String,
     },
-    /// An override `path=value` cannot be applied.
-    #[error("override `{argument}`: {message}")]
-    Override {
-        /// The override as it was given.
-        argument: String,
-        /// What is wrong and what to do.
-        message: String,
-    },
     /// The scene says something that is not accepted.
     #[error("{}", list(.name, .problems))]
     Invalid {

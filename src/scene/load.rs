@@ -85,12 +85,10 @@ pub fn unknown_builtin(name: &str) -> SceneError {
 /// ```
 ///
 /// # Errors
-/// Text that is not JSON, an override that does not fit, or [`SceneError::Invalid`] with all mistakes at once.
+/// Text that is not JSON, or [`SceneError::Invalid`] with all mistakes at once, of overrides too.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
     let (mut document, mut problems) = text::parse(name, text)?;
-    for argument in overrides {
-        overrides::apply(&mut document, argument)?;
-    }
+    problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
     default_integrator(&mut document);
     default_colour(&mut document);
     problems.extend(shape::check(&super::schema(), &mut document));

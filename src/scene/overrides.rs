@@ -2,44 +2,50 @@
 
 use serde_json::{Map, Value};
 
-use super::error::SceneError;
+use super::error::Problem;
+
+/// Where an override may stand, in words.
+const FORM: &str = "path.to.key=value, as in time.step=0.02";
 
 /// Sets what one override names. Missing keys are created; whether they are known is for the schema to say.
-pub(super) fn apply(document: &mut Value, argument: &str) -> Result<(), SceneError> {
-    set(document, argument).map_err(|message| SceneError::Override { argument: argument.to_owned(), message })
+pub(super) fn apply(document: &mut Value, argument: &str) -> Result<(), Problem> {
+    set(document, argument)
+        .map_err(|(found, accepted)| Problem::new(format_args!("override `{argument}`"), found, accepted))
 }
 
-fn set(document: &mut Value, argument: &str) -> Result<(), String> {
-    let Some((path, text)) = argument.split_once('=') else {
-        return Err("accepted: path.to.key=value, as in time.step=0.02".to_owned());
-    };
+/// What was found and what is accepted, if it is not done.
+fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
+    let misshapen = |found: &str| (found.to_owned(), FORM.to_owned());
+    let (path, text) = argument.split_once('=').ok_or_else(|| misshapen("found no `=`"))?;
     // Messages write `particles[0].count`; accept what they print.
     let path = path.trim().replace('[', ".").replace(']', "");
-    let value = value(text.trim())?;
+    if path.split('.').any(str::is_empty) {
+        return Err(misshapen("found an empty part in the path"));
+    }
+    let value = value(text.trim()).map_err(|accepted| (format!("found {}", text.trim()), accepted))?;
     let mut place = document;
     let mut walked = String::new();
     for segment in path.split('.') {
-        if segment.is_empty() {
-            return Err("the path has an empty part; accepted: path.to.key=value, as in time.step=0.02".to_owned());
-        }
+        let index = segment.parse::<usize>().ok();
         if place.is_null() {
-            *place = Value::Object(Map::new());
+            *place = if index.is_some() { Value::Array(vec![Value::Null]) } else { Value::Object(Map::new()) };
         }
         place = match place {
             Value::Object(object) => object.entry(segment).or_insert(Value::Null),
             Value::Array(list) => {
                 let length = list.len();
-                segment.parse::<usize>().ok().and_then(|index| list.get_mut(index)).ok_or_else(|| {
+                index.and_then(|index| list.get_mut(index)).ok_or_else(|| {
                     let accepted = match length {
-                        0 => "and it is empty".to_owned(),
-                        1 => "and its only index is 0".to_owned(),
-                        _ => format!("and its indices are 0 to {}", length - 1),
+                        0 => format!("the whole of `{walked}`, a list that is empty"),
+                        1 => format!("0, the only index of the list `{walked}`"),
+                        _ => format!("an index from 0 to {} of the list `{walked}`", length - 1),
                     };
-                    format!("`{walked}` is a list, {accepted}; found `{segment}`")
+                    (format!("found `{segment}`"), accepted)
                 })?
             }
             other => {
-                return Err(format!("`{walked}` is {other}, not an object or a list, and has no `{segment}` inside"));
+                let found = format!("found `{segment}` inside of `{walked}`, which is {other}");
+                return Err((found, "keys of objects and indices of lists".to_owned()));
             }
         };
         if !walked.is_empty() {
@@ -51,14 +57,14 @@ fn set(document: &mut Value, argument: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// JSON where it is JSON; a number as people write numbers (`.5`, `+2`); otherwise text.
+/// JSON where it is JSON; a number as people write numbers (`.5`, `+2`); otherwise text. What is accepted, if it is none.
 pub(crate) fn value(text: &str) -> Result<Value, String> {
     if let Ok(value) = serde_json::from_str(text) {
         return Ok(value);
     }
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number.into()),
-        Ok(_) => Err(format!("every number must be finite; found {text} (if it is a name, quote it: '\"{text}\"')")),
+        Ok(_) => Err(format!("a finite number (a name is quoted: '\"{text}\"')")),
         Err(_) => Ok(Value::String(text.to_owned())),
     }
 }
@@ -89,19 +95,20 @@ mod tests {
     fn paths_reach_into_lists_and_create_objects() {
         assert_eq!(after("particles.0.count=7").unwrap()["particles"][0]["count"], json!(7));
         assert_eq!(after("particles[0].count=7").unwrap()["particles"][0]["count"], json!(7));
+        assert_eq!(after("pairs.0.repulsion=9").unwrap()["pairs"], json!([{"repulsion": 9}]));
         assert_eq!(after("output.trajectory.every=9").unwrap()["output"], json!({"trajectory": {"every": 9}}));
     }
 
     #[test]
     fn mistakes_are_named() {
         for (argument, expected) in [
-            ("time.step", "accepted: path.to.key=value"),
+            ("time.step", "found no `=`; accepted: path.to.key=value"),
             ("=3", "empty part"),
             ("time..step=3", "empty part"),
-            ("particles.1.count=3", "only index is 0; found `1`"),
+            ("particles.1.count=3", "found `1`; accepted: 0, the only index of the list `particles`"),
             ("particles.first.count=3", "found `first`"),
-            ("time.step.unit=3", "`time.step` is 0.04"),
-            ("time.step=nan", "finite"),
+            ("time.step.unit=3", "found `unit` inside of `time.step`, which is 0.04"),
+            ("time.step=nan", "found nan; accepted: a finite number"),
             ("time.step=1e999", "finite"),
         ] {
             let message = after(argument).unwrap_err();

@@ -139,7 +139,8 @@ impl SweepSummary {
             read => read.map_err(|source| OutputError::Io { attempted: "read", path: path.clone(), source })?,
         };
         serde_json::from_slice(&text).map_err(|error| {
-            let (line, problem) = (error.line() as u64, error.to_string());
+            let problem = format!("this is no summary of a sweep ({error}); run the sweep anew with --force");
+            let line = error.line() as u64;
             SweepError::Output(OutputError::Line { path, line, problem })
         })
     }

@@ -51,8 +51,8 @@ impl Variation {
                     "there is an empty value; accepted: key=value,value,…, as in time.step=0.02,0.04".to_owned()
                 );
             }
-            let value = value(piece)?;
-            if values.contains(&value) {
+            let value = read(piece)?;
+            if values.iter().any(|known| same(known, &value)) {
                 return Err(format!("the value {piece} stands there twice"));
             }
             values.push(value);
@@ -71,9 +71,18 @@ pub(super) fn settings(argument: &str) -> Result<Vec<Setting>, String> {
         if settings.iter().any(|known| known.key == key) {
             return Err(format!("`{key}` is set twice"));
         }
-        settings.push(Setting { key, value: value(text)? });
+        settings.push(Setting { key, value: read(text)? });
     }
     Ok(settings)
+}
+
+fn read(text: &str) -> Result<Value, String> {
+    value(text).map_err(|accepted| format!("found {text}; accepted: {accepted}"))
+}
+
+/// Whether two values are the same to a scene: 1 is 1.0.
+fn same(a: &Value, b: &Value) -> bool {
+    a == b || (a.is_f64() || b.is_f64()) && a.as_f64().zip(b.as_f64()).is_some_and(|(a, b)| a == b)
 }
 
 /// The key in the form that messages and tables use, and the text after it.
@@ -131,6 +140,7 @@ mod tests {
             ("a=", "empty value"),
             ("a=1,,2", "empty value"),
             ("a=1,2,1", "the value 1 stands there twice"),
+            ("a=1,2,1.0", "the value 1.0 stands there twice"),
             ("a=nan", "finite"),
         ] {
             let message = Variation::parse(argument).unwrap_err();
