@@ -582,8 +582,8 @@ fn for_every_bath(mut check: impl FnMut(&[&str])) {
     }
 }
 
-/// p of stable steps and of those that are not: the measured limits have p between .96 and 1.25, see
-/// [`the_limit_of_stability_by_bisection`].
+/// p of a step that has to be stable and of one that must not be: [`the_limit_of_stability_by_bisection`] finds the limits
+/// between them.
 const STABLE_SHARES: [f64; 2] = [0.93, 1.3];
 
 #[test]
