@@ -256,6 +256,7 @@ fn files_that_cannot_be_written_or_read() {
     let scene = place.scene();
     let below_a_file = place.argument("scene.json/out");
     fails(&["run", &scene, "--out", &below_a_file], 5, &["cannot create the directory", "scene.json"]);
+    fails(&["run", &scene, "--out", &scene], 5, &["scene.json` is a file, and the results need a directory", "--out"]);
     fails(&["resume", &place.argument("nowhere")], 5, &["checkpoint.bin"]);
     fails(&["plot", &place.argument("nowhere")], 5, &["nowhere"]);
     fails(&["resume", &place.argument("nowhere")], 5, &["hint: give the directory that `mesoscope run` wrote"]);
@@ -283,8 +284,29 @@ fn files_that_cannot_be_written_or_read() {
         fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv", &told, "--force"]);
         assert_eq!(fs::read_to_string(&energies).unwrap(), left);
     }
-    fs::remove_file(energies).unwrap();
+    fs::remove_file(&energies).unwrap();
     fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv"]);
+    // Nor is there a plot of what the run did not measure.
+    fs::write(&energies, "a,b\n1,2\n").unwrap();
+    let told = ["energies.csv` is not what the run wrote: it has the columns `a,b`", "the run writes `step,time,"];
+    fails(&["plot", &place.argument("out")], 5, &told);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_disk_that_fills_up_leaves_the_last_checkpoint() {
+    let place = place();
+    fs::create_dir(place.path("out")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", place.path("out").join("run.json.tmp")).unwrap();
+    let (scene, out) = (place.scene(), place.argument("out"));
+    // The link is in the way, and --force takes it away; so it comes back while the run is under way.
+    fails(&["run", &scene, "--out", &out], 5, &["run.json.tmp` is in the way", "--force"]);
+    place.run("out", &["--quiet", "--force"]);
+    std::os::unix::fs::symlink("/dev/full", place.path("out").join("run.json.tmp")).unwrap();
+    let last = state(&place.path("out")).step;
+    let told = ["No space left", &format!("the last good checkpoint, of step {}, is kept in", last + 10), "resume"];
+    fails(&["resume", &out, "--steps", &(last + 10).to_string()], 5, &told);
+    assert_eq!(state(&place.path("out")).step, last + 10);
 }
 
 #[test]
@@ -365,7 +387,9 @@ fn plots_can_be_drawn_again() {
     assert_eq!(size(&place.path("out").join(files::ENERGIES_PLOT)), (800, 480));
     assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 100));
     fails(&["plot", &out, "--set", "seed=3"], 2, &["seed=3", "output.plot."]);
-    fails(&["plot", &out, "--set", "output.plot.widht=3"], 2, &["widht", "width"]);
+    fails(&["plot", &out, "--set", "output.plot.widht=3"], 2, &["out/run.json` has 1 mistake", "widht", "width"]);
+    fs::write(place.path("out").join(files::RADIAL_DISTRIBUTION), "a,b\n1,2\n").unwrap();
+    fails(&["plot", &out], 5, &["radial_distribution.csv`, line 1: found the columns `a,b`", "--force"]);
 }
 
 #[test]

@@ -87,11 +87,12 @@ fn a_directory_that_cannot_be_is_refused_with_the_reason() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("file");
     fs::write(&file, "").unwrap();
-    for path in [file.clone(), file.join("below")] {
-        let error = RunDirectory::create(&path, true).unwrap_err();
-        assert!(matches!(&error, OutputError::Io { path: found, .. } if *found == path), "{error}");
-        assert!(error.to_string().starts_with("cannot create the directory"), "{error}");
-    }
+    let error = RunDirectory::create(&file, true).unwrap_err();
+    assert!(matches!(&error, OutputError::NoDirectory { path } if *path == file), "{error}");
+    let below = file.join("below");
+    let error = RunDirectory::create(&below, true).unwrap_err();
+    assert!(matches!(&error, OutputError::Io { path, .. } if *path == below), "{error}");
+    assert!(error.to_string().starts_with("cannot create the directory"), "{error}");
     assert!(RunDirectory::open(root.path().join("absent")).is_err());
     assert!(RunDirectory::open(&file).is_err());
     assert_eq!(fs::read(&file).unwrap(), b"");

@@ -83,6 +83,18 @@ fn both_validators_agree() {
         ("/integrator", json!("splitting")),
         ("/particles/0/mass", json!(-1)),
         ("/particles/0", json!({"species": "A", "count": null, "number_density": 3})),
+        ("/particles/0", json!({"species": "A", "count": 3})),
+        ("/particles/0", json!({"species": "A", "count": 3, "number_density": 3})),
+        ("/particles/0", json!({"species": "A"})),
+        ("/particles/0", json!({"species": "A", "placement": {"type": "listed", "positions": [[1, 2, 3]]}})),
+        (
+            "/particles/0",
+            json!({"species": "A", "count": 1, "placement": {"type": "listed", "positions": [[1, 2, 3]]}}),
+        ),
+        (
+            "/particles/0",
+            json!({"species": "A", "number_density": 1, "placement": {"type": "listed", "positions": [[1, 2, 3]]}}),
+        ),
         ("/particles/0/placement", json!({"type": "random", "extra": 1})),
         ("/particles/0/placement", json!({"type": "listed"})),
         ("/interactions/0", json!({"type": "dpd", "fricton": 1})),

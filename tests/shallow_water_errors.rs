@@ -145,6 +145,10 @@ fn a_smoothing_that_no_iteration_reaches() {
         accepted(&[&format!("interactions.0.smoothing.length={length}"), "interactions.0.surface=[]"]);
     }
     accepted(&[CHEBYSHEV, "interactions.0.smoothing.length=100", "interactions.0.surface=[]"]);
+    refused(
+        &[CHEBYSHEV, "interactions.0.smoothing.solver.tolerance=0"],
+        "interactions[0].smoothing.solver.tolerance: found 0; accepted: a number above 0 and below 1",
+    );
 }
 
 #[test]
@@ -185,7 +189,7 @@ fn a_depth_that_is_none() {
     let found = problems(&[deep, rest, UNSMOOTHED, "interactions.0.surface.0.radius=0.4"]);
     assert!(found[0].contains("times the mean everywhere"), "{found:?}");
     let empty = r#"interactions.0.surface=[{"type":"wave","periods":[1,0],"amplitude":1}]"#;
-    assert!(problems(&[empty, rest, UNSMOOTHED])[0].contains("a depth of 0.0000 at (3.000, 0.000)"));
+    assert!(problems(&[empty, rest, UNSMOOTHED])[0].contains("a depth of 0.000 at (3.000, 0.000)"));
     accepted(&[&empty.replace(":1}", ":0.99}"), rest, UNSMOOTHED]);
 }
 
@@ -289,7 +293,16 @@ fn another_interaction_beside_it() {
         "{error}"
     );
     document["interactions"] = json!([base()["interactions"][0], base()["interactions"][0]]);
-    assert!(scene::parse("test.json", &document.to_string(), &[]).is_err());
+    let error = scene::parse("test.json", &document.to_string(), &[]).unwrap_err().to_string();
+    assert!(error.contains("has 1 mistake:") && error.contains("interactions[0]: found another"), "{error}");
+}
+
+#[test]
+fn the_same_field_twice() {
+    refused(
+        &[r#"output.fields.quantities=["depth","potential-vorticity","potential-vorticity"]"#],
+        "output.fields.quantities[2]: found the potential vorticity again; accepted: every quantity at most once",
+    );
 }
 
 #[test]
@@ -356,6 +369,12 @@ fn warned(overrides: &[&str]) -> String {
     let mut warnings = warnings(overrides);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     warnings.remove(0)
+}
+
+#[test]
+fn no_water_at_all() {
+    let warning = warned(&["particles.0.count=0"]);
+    assert!(warning.starts_with("particles: there is no water: nothing moves"), "{warning}");
 }
 
 #[test]

@@ -163,6 +163,7 @@ fn table_summary_and_plots() {
 
 #[test]
 fn mistakes_in_variants_run_nothing() {
+    fails(&["sweep", "dpd-fluid", "--vary", "seed=1,2", "--jobs", "0"], 2, &["0 is not in 1..=65535"]);
     let place = place();
     let sweep = |further: &[&str]| sweep_into(&place, "out", further);
     let fails = |further: &[&str], parts: &[&str]| fails(&borrowed(&sweep(further)), 2, parts);
@@ -242,6 +243,23 @@ fn the_run_of_another_scene_is_not_taken_for_a_variant() {
     assert_eq!(states(&summary(&place, "out")), [VariantState::Finished, VariantState::Failed]);
     fs::remove_dir_all(&second).unwrap();
     succeeds(&["sweep", "--resume", &place.argument("out")]);
+}
+
+#[test]
+fn a_damaged_table_fails_its_variant_only() {
+    let place = place();
+    succeeds(&borrowed(&sweep_into(&place, "out", &["--vary", "seed=1,2", "--quiet"])));
+    let second = place.path("out").join("seed=2");
+    let plot = place.path("out").join("sweep-pressure.png");
+    fs::remove_file(&plot).unwrap();
+    fs::write(second.join(files::ENERGIES), "lost\n\u{fffd}\n").unwrap();
+    let told = ["energies.csv", "hint: `mesoscope sweep --resume` runs a variant anew once its directory is removed"];
+    fails(&["sweep", "--resume", &place.argument("out")], 5, &told);
+    assert_eq!(states(&summary(&place, "out")), [VariantState::Finished, VariantState::Failed]);
+    assert!(plot.exists(), "the plots show the others");
+    fs::remove_dir_all(&second).unwrap();
+    succeeds(&["sweep", "--resume", &place.argument("out"), "--quiet"]);
+    assert_eq!(states(&summary(&place, "out")), [VariantState::Finished; 2]);
 }
 
 #[test]

@@ -2,19 +2,19 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu::{self, AdapterChoice, GpuError};
+use mesoscope::gpu::{self, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
 use mesoscope::run::{self, RunError};
 use mesoscope::scene::{
-    self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, FieldQuantity, Integrator, Interaction,
-    LaplacianSymbol, MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
+    self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
+    MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
 };
 
 use super::table::{aligned, bytes, grouped};
-use super::{Failure, SceneArguments, print};
+use super::{AdapterArgument, Failure, SceneArguments, print};
 
 /// Check a scene: all mistakes at once, or else what it requires - kernels, buffers, bytes, expected cost
 #[derive(Debug, clap::Args)]
@@ -26,10 +26,8 @@ pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
 
-    /// Adapter to plan for: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
-    /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    adapter: AdapterArgument,
 }
 
 /// Checks the scene.
@@ -38,8 +36,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
-    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
-    let (hardware, adapter) = match run::adapter_for(&scene, &choice) {
+    let (hardware, adapter) = match run::adapter_for(&scene, &arguments.adapter.choice()) {
         Ok(gpu) => (Hardware::from(&gpu), gpu.description().name.clone()),
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         Err(RunError::Gpu(GpuError::NoAdapter)) => {
@@ -386,12 +383,7 @@ fn outputs(scene: &Scene, model: &Model) -> String {
         }
         let fields = output.fields.clone().unwrap_or_default();
         for quantity in fields.quantities {
-            let stem = match quantity {
-                FieldQuantity::Depth => "depth",
-                FieldQuantity::PotentialVorticity => "potential_vorticity",
-                FieldQuantity::Vorticity => "vorticity",
-                FieldQuantity::Speed => "speed",
-            };
+            let stem = quantity.stem();
             rows.push((format!("{stem}.png, {stem}.npy"), "at the end".to_owned()));
             if fields.every > 0 {
                 rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));

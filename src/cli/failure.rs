@@ -62,7 +62,7 @@ impl From<SceneError> for Failure {
                 Self::usage(format!("{error}\nhint: `mesoscope scenes` says what each is for"))
             }
             SceneError::Invalid { .. } => Self::usage(format!(
-                "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes dpd-fluid` a complete scene"
+                "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene"
             )),
             _ => Self::usage(error.to_string()),
         }
@@ -111,7 +111,7 @@ fn exit_code(error: &RunError) -> u8 {
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,
-        RunError::Gpu(_) | RunError::Plot { .. } | RunError::Engine(_) => 3,
+        RunError::Gpu(_) | RunError::TooLarge { .. } | RunError::Plot { .. } | RunError::Engine(_) => 3,
         _ => 5,
     }
 }

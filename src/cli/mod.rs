@@ -1,5 +1,6 @@
 //! The command line: one file per command.
 
+mod adapter_argument;
 mod adapters;
 mod check;
 mod environment;
@@ -21,6 +22,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
 pub use print::print;
 pub use scene_arguments::SceneArguments;

@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::RunDirectory;
 use mesoscope::{run, sweep};
 
-use super::{Failure, print};
+use super::{AdapterArgument, Failure, print};
 
 /// Draw the plots of a run, or of a sweep, again from the files it left
 #[derive(Debug, clap::Args)]
@@ -22,10 +21,8 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
 
-    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
-    /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    adapter: AdapterArgument,
 }
 
 /// Draws the plots.
@@ -38,7 +35,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
         )));
     }
-    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
+    let choice = arguments.adapter.choice();
     let written = if arguments.directory.join(sweep::files::SUMMARY).exists() {
         sweep::redraw(&arguments.directory, &choice, &arguments.set)?
     } else {

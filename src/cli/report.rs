@@ -4,6 +4,7 @@ use std::io::{IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::model::Model;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{self, Interaction, Scene};
@@ -13,17 +14,16 @@ use super::table::{aligned, grouped, prefixed};
 use super::{Failure, SceneArguments, print};
 
 /// Executes a run and reports on it, unless it is to be quiet.
-pub fn execute(simulation: Simulation, adapter: Option<&str>, directory: &str, quiet: bool) -> Result<(), Failure> {
-    let choice = mesoscope::gpu::AdapterChoice::parse(adapter);
+pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, quiet: bool) -> Result<(), Failure> {
     if quiet {
-        simulation.execute(&choice, &mut |_| {})?;
+        simulation.execute(choice, &mut |_| {})?;
         return Ok(());
     }
     let mut reporter = Reporter::new(simulation.scene().clone());
     for warning in scene::warnings(simulation.scene()) {
         line(&format!("warning: {warning}"));
     }
-    let result = simulation.execute(&choice, &mut |event| reporter.tell(event));
+    let result = simulation.execute(choice, &mut |event| reporter.tell(event));
     reporter.clear();
     let outcome = result?;
     let known: Vec<String> = scene::warnings(&outcome.summary.scene).iter().map(ToString::to_string).collect();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::run::Simulation;
 
-use super::{Failure, print, report};
+use super::{AdapterArgument, Failure, print, report};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -20,10 +20,8 @@ pub struct Arguments {
     #[arg(long, value_name = "N")]
     steps: Option<u64>,
 
-    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
-    /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    adapter: AdapterArgument,
 
     /// Report errors only
     #[arg(long)]
@@ -42,5 +40,5 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         );
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    report::execute(simulation, arguments.adapter.as_deref(), &shown, arguments.quiet)
+    report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::run::Simulation;
 
-use super::{Failure, SceneArguments, report};
+use super::{AdapterArgument, Failure, SceneArguments, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -22,10 +22,8 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
-    /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    adapter: AdapterArgument,
 
     /// Overwrite the results of an earlier run in the directory
     #[arg(long)]
@@ -42,5 +40,5 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = directory.display().to_string();
     let simulation = Simulation::start(scene, directory, arguments.force);
-    report::execute(simulation, arguments.adapter.as_deref(), &shown, arguments.quiet)
+    report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
 }

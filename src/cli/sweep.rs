@@ -1,14 +1,12 @@
 //! `mesoscope sweep`: runs of one scene that differ in a few values.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Sweep, SweepError, SweepOutcome, SweepRun};
 
 use super::sweep_report::{self, Reporter};
-use super::{Failure, print, report};
+use super::{AdapterArgument, Failure, print, report};
 
 /// Run variants of a scene, and compare them in one table and one plot per quantity
 #[derive(Debug, clap::Args)]
@@ -63,13 +61,11 @@ pub struct Arguments {
 
     /// Variants to run at once [default: 2 on a software adapter for fewer than 16,000 particles, where that is about
     /// 1.2 times as fast; otherwise 1]. Results do not depend on it
-    #[arg(long, value_name = "N")]
-    jobs: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
 
-    /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
-    /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
+    #[command(flatten)]
+    adapter: AdapterArgument,
 
     /// Overwrite the results of an earlier sweep in the directory
     #[arg(long)]
@@ -95,8 +91,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-sweep", report::stem(scene)).into());
         (SweepRun::start(sweep, &directory, look, arguments.force), directory)
     };
-    let choice = AdapterChoice::parse(arguments.adapter.as_deref());
-    let jobs = arguments.jobs.map(NonZeroUsize::get);
+    let choice = arguments.adapter.choice();
+    let jobs = arguments.jobs.map(usize::from);
     let outcome = if arguments.quiet {
         run.execute(&choice, jobs, &mut |_| {})?
     } else {
@@ -121,7 +117,10 @@ fn failures(outcome: &SweepOutcome) -> Result<(), Failure> {
         let name = &outcome.summary.variants[*variant].name;
         format!("\n`{name}`: {error}")
     });
-    let text = format!("{failed} of {all} variants failed:{}", messages.collect::<String>());
+    let mut text = format!("{failed} of {all} variants failed:{}", messages.collect::<String>());
+    if outcome.failures.iter().any(|(_, error)| matches!(error, RunError::Output(_) | RunError::Checkpoint(_))) {
+        text.push_str("\nhint: `mesoscope sweep --resume` runs a variant anew once its directory is removed");
+    }
     // Instability says something about the scene; anything else, about the machine, and comes first.
     let others = outcome.failures.iter().find(|(_, error)| !matches!(error, RunError::Unstable { .. }));
     Err(others.map_or_else(|| Failure::unstable(&text), |(_, error)| Failure::of_run(error, &text)))

@@ -496,7 +496,7 @@ impl<'a> Engine<'a> {
                     let limit = self.plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
                     let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
                     let reason = if limit < VELOCITY_RANGE {
-                        "which goes half round the box in one step"
+                        "which may go half round the box in one step"
                     } else {
                         "more than twice the largest expected in this scene"
                     };

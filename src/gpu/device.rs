@@ -47,9 +47,10 @@ impl Gpu {
         let offered = adapter.limits();
         let mut limits = wgpu::Limits::default();
         if requirements.largest_buffer > limits.max_storage_buffer_binding_size {
-            for (quantity, allowed) in
-                [("a storage buffer", offered.max_storage_buffer_binding_size), ("a buffer", offered.max_buffer_size)]
-            {
+            for (quantity, allowed) in [
+                ("bytes in a storage buffer", offered.max_storage_buffer_binding_size),
+                ("bytes in a buffer", offered.max_buffer_size),
+            ] {
                 if requirements.largest_buffer > allowed {
                     return Err(GpuError::TooSmall {
                         adapter: info.name,
@@ -66,7 +67,7 @@ impl Gpu {
             if requirements.storage_buffers > offered.max_storage_buffers_per_shader_stage {
                 return Err(GpuError::TooSmall {
                     adapter: info.name,
-                    quantity: "storage buffers of a kernel",
+                    quantity: "storage buffers in a kernel",
                     allowed: offered.max_storage_buffers_per_shader_stage.into(),
                     needed: requirements.storage_buffers.into(),
                 });

@@ -16,7 +16,7 @@ pub enum GpuError {
         available: String,
     },
     /// The adapter cannot do what the scene needs.
-    #[error("adapter `{adapter}` allows {quantity} of at most {allowed}, but this scene needs {needed}")]
+    #[error("adapter `{adapter}` allows at most {allowed} {quantity}, but this scene needs {needed}")]
     TooSmall {
         /// Name of the adapter.
         adapter: String,

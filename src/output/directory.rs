@@ -33,9 +33,12 @@ impl RunDirectory {
     ///
     /// # Errors
     /// [`OutputError::InTheWay`] when there are files of an earlier run and `force` is not given;
-    /// [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
+    /// [`OutputError::NoDirectory`] when `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
         let directory = Self { path: path.into() };
+        if directory.path.is_file() {
+            return Err(OutputError::NoDirectory { path: directory.path });
+        }
         fs::create_dir_all(&directory.path).map_err(OutputError::io("create the directory", &directory.path))?;
         let in_the_way = directory.run_files()?;
         if let (false, Some(name)) = (force, in_the_way.first()) {

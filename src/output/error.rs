@@ -18,9 +18,15 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The directory holds a file of an earlier run.
-    #[error("`{}` is in the way: it belongs to an earlier run; pass --force to replace that run, or choose another directory with --out", path.display())]
+    #[error("`{}` is in the way: it has the name of a result, likely of an earlier run; pass --force to replace all results there, or choose another directory with --out", path.display())]
     InTheWay {
         /// The first such file.
+        path: PathBuf,
+    },
+    /// A file stands where the directory should be.
+    #[error("`{}` is a file, and the results need a directory: choose one with --out", path.display())]
+    NoDirectory {
+        /// The file.
         path: PathBuf,
     },
     /// A column name that a table cannot hold.
@@ -65,8 +71,8 @@ pub enum OutputError {
         /// The summary that a finished run leaves.
         path: PathBuf,
     },
-    /// The file to continue has other columns than the run.
-    #[error("`{}` cannot be continued: it has the columns `{found}` and this run writes `{expected}`", path.display())]
+    /// A table of a run has other columns than the run writes.
+    #[error("`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene anew with --force", path.display())]
     Columns {
         /// The table.
         path: PathBuf,

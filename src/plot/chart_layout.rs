@@ -221,6 +221,8 @@ const DASHES: [&[f64]; 7] = [
     &[2.0, 2.5],
 ];
 const REFERENCE_DASHES: &[f64] = &[3.5, 3.0];
+/// Up to this many points of a line are marked one by one.
+const FEW_POINTS: usize = 30;
 
 struct Layout<'a> {
     canvas: Canvas,
@@ -488,7 +490,10 @@ impl Layout<'_> {
         }
         if !self.prepared[index].has_data {
             let style = self.text_style(self.inks.muted);
-            self.canvas.text_centred("no data", area.centre(), Anchor::Middle, style);
+            // Without data a reference is in the middle; between it and the next rule there is room.
+            let below = if self.prepared[index].panel.references.is_empty() { 0.0 } else { 0.125 * area.height() };
+            let [x, y] = area.centre();
+            self.canvas.text_centred("no data", [x, y + below], Anchor::Middle, style);
         }
     }
 
@@ -544,6 +549,8 @@ impl Layout<'_> {
                 self.stroke(&run, place, REFERENCE_DASHES, self.inks.ink, 0.75 * self.sizes.line);
             }
         }
+        // Those on the frame are whole, too.
+        self.canvas.clip(None);
         for (number, series) in panel.series.iter().enumerate().rev() {
             let look = self.look(number, series);
             match series.style {
@@ -556,7 +563,6 @@ impl Layout<'_> {
                 SeriesStyle::Line | SeriesStyle::Band => {}
             }
         }
-        self.canvas.clip(None);
     }
 
     fn stroke(&mut self, run: &[[f64; 2]], place: &Placed, dashes: &[f64], colour: Colour, width: f64) {
@@ -603,16 +609,20 @@ impl Layout<'_> {
         // Crowded markers shrink down to dots.
         let room = (place.area.width() * place.area.height() / count.max(1.0)).sqrt();
         let radius = self.marker_radius().min(0.3 * room).max(0.45 * self.sizes.line);
-        let area = place.area.grown(self.marker_radius());
+        let area = place.area.grown(0.5 * self.sizes.rule);
         for point in points.filter(|point| area.contains(*point)) {
             self.marker(point, radius, look);
         }
     }
 
-    /// A few markers along a line too jagged for dashes to be seen.
+    /// A few markers along a line too jagged for dashes to be seen; all of them if it has only few points.
     fn sparse_markers(&mut self, pieces: &[Run], place: &Placed, look: Look, series: usize) {
         let points: Vec<[f64; 2]> =
             pieces.iter().flatten().copied().filter(|point| place.area.contains(*point)).collect();
+        if points.len() <= FEW_POINTS {
+            points.iter().for_each(|point| self.marker(*point, self.marker_radius(), look));
+            return;
+        }
         let count = 7;
         for index in 0..count {
             let shift = (look.marker.unwrap_or(0) as f64 + 0.5) / series as f64;
@@ -845,7 +855,8 @@ impl Layout<'_> {
 /// Whether a line of the panel goes up and down so much that dashes could not be told from noise.
 fn is_rough(panel: &Panel, place: &Placed) -> bool {
     panel.series.iter().filter(|series| series.style != SeriesStyle::Markers).any(|series| {
-        let drawn: f64 = runs(&series.points, |point| place.pixel(point)).iter().map(|run| length(&thinned(run))).sum();
+        let pieces = runs(&series.points, |point| place.pixel(point));
+        let drawn: f64 = pieces.iter().map(|run| length(&thinned(run), &place.area)).sum();
         drawn > 2.5 * (place.area.width() + place.area.height())
     })
 }

@@ -53,9 +53,9 @@ pub(super) fn thinned(run: &[[f64; 2]]) -> Run {
     kept
 }
 
-/// Length of a run in pixels.
-pub(super) fn length(run: &[[f64; 2]]) -> f64 {
-    run.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
+/// Length of a run in pixels, inside an area.
+pub(super) fn length(run: &[[f64; 2]], area: &Area) -> f64 {
+    run.windows(2).filter_map(|pair| clipped(pair[0], pair[1], area)).map(|(from, to)| distance(from, to)).sum()
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -4,7 +4,7 @@ use super::RunError;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
 use crate::model::{Model, Voronoi};
-use crate::output::{EnergiesFile, OutputError, Summary, files, read_table};
+use crate::output::{EnergiesFile, OutputError, Summary, Table, files, read_table};
 use crate::plot::EnergyTable;
 use crate::scene::{Integrator, Scene};
 use std::path::Path;
@@ -83,6 +83,17 @@ pub(super) struct EnergyRecorder {
     configuration: Vec<[f64; 2]>,
     time_step: f64,
     equilibration: u64,
+}
+
+/// Reads the table that a run of this model wrote.
+pub(super) fn read(path: &Path, model: &Model) -> Result<Table, OutputError> {
+    let table = read_table(path)?;
+    let expected: Vec<&str> = std::iter::once("step").chain(columns(model).into_iter().map(|(name, _)| name)).collect();
+    if table.columns != expected {
+        let (expected, found) = (expected.join(","), table.columns.join(","));
+        return Err(OutputError::Columns { path: path.to_path_buf(), expected, found });
+    }
+    Ok(table)
 }
 
 /// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.

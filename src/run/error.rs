@@ -25,6 +25,26 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
+    /// Writing failed on the way, when there was a checkpoint already.
+    #[error("{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` goes on from it", checkpoint.display())]
+    Stopped {
+        /// What could not be written.
+        source: OutputError,
+        /// The file of the last good checkpoint.
+        checkpoint: PathBuf,
+        /// Its step.
+        checkpoint_step: u64,
+    },
+    /// The adapter has no room for a buffer of the scene.
+    #[error("{source}, for `{buffer}` ({purpose}): a smaller system needs less; `mesoscope check` lists all buffers")]
+    TooLarge {
+        /// What the adapter allows.
+        source: GpuError,
+        /// The largest buffer.
+        buffer: &'static str,
+        /// What it is for.
+        purpose: &'static str,
+    },
     /// The engine refuses the state, or has no room for its particles.
     #[error(transparent)]
     Engine(EngineError),

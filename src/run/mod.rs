@@ -69,7 +69,7 @@ pub enum Event<'a> {
         /// The step it will end with.
         last_step: u64,
     },
-    /// A batch of steps was handed to the device.
+    /// The device has come further.
     Advanced(Progress),
     /// The run goes back to an earlier step, to repeat the steps since with more memory; results are the same.
     Repeating {
@@ -85,7 +85,7 @@ pub enum Event<'a> {
 /// How far a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// Steps handed to the device so far.
+    /// The last step that the device has certainly done.
     pub step: u64,
     /// The step to end with.
     pub last_step: u64,

@@ -7,7 +7,7 @@ use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
 use crate::model::{Model, ShallowWater, Voronoi};
-use crate::output::{RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
+use crate::output::{OutputError, RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
     Axis, CellPicture, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter,
@@ -37,13 +37,14 @@ pub fn redraw(
 ) -> Result<Vec<&'static str>, RunError> {
     let summary = Summary::load(&directory.file(files::SUMMARY))?;
     let text = serde_json::to_string(&summary.scene).unwrap_or_default();
-    let scene = scene::parse(files::SUMMARY, &text, overrides)?;
+    let name = directory.file(files::SUMMARY).display().to_string();
+    let scene = scene::parse(&name, &text, overrides)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene);
-    let table = read_table(&directory.file(files::ENERGIES))?;
+    let table = super::energies::read(&directory.file(files::ENERGIES), &model)?;
     pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
     let mut written = vec![files::ENERGIES_PLOT];
     for (name, plot) in ANALYSES {
@@ -144,7 +145,7 @@ impl<'a> Pictures<'a> {
         let column = |name: &str| table.column(name).unwrap_or_default();
         let title = &self.scene.title;
         if let Some((plot, chart)) = self.chain_chart(name, &table) {
-            self.chart(plot, &chart)?;
+            self.analysis_chart(name, &table, plot, &chart)?;
             return Ok(true);
         }
         let plot_of = |name: &str| ANALYSES.iter().find(|(table, _)| *table == name).map_or("", |(_, plot)| plot);
@@ -177,8 +178,20 @@ impl<'a> Pictures<'a> {
             }
             _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
         };
-        self.chart(plot, &chart)?;
+        self.analysis_chart(name, &table, plot, &chart)?;
         Ok(true)
+    }
+
+    /// Draws what a table with rows has to show: nothing, if its columns are not those that the run wrote.
+    fn analysis_chart(&mut self, name: &str, table: &Table, plot: &str, chart: &Chart) -> Result<(), RunError> {
+        if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
+            let problem = format!(
+                "found the columns `{}`, none of which the run wrote; restore the file, or run the scene anew with --force",
+                table.columns.join(",")
+            );
+            return Err(OutputError::Line { path: self.directory.file(name), line: 1, problem }.into());
+        }
+        self.chart(plot, chart)
     }
 
     /// The plot of a table of harmonic chains, if it is one.

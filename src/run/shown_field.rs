@@ -22,27 +22,20 @@ pub(super) struct ShownField {
 impl ShownField {
     /// A field of a flow with a smoothed depth.
     pub(super) fn new(quantity: FieldQuantity, flow: &MeshFlow, depth: &[f64]) -> Self {
-        let (stem, name, label, map, values) = match quantity {
-            FieldQuantity::Depth => ("depth", "depth", "Depth h (mean depths)", ColorMap::Sequential, depth.to_vec()),
+        let (name, label, map, values) = match quantity {
+            FieldQuantity::Depth => ("depth", "Depth h (mean depths)", ColorMap::Sequential, depth.to_vec()),
             FieldQuantity::PotentialVorticity => (
-                "potential_vorticity",
                 "potential vorticity",
                 "Potential vorticity (ζ + f_{0})/h (1/time units)",
                 ColorMap::Sequential,
                 flow.potential_vorticity(depth),
             ),
-            FieldQuantity::Vorticity => (
-                "vorticity",
-                "vorticity",
-                "Vorticity ζ (1/time units)",
-                ColorMap::Diverging { centre: 0.0 },
-                flow.vorticity(),
-            ),
-            FieldQuantity::Speed => {
-                ("speed", "speed", "Speed (length units/time units)", ColorMap::Sequential, flow.speed())
+            FieldQuantity::Vorticity => {
+                ("vorticity", "Vorticity ζ (1/time units)", ColorMap::Diverging { centre: 0.0 }, flow.vorticity())
             }
+            FieldQuantity::Speed => ("speed", "Speed (length units/time units)", ColorMap::Sequential, flow.speed()),
         };
-        Self { stem, map, name, label, values }
+        Self { stem: quantity.stem(), map, name, label, values }
     }
 
     /// The field for a picture and an array, whose first index is that of x.

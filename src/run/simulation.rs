@@ -178,7 +178,8 @@ impl Task {
                 let checkpoint = self.directory.file(files::CHECKPOINT);
                 return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
             }
-            ended => ended?,
+            Err(error) => return Err(self.stopped(error, run.saved_step)),
+            Ok(()) => {}
         }
         observer(Event::Finishing);
         let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
@@ -192,7 +193,19 @@ impl Task {
         if self.model.conserves_momentum() && run.momentum != self.momentum {
             warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
         }
-        run.conclude(warnings, pace.done())
+        let saved_step = run.saved_step;
+        run.conclude(warnings, pace.done()).map_err(|error| self.stopped(error, saved_step))
+    }
+
+    /// Says of a failure to write what is left to go on from.
+    fn stopped(&self, error: RunError, checkpoint_step: u64) -> RunError {
+        let checkpoint = self.directory.file(files::CHECKPOINT);
+        match error {
+            RunError::Output(source) if checkpoint.exists() => {
+                RunError::Stopped { source, checkpoint, checkpoint_step }
+            }
+            error => error,
+        }
     }
 }
 
@@ -207,13 +220,18 @@ pub(super) fn open_adapter(
         let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
-        Ok(Gpu::open(choice, Requirements { largest_buffer, storage_buffers })?)
+        Gpu::open(choice, Requirements { largest_buffer, storage_buffers }).map_err(|error| {
+            match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
+                Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
+                    RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
+                }
+                _ => error.into(),
+            }
+        })
     };
     match open(Hardware::default()) {
         // What the plan for any adapter needs this one may not: some get by with smaller buffers.
-        Err(RunError::Gpu(GpuError::TooSmall { .. })) => {
-            open(Hardware::from(&Gpu::open(choice, Requirements::default())?))
-        }
+        Err(RunError::TooLarge { .. }) => open(Hardware::from(&Gpu::open(choice, Requirements::default())?)),
         opened => opened,
     }
 }
@@ -324,9 +342,10 @@ impl<'a> Run<'a> {
                 self.energies.flush()?;
                 advanced?;
                 pace.submitted(steps);
-                observer(Event::Advanced(self.progress(engine.step(), first, begun, pace)));
+                observer(Event::Advanced(self.progress(first, begun, pace)));
             }
             self.visit(engine, pace)?;
+            observer(Event::Advanced(self.progress(first, begun, pace)));
         }
         Ok(())
     }
@@ -408,12 +427,13 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn progress(&self, step: u64, first: u64, begun: (u64, Duration), pace: &Pace) -> Progress {
+    fn progress(&self, first: u64, begun: (u64, Duration), pace: &Pace) -> Progress {
         let (done, spent) = pace.done();
         let (done, spent) = (done - begun.0, (spent.saturating_sub(begun.1)).as_secs_f64());
         let rate = if done > 0 && spent > 0.0 { done as f64 / spent } else { 0.0 };
         let last_step = self.scene.time.steps;
-        let left = last_step.saturating_sub(first + done) as f64 / rate;
+        let step = first + done;
+        let left = last_step.saturating_sub(step) as f64 / rate;
         Progress {
             step,
             last_step,

@@ -59,8 +59,11 @@ fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
 
 /// JSON where it is JSON; a number as people write numbers (`.5`, `+2`); otherwise text. What is accepted, if it is none.
 pub(crate) fn value(text: &str) -> Result<Value, String> {
-    if let Ok(value) = serde_json::from_str(text) {
-        return Ok(value);
+    match serde_json::from_str(text) {
+        Ok(value) => return Ok(value),
+        // Nobody begins a name like this.
+        Err(error) if text.starts_with(['[', '{', '"']) => return Err(format!("JSON ({error})")),
+        Err(_) => {}
     }
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number.into()),
@@ -110,6 +113,8 @@ mod tests {
             ("time.step.unit=3", "found `unit` inside of `time.step`, which is 0.04"),
             ("time.step=nan", "found nan; accepted: a finite number"),
             ("time.step=1e999", "finite"),
+            ("space.box=[6,6,nan]", "found [6,6,nan]; accepted: JSON (expected ident at line 1"),
+            ("time={\"step\": 1", "accepted: JSON (EOF while parsing an object at line 1 column 10)"),
         ] {
             let message = after(argument).unwrap_err();
             assert!(message.contains(expected), "{argument}: {message}");

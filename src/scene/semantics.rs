@@ -132,10 +132,14 @@ fn quantity(number: f64) -> String {
 }
 
 fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
+    let of_water = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_));
+    let first_water = scene.interactions.iter().position(of_water);
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
         match interaction {
             Interaction::ColouredNoise(noise) => super::coloured_noise::check(scene, noise, &path, problems),
+            // Of a second one all has been said.
+            Interaction::ShallowWater(_) if Some(index) != first_water => {}
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
@@ -149,7 +153,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
         super::couplings::check_interaction(scene, interaction, &path, problems);
     }
     super::couplings::check_scene(scene, problems);
-    if !scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_))) {
+    if first_water.is_none() {
         super::shallow_water::check_absence(scene, problems);
     }
     if super::voronoi::voronoi(scene).is_none() {
@@ -247,6 +251,13 @@ fn check_analyses(scene: &Scene, problems: &mut Vec<Problem>) {
     let mut refuse = |path: String, found: String, accepted: &str| problems.push(Problem::new(path, found, accepted));
     let once = "every quantity at most once";
     let velocities = "no `frame`: only velocities depend on one";
+    let fields = output.fields.as_ref().map_or(&[][..], |fields| &fields.quantities);
+    for (index, quantity) in fields.iter().enumerate() {
+        if fields[..index].contains(quantity) {
+            let found = format!("found the {} again", quantity.stem().replace('_', " "));
+            refuse(format!("output.fields.quantities[{index}]"), found, once);
+        }
+    }
     for (index, asked) in output.autocorrelations.iter().enumerate() {
         let path = format!("output.autocorrelations[{index}]");
         let name = asked.quantity.name();

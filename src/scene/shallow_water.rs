@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::error::Problem;
 use super::surface::Surface;
+use super::warnings::brief;
 use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities};
 use crate::model::{LARGEST_DEPTH, chebyshev_iterations};
 
@@ -60,6 +61,10 @@ fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Pr
 
 fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Vec<Problem>) {
     let SmoothingSolver::Chebyshev { tolerance } = water.smoothing.solver else { return };
+    // Out of range it is a mistake already.
+    if tolerance <= 0.0 {
+        return;
+    }
     let cells = |axis: usize| water.smoothing.length * f64::from(water.mesh[axis]) / lengths[axis];
     let iterations = chebyshev_iterations([0, 1].map(|axis| cells(axis).powi(2)), tolerance);
     if iterations > MOST_ITERATIONS {
@@ -133,8 +138,11 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
     // Masses are integers with room for so much; NaN is no depth.
     let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
     if let Some((depth, [x, y])) = depths.iter().find(|(depth, _)| !fits(*depth)) {
-        let found =
-            format!("found features that make a depth of {depth:.4} at ({x:.3}, {y:.3}), and {mean:.4} on average");
+        let found = format!(
+            "found features that make a depth of {} at ({x:.3}, {y:.3}), and {} on average",
+            brief(*depth),
+            brief(mean)
+        );
         let accepted = format!(
             "a depth above 0 and up to {LARGEST_DEPTH} times the mean everywhere: lower or wider features, or a shorter \
              `smoothing.length`"

@@ -168,6 +168,7 @@ pub enum Distribution {
 /// A group of particles of one species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = one_amount)]
 pub struct ParticleGroup {
     /// Name of the species; groups of the same species share their mass.
     #[schemars(length(min = 1))]
@@ -203,6 +204,18 @@ pub struct ParticleGroup {
 
 fn one() -> f64 {
     1.0
+}
+
+/// Tells other readers of the schema that a group says in exactly one way how many particles it has.
+fn one_amount(schema: &mut schemars::Schema) {
+    let given = |key: &str| serde_json::json!({"required": [key], "properties": {key: {"type": "number"}}});
+    let listed = serde_json::json!({
+        "required": ["placement"],
+        "properties": {"placement": {"properties": {"type": {"const": "listed"}}}},
+    });
+    schema.insert("if".to_owned(), listed);
+    schema.insert("then".to_owned(), serde_json::json!({"properties": {"number_density": {"type": "null"}}}));
+    schema.insert("else".to_owned(), serde_json::json!({"oneOf": [given("count"), given("number_density")]}));
 }
 
 /// Chains of particles with consecutive numbers; `bonds` and `angles` act along them.
@@ -1132,6 +1145,19 @@ pub enum Axis {
     Y,
     /// The third.
     Z,
+}
+
+impl FieldQuantity {
+    /// What the names of its files begin with.
+    #[must_use]
+    pub fn stem(self) -> &'static str {
+        match self {
+            Self::Depth => "depth",
+            Self::PotentialVorticity => "potential_vorticity",
+            Self::Vorticity => "vorticity",
+            Self::Speed => "speed",
+        }
+    }
 }
 
 impl CorrelatedQuantity {

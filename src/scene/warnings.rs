@@ -49,6 +49,11 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     }
     match &model.shallow_water {
         Some(water) => {
+            if water.carriers == 0 {
+                let message =
+                    "there is no water: nothing moves, and the depth, whose mean is 1 by definition, is drawn as 1";
+                warn(&mut warnings, "particles", message.to_owned());
+            }
             warn_of_waves(scene, water, &mut warnings);
             warn_of_sparse_loops(scene, water, &model, &mut warnings);
         }

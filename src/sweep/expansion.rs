@@ -188,6 +188,13 @@ fn expand(
         let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
         match scene::parse(name, text, &overrides) {
             Ok(scene) => {
+                // Values of one key differ, but what stands beside them may be one of the combinations.
+                let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
+                if let Some(twin) = twin {
+                    let message = format!("this is the scene of `{}` again; leave one of them out", twin.name);
+                    mistakes.push(Mistake { variants: vec![variant], message });
+                    continue;
+                }
                 let label = naming::label(&settings, short);
                 variants.push(Variant { name: variant, label, settings, scene, places });
             }
@@ -243,6 +250,8 @@ mod tests {
         assert_eq!(names(&found), ["friction=1", "friction=2", "type=cotter-reich,step=0.01"]);
         assert_eq!(found.variants()[2].scene.time.step, 0.01);
         assert_eq!(found.keys(), ["interactions.0.friction", "integrator.type", "time.step"]);
+        let twice = sweep(&["interactions.0.friction=1,2"], &["interactions.0.friction=2.0"]).unwrap_err();
+        assert!(twice.to_string().contains("this is the scene of `friction=2` again"), "{twice}");
     }
 
     #[test]
