@@ -245,7 +245,8 @@ fn unstable(scene: &Scene, batch: u64) {
                 let EngineError::Unstable { step, quantity, suggested_step } = &error else { unreachable!() };
                 assert!(*step < batch, "{error}");
                 assert!(!quantity.is_empty());
-                assert!(*suggested_step > 0.0 && *suggested_step < scene.time.step, "{error}");
+                let suggested_step = suggested_step.unwrap();
+                assert!(suggested_step > 0.0 && suggested_step < scene.time.step, "{error}");
                 let message = error.to_string();
                 assert!(message.contains(&format!("at step {step}")), "{message}");
                 assert!(message.contains(&suggested_step.to_string()), "{message}");
@@ -331,10 +332,10 @@ fn powers_of_two_of_every_unit_leave_the_integers_alone() {
     let two = |power: i32| 2_f64.powi(power);
     for (integrator, second) in INTEGRATORS.iter().flat_map(|integrator| [(integrator, 1.0), (integrator, 2.5)]) {
         let (state, sums, unit) = run(integrator, 1.0, 1.0, 1.0, second);
-        // 2⁴⁰ is about 10¹².
-        for (energy, length, mass) in
-            [(40, 0, 0), (-40, 0, 0), (0, 20, 0), (0, -20, 0), (0, 0, 40), (0, 0, -40), (20, -4, 10)]
-        {
+        // 2⁴⁰ is about 10¹². Each run compiles its kernels anew: with two species all units at once have to do.
+        let powers = [(20, -4, 10), (40, 0, 0), (-40, 0, 0), (0, 20, 0), (0, -20, 0), (0, 0, 40), (0, 0, -40)];
+        let tried = if second == 1.0 { powers.len() } else { 1 };
+        for (energy, length, mass) in powers.into_iter().take(tried) {
             let scaled = run(integrator, two(energy), two(length), two(mass), second);
             assert_eq!(scaled.2, unit * (two(energy) * two(mass)).sqrt(), "momentum unit");
             assert!(scaled.0 == state, "2^{energy} energy, 2^{length} length, 2^{mass} mass ({integrator})");

@@ -67,6 +67,29 @@ fn an_override_that_goes_nowhere_hides_no_other_mistake() {
 }
 
 #[test]
+fn what_cannot_be_read_hides_no_other_mistake() {
+    let pairs = r#"interactions.0.pairs=[{"between":["water","wine"],"repulsion":4}]"#;
+    let wine =
+        "interactions[0].pairs[0].between[1]: found \"wine\"; accepted: a species of some particle group: water, oil";
+    let late = "time.equilibration: found 1000; accepted: at most 100, the number of steps: change it too where `time.steps` is \
+                changed";
+    let theme = "output.plot.theme: found the text \"drk\"; did you mean `dark`? accepted: \"light\", \"dark\"";
+    assert_eq!(problems(&["output.plot.theme=drk", "time.equilibration=1000", pairs]), [theme, wine, late]);
+    let found = problems(&["integrator.type=groot-waren", "particles.0.count=many", "seed=-1", pairs]);
+    assert_eq!(found.len(), 4, "{found:#?}");
+    assert!(found[0].starts_with("seed: found -1") && found[3] == wine, "{found:#?}");
+    // Without numbers that a scene has to give there is still much to say, but nothing that follows from them.
+    let found = problems(&["temperature=hot", "time={}", "time.equilibration=1000", pairs]);
+    assert_eq!(found.len(), 4, "{found:#?}");
+    for part in ["temperature: found the text \"hot\"", "time.step: missing", "time.steps: missing", wine] {
+        assert!(found.iter().any(|problem| problem.contains(part)), "{part}: {found:#?}");
+    }
+    // A list with an entry that cannot be read says nothing further.
+    let found = problems(&[r#"interactions.0.pairs=[{"between":["water"]},{"between":["water","oil"]}]"#]);
+    assert_eq!(found.len(), 1, "{found:#?}");
+}
+
+#[test]
 fn values_out_of_range_or_of_another_type() {
     refused(&["particles.0.mass=-1"], &["particles[0].mass: found -1; accepted: a number greater than zero"]);
     refused(&["time.step=0"], &["time.step: found 0; accepted: a number greater than zero"]);

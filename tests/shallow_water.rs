@@ -221,33 +221,59 @@ const DECAY: [(&str, f64, [f64; 5]); 4] = [
     ("white", f64::INFINITY, [0.6894, 0.5077, 0.3532, 0.2398, 0.1375]),
 ];
 
-/// The first `count` of the times of [`DECAY`].
-fn decay(rows: &[(&str, f64, [f64; 5])], count: usize) {
-    for (name, epsilon, known) in rows {
-        let bath = if epsilon.is_finite() { memory("cotter-reich", *epsilon) } else { WHITE.to_owned() };
-        let scene = shear_flow(&[ROTATE, &bath, "temperature=4e-4", "time.step=0.01", "output.energies.every=100"]);
-        for mut run in implementations(&scene) {
-            let initial = run.observe().total_energy();
-            let series = energies(&run.series(100, [1, 2, 5, 10, 20][count - 1]));
-            let found = [1, 2, 5, 10, 20].map(|time| series.get(time - 1).map_or(f64::NAN, |energy| energy / initial));
-            println!("{}: {name}: {found:.4?}, known {known:?}", run.name());
-            for (found, known) in found.iter().zip(known).take(count) {
-                let tolerance = if *epsilon < 0.5 || *epsilon > 2.0 { 0.02 } else { 0.04 };
-                assert!((found - known).abs() < tolerance, "{}: {name}: {found}, not {known}", run.name());
+/// E(t)/E0 of every implementation.
+type Decay = Vec<(&'static str, Vec<f64>)>;
+
+/// At the first `count` of the times of [`DECAY`].
+fn decay(epsilon: f64, count: usize) -> Decay {
+    let bath = if epsilon.is_finite() { memory("cotter-reich", epsilon) } else { WHITE.to_owned() };
+    let scene = shear_flow(&[ROTATE, &bath, "temperature=4e-4", "time.step=0.01", "output.energies.every=100"]);
+    let times = &[1, 2, 5, 10, 20][..count];
+    let measured = |mut run: Box<dyn Implementation>| {
+        let initial = run.observe().total_energy();
+        let series = energies(&run.series(100, times[count - 1]));
+        let found: Vec<f64> = times.iter().map(|time| series[*time as usize - 1] / initial).collect();
+        println!("{}: ε = {epsilon}: E/E0 = {found:.4?} at t = {times:?}", run.name());
+        (run.name(), found)
+    };
+    implementations(&scene).into_iter().map(measured).collect()
+}
+
+/// Every implementation decays as the independent program does at the first `count` of its times. Its three seeds
+/// scatter by .016 about ε = 1 and by .007 elsewhere; the tolerances are two and a half to three times that.
+fn assert_decay((name, epsilon, known): &(&str, f64, [f64; 5]), count: usize) -> Decay {
+    let tolerance = if (0.5..=2.0).contains(epsilon) { 0.04 } else { 0.02 };
+    let runs = decay(*epsilon, count);
+    for (implementation, found) in &runs {
+        for (found, known) in found.iter().zip(known) {
+            assert!((found - known).abs() < tolerance, "{implementation}: {name}: {found}, not {known}");
+        }
+    }
+    runs
+}
+
+#[test]
+#[ignore = "many minutes"]
+fn the_shear_flow_decays_as_it_should() {
+    let [_, _, ten, white] = DECAY.each_ref().map(|row| assert_decay(row, 5));
+    // From ε = 10 on the bath is white to the flow: energies differ by less than 4 % of that at the start.
+    let runs = [ten, decay(20.0, 5), white];
+    for (number, one) in runs.iter().enumerate() {
+        for other in &runs[..number] {
+            for ((implementation, one), (_, other)) in one.iter().zip(other) {
+                for (a, b) in one.iter().zip(other) {
+                    assert!((a - b).abs() < 0.04, "{implementation}: {one:.4?} and {other:.4?}");
+                }
             }
         }
     }
 }
 
 #[test]
-#[ignore = "many minutes"]
-fn the_shear_flow_decays_as_it_should() {
-    decay(&DECAY, 5);
-}
-
-#[test]
 fn the_shear_flow_begins_to_decay_as_it_should() {
-    decay(&DECAY[1..], 1);
+    for row in &DECAY[1..] {
+        assert_decay(row, 1);
+    }
 }
 
 // ---- Waves
@@ -299,7 +325,7 @@ fn difference(a: &State, b: &State) -> f64 {
 }
 
 #[test]
-fn steps_are_of_second_order() {
+fn steps_are_of_their_order() {
     let baths = SCHEMES.map(|scheme| (memory(scheme, 1.0), if scheme == "cotter-reich" { 1.0 } else { 2.0 }));
     let none = [("interactions.0.bath=null".to_owned(), 2.0)];
     for integrator in [GYRO, ROTATE] {
@@ -625,6 +651,47 @@ fn the_limit_of_stability_by_bisection() {
         }
     });
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Where particles are at random places the mesh is stiffer here and there: steps are stable up to another share.
+#[test]
+fn water_at_random_places_is_stable_up_to_the_share_that_it_is_promised() {
+    for (count, order, bath) in [(256, 3, WHITE), (1024, 3, WHITE), (1024, 3, ""), (4096, 3, WHITE), (1024, 1, WHITE)] {
+        let placed = format!(
+            r#"particles=[{{"species":"water","count":{count},"placement":{{"type":"random"}},"velocities":{{"type":"thermal"}}}}]"#
+        );
+        let spline = format!("interactions.0.spline_order={order}");
+        let bath = if bath.is_empty() { "interactions.0.bath=null" } else { bath };
+        let scene = |step: f64| {
+            still_water(&[&placed, &spline, bath, "temperature=1e-9", "output.energies.every=100", &time_step(step)])
+        };
+        let share = |step: f64| {
+            let model = start(&scene(step)).0;
+            let water = model.shallow_water.unwrap();
+            (water.stability(&model.integrator, [TAU, TAU], step), water.clean_share())
+        };
+        let step_of = |target: f64| {
+            let mut bounds: [f64; 2] = [1e-4, 0.2];
+            while bounds[1] / bounds[0] > 1.001 {
+                let middle = (bounds[0] * bounds[1]).sqrt();
+                bounds[usize::from(share(middle).0 > target)] = middle;
+            }
+            bounds[0]
+        };
+        let (_, clean) = share(0.01);
+        for set_up in IMPLEMENTATIONS {
+            let is_stable = |step: f64| {
+                let mut run = set_up(&scene(step));
+                (0..6).all(|_| run.attempt(100) && run.observe().kinetic_temperature() < 1e-7)
+            };
+            let found = [clean, 1.05].map(|target| is_stable(step_of(target)));
+            assert_eq!(
+                found,
+                [true, false],
+                "{count} particles, splines of order {order}, {bath}: up to p = {clean:.3}"
+            );
+        }
+    }
 }
 
 // ---- The ends of the ranges

@@ -301,7 +301,7 @@ fn an_unstable_run_is_reported_with_its_step_and_a_step_that_works() {
             "became unstable at step ",
             "; try a time step of 0.",
             "checkpoint, of step 0",
-            "warning: time.step: the stiffest wave",
+            "warning: time.step: the rotation turns a particle by 14.451 in one step",
         ],
     );
     assert_eq!(checkpoint::load(&place.path("out").join(files::CHECKPOINT)).unwrap().state.step, 0);
@@ -328,7 +328,7 @@ fn a_negative_depth_is_named() {
         &[
             "became unstable at step 0: the depth at mesh node (",
             "where x = ",
-            ", is negative; try",
+            ", is negative; no time step helps: ",
             "checkpoint, of step 0",
         ],
     );

@@ -111,7 +111,7 @@ fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> Engine
 /// Step, quantity and suggested time step of an unstable run.
 fn unstable(error: &EngineError) -> (u64, &str, f64) {
     match error {
-        EngineError::Unstable { step, quantity, suggested_step } => (*step, quantity, *suggested_step),
+        EngineError::Unstable { step, quantity, suggested_step } => (*step, quantity, suggested_step.unwrap_or(0.0)),
         other => panic!("{other:?} instead of an unstable run"),
     }
 }
@@ -429,7 +429,7 @@ fn a_velocity_that_leaves_its_range_is_caught_with_its_step() {
                 assert_eq!(at, step, "{error}");
                 assert_eq!(
                     quantity,
-                    format!("a velocity is above {limit:.4}, more than twice the largest expected in this scene")
+                    format!("a velocity is above {limit:.3}, more than twice the largest expected in this scene")
                 );
             }
         }
@@ -463,7 +463,7 @@ fn a_path_of_half_the_box_is_caught() {
                 let error = failure(&fast, &state, stored(storage), 5);
                 assert_eq!(
                     (unstable(&error).0, unstable(&error).1),
-                    (0, "a velocity is above 2.0000, which goes half round the box in one step")
+                    (0, "a velocity is above 2.000, which may go half round the box in one step")
                 );
             } else {
                 let mut engine = engine(&fast, &state, stored(storage));

@@ -236,7 +236,11 @@ fn mesh(
     let share = water.stability(&scene.integrator, lengths, scene.time.step);
     rows.push((
         "stability",
-        format!("the stiffest wave takes p = {} of the limit, where p < 1 is stable", short(share)),
+        format!(
+            "the stiffest wave takes p = {} of the limit of water spread evenly; at random places up to {:.2} is stable",
+            short(share),
+            water.clean_share()
+        ),
     ));
     rows
 }

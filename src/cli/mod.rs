@@ -25,7 +25,7 @@ use clap::{Parser, Subcommand};
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
 pub use print::print;
-pub use scene_arguments::SceneArguments;
+pub use scene_arguments::{SceneArguments, whole_number};
 
 /// Stochastic mesoscale particle simulations on any GPU.
 #[derive(Debug, Parser)]

@@ -8,6 +8,8 @@ use mesoscope::{run, sweep};
 use super::{AdapterArgument, Failure, print};
 
 /// Draw the plots of a run, or of a sweep, again from the files it left
+///
+/// Numbered snapshots stay as they are: the run alone knew those states.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -27,9 +29,11 @@ pub struct Arguments {
 
 /// Draws the plots.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    if let Some(other) =
-        arguments.set.iter().find(|change| !LOOK.iter().any(|prefix| change.trim().starts_with(prefix)))
-    {
+    let is_look = |change: &&String| {
+        let change = change.trim();
+        LOOK.iter().any(|prefix| change.starts_with(prefix)) && !change.starts_with(SCHEDULE)
+    };
+    if let Some(other) = arguments.set.iter().find(|change| !is_look(change)) {
         return Err(Failure::usage(format!(
             "`--set {other}`: a plot can be drawn with another look, {}, but not of another run",
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
@@ -49,6 +53,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         written.join(", ")
     ))
 }
+
+/// What says when numbered snapshots are taken, which only a run does.
+const SCHEDULE: &str = "output.snapshot.every";
 
 /// What of a scene is only about the look.
 const LOOK: [&str; 2] = ["output.plot.", "output.snapshot."];

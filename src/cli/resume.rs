@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::run::Simulation;
 
-use super::{AdapterArgument, Failure, print, report};
+use super::{AdapterArgument, Failure, print, report, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -17,7 +17,7 @@ pub struct Arguments {
     directory: PathBuf,
 
     /// Step at which to stop [default: the number of steps in the scene]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     steps: Option<u64>,
 
     #[command(flatten)]

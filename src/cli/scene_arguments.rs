@@ -14,7 +14,7 @@ pub struct SceneArguments {
     pub set: Vec<String>,
 
     /// Number of steps; short for `--set time.steps=N`
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     pub steps: Option<u64>,
 }
 
@@ -25,4 +25,13 @@ impl SceneArguments {
         overrides.extend(self.steps.map(|steps| format!("time.steps={steps}")));
         scene::load(&self.scene, &overrides)
     }
+}
+
+/// A number of steps, as scenes may write it: `1000` or `1e3`.
+pub fn whole_number(text: &str) -> Result<u64, String> {
+    let written = text.parse::<f64>().ok().filter(|number| number.fract() == 0.0 && (0.0..9e15).contains(number));
+    text.parse()
+        .ok()
+        .or(written.map(|number| number as u64))
+        .ok_or_else(|| "accepted: a whole number, zero or positive".to_owned())
 }

@@ -21,6 +21,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let Some(name) = &arguments.name else { return print(&table()?) };
     match scene::builtin().iter().find(|scene| scene.name == name) {
         Some(scene) => print(scene.text),
+        None if std::path::Path::new(name).exists() => Err(Failure::usage(format!(
+            "`{name}` is not built in; `mesoscope scenes` lists those that are, and `mesoscope check {name}` reads a file"
+        ))),
         None => Err(scene::unknown_builtin(name).into()),
     }
 }

@@ -6,7 +6,7 @@ use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Sweep, SweepError, SweepOutcome, SweepRun};
 
 use super::sweep_report::{self, Reporter};
-use super::{AdapterArgument, Failure, print, report};
+use super::{AdapterArgument, Failure, print, report, whole_number};
 
 /// Run variants of a scene, and compare them in one table and one plot per quantity
 #[derive(Debug, clap::Args)]
@@ -40,7 +40,7 @@ pub struct Arguments {
     set: Vec<String>,
 
     /// Number of steps; short for `--set time.steps=N`
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     steps: Option<u64>,
 
     /// Directory for all variants [default: the scene's name and `-sweep`, in the working directory]
@@ -55,8 +55,8 @@ pub struct Arguments {
     #[arg(long)]
     relative: bool,
 
-    /// Plot this column of the tables of energies; may be repeated [default: all that change]
-    #[arg(long, value_name = "QUANTITY")]
+    /// Plot these columns of the tables of energies; may be repeated [default: all that change]
+    #[arg(long, value_name = "QUANTITY,…", value_delimiter = ',')]
     plot: Vec<String>,
 
     /// Variants to run at once [default: 2 on a software adapter for fewer than 16,000 particles, where that is about

@@ -500,11 +500,13 @@ impl<'a> Engine<'a> {
                     } else {
                         "more than twice the largest expected in this scene"
                     };
-                    format!("a velocity is above {:.4}, {reason}", limit * self.plan.units.momentum)
+                    format!("a velocity is above {}, {reason}", crate::scene::brief(limit * self.plan.units.momentum))
                 }
             },
         };
-        let suggested_step = crate::engine::error::round_down(self.plan.suggested_step);
+        // The depth at the start is no matter of the step.
+        let from_the_start = control.failures & 32 != 0 && step == 0;
+        let suggested_step = (!from_the_start).then(|| crate::engine::error::round_down(self.plan.suggested_step));
         Err(EngineError::Unstable { step, quantity, suggested_step })
     }
 

@@ -75,11 +75,23 @@ pub enum GpuError {
     },
 }
 
-fn install_hint() -> &'static str {
+fn install_hint() -> String {
+    // Vulkan's loader then looks at nothing else.
+    let narrowed =
+        ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].into_iter().find_map(|name| Some((name, std::env::var(name).ok()?)));
+    if let Some((name, value)) = narrowed.filter(|_| cfg!(target_os = "linux")) {
+        return format!(
+            "the variable {name} hides all Vulkan drivers but `{value}`: unset it, or let it name a driver that is there"
+        );
+    }
+    driver_hint().to_owned()
+}
+
+fn driver_hint() -> &'static str {
     if cfg!(target_os = "linux") {
         "install a Vulkan driver; without a GPU the software driver serves: \
-         apt-get install mesa-vulkan-drivers (Debian, Ubuntu), dnf install mesa-vulkan-drivers (Fedora), \
-         pacman -S vulkan-swrast (Arch)"
+         apt-get install mesa-vulkan-drivers libvulkan1 (Debian, Ubuntu), dnf install mesa-vulkan-drivers vulkan-loader (Fedora), \
+         pacman -S vulkan-swrast vulkan-icd-loader (Arch)"
     } else if cfg!(target_os = "windows") {
         "install your graphics card's driver; DirectX 12 or Vulkan is needed"
     } else {

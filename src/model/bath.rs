@@ -54,6 +54,8 @@ impl BathStep {
             BathScheme::Symmetric => ((1.0 - 0.5 * a) / (1.0 + 0.5 * a), 1.0),
             BathScheme::Exponential => ((-a).exp(), if a > 1e-8 { (0.5 * a).tanh() / (0.5 * a) } else { 1.0 }),
         };
+        // What single precision cannot hold is forgotten within a step.
+        let persistence = if persistence.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { persistence };
         Self { persistence, coupling: coupling * factor, continuous_coupling: coupling }
     }
 
@@ -99,6 +101,8 @@ mod tests {
             assert!(fast.persistence < 1e-9);
             assert!((fast.coupling / limit.coupling - 1.0).abs() < 1e-9, "{scheme:?}");
         }
+        // e^-2000 is none that single precision could hold.
+        assert_eq!(BathStep::with_memory(BathScheme::Exponential, 3.0, 2e5, 0.01).persistence, 0.0);
         let none = BathStep::with_memory(BathScheme::Exponential, 3.0, 0.0, 0.01);
         assert_eq!((none.persistence, none.coupling, none.noise(1.0)), (1.0, 3.0, 0.0));
     }

@@ -21,7 +21,7 @@ pub use coloured_noise::{ColouredNoise, Jump};
 pub use dpd::PairForce;
 pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use position::PositionBath;
-pub(crate) use shallow_water::{CLEAN_SHARE, LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
+pub(crate) use shallow_water::{LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 pub(crate) use time_scales::{FREQUENCY_LIMIT, FRICTION_LIMIT};
 pub use topology::ChainGroup;

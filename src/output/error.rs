@@ -57,8 +57,8 @@ pub enum OutputError {
         /// What is wrong with it.
         problem: String,
     },
-    /// A table to continue lacks a row that was written before.
-    #[error("`{}` cannot be continued: the row of step {step} is missing; restore the file, or run the scene anew with --force", path.display())]
+    /// A table lacks a row that was written before.
+    #[error("`{}` is not what the run wrote: the row of step {step} is missing; restore the file, or run the scene anew with --force", path.display())]
     MissingRow {
         /// The table.
         path: PathBuf,
@@ -66,10 +66,12 @@ pub enum OutputError {
         step: u64,
     },
     /// No run has been finished in the directory.
-    #[error("`{}` is missing: no run has been finished there; `mesoscope resume` goes on from the last checkpoint", path.display())]
+    #[error("`{}` is missing: {advice}", path.display())]
     Unfinished {
         /// The summary that a finished run leaves.
         path: PathBuf,
+        /// What that means.
+        advice: &'static str,
     },
     /// A table of a run has other columns than the run writes.
     #[error("`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene anew with --force", path.display())]

@@ -1,6 +1,6 @@
 //! The summary of a run, `run.json`.
 
-use super::{OutputError, write_atomically};
+use super::{OutputError, files, write_atomically};
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -115,7 +115,14 @@ impl Summary {
     /// [`OutputError::Unfinished`] when there is none, [`OutputError::Io`] when it cannot be read, [`OutputError::Line`] where it is not a summary.
     pub fn load(path: &Path) -> Result<Self, OutputError> {
         let text = std::fs::read(path).map_err(|source| match source.kind() {
-            std::io::ErrorKind::NotFound => OutputError::Unfinished { path: path.to_path_buf() },
+            std::io::ErrorKind::NotFound => OutputError::Unfinished {
+                path: path.to_path_buf(),
+                advice: if path.with_file_name(files::CHECKPOINT).exists() {
+                    "no run has been finished there; `mesoscope resume` goes on from the last checkpoint"
+                } else {
+                    "there is no run in this directory"
+                },
+            },
             _ => OutputError::io("read", path)(source),
         })?;
         serde_json::from_slice(&text).map_err(|error| OutputError::Line {

@@ -361,6 +361,10 @@ impl Builder<'_> {
     /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as
     /// often as they are visited, with the forces that there are.
     fn operations(&self) -> f64 {
+        const MOTION: f64 = 60.0;
+        if self.traversal == Traversal::Alone {
+            return MOTION;
+        }
         let density = self.particles as f64 / self.model.units.volume();
         let cutoff = self.force.cutoff;
         let (candidates, pairs) = if self.grid.dimension == 3 {
@@ -374,7 +378,7 @@ impl Builder<'_> {
         let pair = visits * (22.0 + cost(self.force.largest_repulsion() > 0.0, 8.0))
             + cost(frictional, 15.0 * visits)
             + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 } else { 25.0 });
-        12.0 * candidates + pair * pairs + 60.0
+        12.0 * candidates + pair * pairs + MOTION
     }
 
     fn analyses(&mut self, output: &Output) {

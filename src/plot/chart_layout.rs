@@ -221,6 +221,8 @@ const DASHES: [&[f64]; 7] = [
     &[2.0, 2.5],
 ];
 const REFERENCE_DASHES: &[f64] = &[3.5, 3.0];
+/// Labels of y axes that are too long for their panels are set smaller, down to this part of the size of labels.
+const Y_LABEL_SIZES: [f64; 4] = [1.0, 0.88, 0.76, 0.64];
 /// Up to this many points of a line are marked one by one.
 const FEW_POINTS: usize = 30;
 
@@ -366,10 +368,11 @@ impl Layout<'_> {
         // Widths: one left edge for all panels.
         let widest =
             y_ticks.iter().flat_map(|ticks| &ticks.major).map(|(_, text)| text_width(text)).fold(0.0, f64::max);
+        let label_size = self.y_label_size(height);
         let labels = self
             .prepared
             .iter()
-            .map(|prepared| self.y_label_lines(prepared.panel, height).len() as f64)
+            .map(|prepared| self.y_label_lines(prepared.panel, height, label_size).0.len() as f64)
             .fold(0.0, f64::max);
         let left = (frame.left + labels * line + 0.8 * gap + widest + 0.6 * gap + tick_length + rule)
             .min(frame.left + 0.6 * frame.width());
@@ -407,21 +410,32 @@ impl Layout<'_> {
     }
 
     /// The label of the y axis in lines that fit beside a panel of this height, the unit preferably in its own.
-    fn y_label_lines(&self, panel: &Panel, height: f64) -> Vec<String> {
+    /// The label of the y axis in lines of a size, and whether all of it is there.
+    fn y_label_lines(&self, panel: &Panel, height: f64, size: f64) -> (Vec<String>, bool) {
         let Sizes { label, gap, .. } = self.sizes;
         let setter = &self.canvas.typesetter;
         let text = panel.y.label.as_str();
         // Labels may reach into the row of the legend above the panel.
         let room = height + 2.0 * gap + if self.legends_above { LINE_HEIGHT * label } else { 0.0 };
-        let fits = |text: &str| setter.width(text, Weight::Regular, label) <= room;
+        let fits = |text: &str| setter.width(text, Weight::Regular, size) <= room;
         if !fits(text)
             && let Some(unit) = text.rfind(" (")
             && fits(&text[..unit])
             && fits(&text[unit + 1..])
         {
-            return vec![text[..unit].to_owned(), text[unit + 1..].to_owned()];
+            return (vec![text[..unit].to_owned(), text[unit + 1..].to_owned()], true);
         }
-        setter.wrap(text, Weight::Regular, label, room, 2)
+        let lines = setter.wrap(text, Weight::Regular, size, room, 3);
+        let whole = lines.join(" ") == text;
+        (lines, whole)
+    }
+
+    /// The largest size, of a few, at which the labels of the y axes of panels of a height are whole.
+    fn y_label_size(&self, height: f64) -> f64 {
+        let whole =
+            |size: &f64| self.prepared.iter().all(|prepared| self.y_label_lines(prepared.panel, height, *size).1);
+        let sizes = Y_LABEL_SIZES.map(|part| part * self.sizes.label);
+        sizes.into_iter().find(whole).unwrap_or(sizes[sizes.len() - 1])
     }
 
     fn grid(&mut self, place: &Placed) {
@@ -498,16 +512,18 @@ impl Layout<'_> {
     }
 
     fn y_labels(&mut self, placed: &[Placed], margin: f64) {
-        let style = self.text_style(self.inks.ink);
+        // All panels are of one height.
+        let size = placed.first().map_or(self.sizes.label, |place| self.y_label_size(place.area.height()));
+        let style = Type { size, ..self.text_style(self.inks.ink) };
         let line = LINE_HEIGHT * style.size;
         let most = placed
             .iter()
             .enumerate()
-            .map(|(index, place)| self.y_label_lines(self.prepared[index].panel, place.area.height()).len())
+            .map(|(index, place)| self.y_label_lines(self.prepared[index].panel, place.area.height(), size).0.len())
             .max()
             .unwrap_or(0);
         for (index, place) in placed.iter().enumerate() {
-            let lines = self.y_label_lines(self.prepared[index].panel, place.area.height());
+            let (lines, _) = self.y_label_lines(self.prepared[index].panel, place.area.height(), size);
             let first = 0.5 * (most - lines.len()) as f64;
             for (number, text) in lines.iter().enumerate() {
                 let baseline = margin + (first + number as f64) * line + CAPITAL_HEIGHT * style.size;
@@ -534,7 +550,8 @@ impl Layout<'_> {
             .iter()
             .map(|series| runs(&series.points, |point| place.pixel(point)).iter().map(|run| thinned(run)).collect())
             .collect();
-        for (number, series) in panel.series.iter().enumerate().rev() {
+        // The first is solid: where lines coincide, the dashes of the others are seen on it.
+        for (number, series) in panel.series.iter().enumerate() {
             let look = self.look(number, series);
             let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
             let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
@@ -620,7 +637,9 @@ impl Layout<'_> {
         let points: Vec<[f64; 2]> =
             pieces.iter().flatten().copied().filter(|point| place.area.contains(*point)).collect();
         if points.len() <= FEW_POINTS {
-            points.iter().for_each(|point| self.marker(*point, self.marker_radius(), look));
+            for point in points {
+                self.marker(point, self.marker_radius(), look);
+            }
             return;
         }
         let count = 7;

@@ -31,6 +31,9 @@ impl<'a> Key<'a> {
     }
 }
 
+/// Rows of species below a picture, at most.
+const LEGEND_ROWS: usize = 6;
+
 /// Sizes of everything around the box, in pixels.
 pub(super) struct Page {
     width: f64,
@@ -110,7 +113,15 @@ impl Page {
             }
         }
         // A legend must not crowd out the picture.
-        rows.truncate(6);
+        let left_out: usize = rows.iter().skip(LEGEND_ROWS).map(Vec::len).sum();
+        rows.truncate(LEGEND_ROWS);
+        if left_out > 0
+            && let Some(last) = rows.last_mut()
+        {
+            // Its place is that of the last species.
+            let replaced = usize::from(last.pop().is_some());
+            last.push((format!("and {} more species", left_out + replaced), 0.0));
+        }
         rows
     }
 
@@ -143,8 +154,10 @@ impl Page {
                     let y = top + (row as f64 + 0.5) * self.line();
                     let mut x = self.margin;
                     for (text, width) in entries {
-                        let radius = 0.36 * self.label;
-                        canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
+                        if width > 0.0 {
+                            let radius = 0.36 * self.label;
+                            canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
+                        }
                         canvas.text_centred(&text, [x + 1.1 * self.label, y], Anchor::Start, style);
                         x += width;
                         species += 1;

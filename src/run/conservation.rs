@@ -13,8 +13,10 @@ pub(super) fn conserved(model: &Model) -> Vec<String> {
         _ if cells.is_some() => &["mass, to the last bit", "total momentum, to the last bit"],
         (None, _) if model.conserves_momentum() => &["mass", "total momentum, to the last bit"],
         (None, _) => &["mass"],
-        (Some(_), Integrator::Rotate {}) => &["mass", "mass on the mesh, to the last bit"],
-        (Some(_), _) => &["mass on the mesh, to the last bit", "the circulation of material loops, to rounding"],
+        (Some(water), Integrator::Gyro {}) if water.closed_loops().next().is_some() => {
+            &["mass on the mesh, to the last bit", "the circulation of material loops, to rounding"]
+        }
+        (Some(_), _) => &["mass on the mesh, to the last bit"],
     };
     kept.iter().map(|text| (*text).to_owned()).collect()
 }

@@ -85,20 +85,27 @@ pub(super) struct EnergyRecorder {
     equilibration: u64,
 }
 
-/// Reads the table that a run of this model wrote.
-pub(super) fn read(path: &Path, model: &Model) -> Result<Table, OutputError> {
+/// Reads the table that a run of this scene wrote until it came to a step.
+pub(crate) fn read(path: &Path, scene: &Scene, step: u64) -> Result<Table, OutputError> {
+    let model = &Model::new(scene);
     let table = read_table(path)?;
     let expected: Vec<&str> = std::iter::once("step").chain(columns(model).into_iter().map(|(name, _)| name)).collect();
     if table.columns != expected {
         let (expected, found) = (expected.join(","), table.columns.join(","));
         return Err(OutputError::Columns { path: path.to_path_buf(), expected, found });
     }
-    Ok(table)
+    match missing_row(path, step.saturating_add(1), scene.output.energies.every)? {
+        Some(step) => Err(OutputError::MissingRow { path: path.to_path_buf(), step }),
+        None => Ok(table),
+    }
 }
 
 /// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.
 fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputError> {
-    let text = std::fs::read_to_string(path).map_err(OutputError::io("continue", path))?;
+    let text = match std::fs::read_to_string(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Some(0)),
+        text => text.map_err(OutputError::io("continue", path))?,
+    };
     let whole = text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n'));
     let mut steps = whole.map_while(|line| line.split([',', '\n']).next()?.parse::<u64>().ok());
     let mut wanted = (0..end).step_by(usize::try_from(every).unwrap_or(usize::MAX).max(1));

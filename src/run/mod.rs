@@ -47,7 +47,7 @@ mod schedule;
 mod shown_field;
 mod simulation;
 
-pub(crate) use energies::quantities;
+pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use pictures::redraw;
 pub(crate) use pictures::{save, show_settled};

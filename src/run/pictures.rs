@@ -44,7 +44,7 @@ pub fn redraw(
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene);
-    let table = super::energies::read(&directory.file(files::ENERGIES), &model)?;
+    let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
     let mut written = vec![files::ENERGIES_PLOT];
     for (name, plot) in ANALYSES {

@@ -93,6 +93,9 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     default_colour(&mut document);
     problems.extend(shape::check(&super::schema(), &mut document));
     // What the shape check has mended may be readable, and then everything can be said at once.
+    if !problems.is_empty() {
+        fill_in(&mut document);
+    }
     let scene = match serde_json::from_value::<Scene>(document) {
         Ok(scene) => scene,
         Err(_) if !problems.is_empty() => return Err(invalid(name, problems)),
@@ -105,6 +108,21 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     further.retain(|problem| problems.iter().all(|known| !related(&known.path, &problem.path)));
     problems.extend(further);
     if problems.is_empty() { Ok(scene) } else { Err(invalid(name, problems)) }
+}
+
+/// Numbers that further checks can do with, for those that a scene has to give and does not.
+fn fill_in(document: &mut Value) {
+    // With a run this long no interval is too long.
+    let numbers =
+        [("", "temperature", Value::from(1)), ("/time", "step", 1e-3.into()), ("/time", "steps", (1_u64 << 53).into())];
+    if let Some(scene) = document.as_object_mut() {
+        scene.entry("time").or_insert_with(|| serde_json::json!({}));
+    }
+    for (place, key, number) in numbers {
+        if let Some(object) = document.pointer_mut(place).and_then(Value::as_object_mut) {
+            object.entry(key).or_insert(number);
+        }
+    }
 }
 
 /// The integrator that is left out belongs to the interactions.

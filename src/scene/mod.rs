@@ -36,6 +36,7 @@ pub use voronoi::{
     CellEnergy, EquationOfState, FrictionSolver, InitialMasses, TemperatureRegion, VoronoiForm, VoronoiInteraction,
     shear_waves,
 };
+pub(crate) use warnings::brief;
 pub use warnings::warnings;
 
 impl Space {

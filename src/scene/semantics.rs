@@ -177,7 +177,7 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
 fn check_pairs(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut Vec<Problem>) {
     let mut species: Vec<&str> = Vec::new();
     for group in &scene.particles {
-        if !species.contains(&group.species.as_str()) {
+        if !group.species.is_empty() && !species.contains(&group.species.as_str()) {
             species.push(&group.species);
         }
     }
@@ -206,7 +206,8 @@ fn check_pairs(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut V
 fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
     let time = &scene.time;
     if time.equilibration > time.steps {
-        let accepted = format!("at most {}, the number of steps", time.steps);
+        let accepted =
+            format!("at most {}, the number of steps: change it too where `time.steps` is changed", time.steps);
         problems.push(Problem::new("time.equilibration", format!("found {}", time.equilibration), accepted));
     }
     check_windows(scene, problems);
@@ -214,7 +215,8 @@ fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
     let output = &scene.output;
     if let Some(radial) = &output.radial_distribution {
         let half = scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0;
-        if radial.range > half {
+        // A box that is none is a mistake of its own.
+        if half > 0.0 && radial.range > half {
             let accepted = format!("at most {half}, half the shortest box edge");
             let found = format!("found {}", radial.range);
             problems.push(Problem::new("output.radial_distribution.range", found, accepted));
@@ -236,10 +238,11 @@ fn check_windows(scene: &Scene, problems: &mut Vec<Problem>) {
         if needed > u128::from(measured) {
             let found = format!("found {window} samples of {every} steps, {needed} steps in all");
             let most = measured / every.max(1);
-            let accepted = format!(
-                "at most {most} samples within the {measured} steps after equilibration; or let time.steps be at least {}",
-                needed + u128::from(scene.time.equilibration)
-            );
+            let longer = format!("time.steps of at least {}", needed + u128::from(scene.time.equilibration));
+            let accepted = match most {
+                0 | 1 => longer,
+                _ => format!("at most {most} samples within the {measured} steps after equilibration, or {longer}"),
+            };
             problems.push(Problem::new(format!("output.{name}.window"), found, accepted));
         }
     }

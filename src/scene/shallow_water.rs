@@ -5,11 +5,14 @@ use std::collections::HashMap;
 use super::error::Problem;
 use super::surface::Surface;
 use super::warnings::brief;
-use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities};
+use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities};
 use crate::model::{LARGEST_DEPTH, chebyshev_iterations};
 
 /// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
 const MOST_ITERATIONS: f64 = 10_000.0;
+
+/// Lengths of smoothing, in edges of the box, whose square single precision can still tell from 1.
+const LARGEST_SMOOTHING: f64 = 1e6;
 
 /// Points on each axis at which the depth at the start is tried.
 const TRIALS: u32 = 128;
@@ -18,7 +21,7 @@ const TRIALS: u32 = 128;
 pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Problem>) {
     let lengths = &scene.space.lengths;
     if lengths.len() != 2 {
-        let found = format!("found {} edges", lengths.len());
+        let found = format!("found {} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
         problems.push(Problem::new("space.box", found, "two edges: shallow water is two-dimensional"));
     }
     if !matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
@@ -29,8 +32,17 @@ pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
     check_groups(scene, water, problems);
     check_output(scene, problems);
     let smoothing = &water.smoothing;
+    let widest = lengths.iter().fold(0.0, |widest: f64, length| widest.max(*length));
+    if widest > 0.0 && smoothing.length > LARGEST_SMOOTHING * widest {
+        let found = format!("found {}", brief(smoothing.length));
+        let accepted =
+            format!("at most {LARGEST_SMOOTHING:e} edges of the box, beyond which the depth is flat to the last bit");
+        problems.push(Problem::new(format!("{path}.smoothing.length"), found, accepted));
+        return;
+    }
     // Out of range it is a mistake already, and out of reach too.
-    if lengths.len() == 2 && smoothing.length >= 0.0 && (1..=2).contains(&smoothing.power) {
+    let is_box = lengths.len() == 2 && lengths.iter().all(|length| *length > 0.0);
+    if is_box && smoothing.length >= 0.0 && (1..=2).contains(&smoothing.power) {
         check_iterations(water, path, [lengths[0], lengths[1]], problems);
         check_depth(water, path, [lengths[0], lengths[1]], problems);
         check_balance(scene, water, [lengths[0], lengths[1]], problems);
@@ -112,6 +124,10 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut V
 
 fn check_output(scene: &Scene, problems: &mut Vec<Problem>) {
     let output = &scene.output;
+    if output.snapshot != Snapshot::default() {
+        let accepted = "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how";
+        problems.push(Problem::new("output.snapshot", "found settings of pictures of particles", accepted));
+    }
     let asked = [
         ("radial_distribution", output.radial_distribution.is_some()),
         ("diffusion", output.diffusion.is_some()),
@@ -160,7 +176,7 @@ fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 
     let steepest = slopes.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
     let fastest = water.wave_speed / water.rotation.abs() * steepest;
     if fastest > 2.0 {
-        let found = format!("found a balance with velocities of up to {fastest:.3} times the speed of waves");
+        let found = format!("found a balance with velocities of up to {} times the speed of waves", brief(fastest));
         let accepted = "at most 2 times: lower or wider features, or a faster rotation";
         problems.push(Problem::new(format!("particles[{group}].velocities"), found, accepted));
     }

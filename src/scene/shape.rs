@@ -9,8 +9,9 @@ use super::error::Problem;
 use super::nearest::nearest;
 use super::path::Path;
 
-/// Checks `document` against `schema` and mends it on the way: unknown keys are taken out after they are reported, so
-/// that later checks can go on, and whole numbers written as `1e6` or `2000.0` become integers.
+/// Checks `document` against `schema` and mends it on the way, so that later checks can go on: unknown keys, and values
+/// that cannot be read where there may be none, are taken out after they are reported; whole numbers written as `1e6` or
+/// `2000.0` become integers.
 pub(super) fn check(schema: &Value, document: &mut Value) -> Vec<Problem> {
     let mut walker = Walker { root: schema, problems: Vec::new() };
     walker.check(schema, document, &Path::Root);
@@ -23,21 +24,21 @@ struct Walker<'a> {
 }
 
 impl<'a> Walker<'a> {
-    fn check(&mut self, schema: &'a Value, value: &mut Value, path: &Path<'_>) {
+    /// Whether the value can be read, right or wrong.
+    fn check(&mut self, schema: &'a Value, value: &mut Value, path: &Path<'_>) -> bool {
         let layers = layers(self.root, schema);
         if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
-            self.check_alternatives(schema, alternatives, value, path);
-            return;
+            return self.check_alternatives(schema, alternatives, value, path);
         }
         if !self.check_type(schema, &layers, value, path) {
-            return;
+            return false;
         }
         match value {
             Value::Number(_) => self.check_number(schema, &layers, value, path),
             Value::String(text) => self.check_text(schema, &layers, text, path),
             Value::Array(list) => self.check_list(schema, &layers, list, path),
             Value::Object(object) => self.check_object(&layers, object, path),
-            Value::Null | Value::Bool(_) => {}
+            Value::Null | Value::Bool(_) => true,
         }
     }
 
@@ -46,11 +47,17 @@ impl<'a> Walker<'a> {
         self.problems.push(Problem::new(path, found(value), accepted(self.root, schema)));
     }
 
-    fn check_alternatives(&mut self, schema: &'a Value, alternatives: &'a [Value], value: &mut Value, path: &Path<'_>) {
+    fn check_alternatives(
+        &mut self,
+        schema: &'a Value,
+        alternatives: &'a [Value],
+        value: &mut Value,
+        path: &Path<'_>,
+    ) -> bool {
         let choices: Vec<&str> = alternatives.iter().filter_map(|choice| choice["const"].as_str()).collect();
         if choices.len() == alternatives.len() {
             match value.as_str() {
-                Some(text) if choices.contains(&text) => {}
+                Some(text) if choices.contains(&text) => return true,
                 Some(text) => {
                     let suggestion = nearest(text, choices);
                     let problem = Problem::new(path, found(value), accepted(self.root, schema));
@@ -58,28 +65,28 @@ impl<'a> Walker<'a> {
                 }
                 None => self.refuse(schema, value, path),
             }
-            return;
+            return false;
         }
         let tags: Vec<&str> = alternatives.iter().filter_map(|branch| tag(self.root, branch)).collect();
         if tags.len() == alternatives.len() {
-            self.check_tagged(schema, alternatives, &tags, value, path);
-            return;
+            return self.check_tagged(schema, alternatives, &tags, value, path);
         }
         // Whatever the value comes nearest to being is what its author meant.
-        let mut fewest: Option<(Vec<Problem>, Value)> = None;
+        let mut fewest: Option<(Vec<Problem>, Value, bool)> = None;
         // But for a null, nobody means none by saying something.
         for branch in alternatives.iter().filter(|branch| value.is_null() || branch["type"] != "null") {
             let mut attempt = Walker { root: self.root, problems: Vec::new() };
             let mut mended = value.clone();
-            attempt.check(branch, &mut mended, path);
-            if fewest.as_ref().is_none_or(|(problems, _)| attempt.problems.len() < problems.len()) {
-                fewest = Some((attempt.problems, mended));
+            let readable = attempt.check(branch, &mut mended, path);
+            if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.len() < problems.len()) {
+                fewest = Some((attempt.problems, mended, readable));
             }
         }
-        if let Some((problems, mended)) = fewest {
+        fewest.is_some_and(|(problems, mended, readable)| {
             *value = mended;
             self.problems.extend(problems);
-        }
+            readable
+        })
     }
 
     /// One of several kinds of object, told apart by the text of `type`.
@@ -90,13 +97,13 @@ impl<'a> Walker<'a> {
         tags: &[&'a str],
         value: &mut Value,
         path: &Path<'_>,
-    ) {
+    ) -> bool {
         let kinds = tags.iter().map(|tag| format!("`{tag}`")).collect::<Vec<_>>().join(", ");
         let Value::Object(object) = value else {
             let meant = value.as_str().and_then(|text| nearest(text, tags.iter().copied()));
             let problem = Problem::new(path, found(value), accepted(self.root, schema));
             self.problems.push(problem.suggest(meant.map(|tag| format!("{{\"type\": \"{tag}\"}}"))));
-            return;
+            return false;
         };
         let place = path.key("type");
         match object.get("type") {
@@ -108,14 +115,14 @@ impl<'a> Walker<'a> {
             }
             Some(Value::String(text)) => {
                 if let Some(chosen) = tags.iter().position(|tag| tag == text) {
-                    self.check(&alternatives[chosen], value, path);
-                } else {
-                    let problem = Problem::new(place, format!("found \"{text}\""), kinds);
-                    self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
+                    return self.check(&alternatives[chosen], value, path);
                 }
+                let problem = Problem::new(place, format!("found \"{text}\""), kinds);
+                self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
             }
             Some(other) => self.problems.push(Problem::new(place, found(other), kinds)),
         }
+        false
     }
 
     fn check_type(&mut self, schema: &Value, layers: &[&Value], value: &mut Value, path: &Path<'_>) -> bool {
@@ -151,7 +158,7 @@ impl<'a> Walker<'a> {
         true
     }
 
-    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &Value, path: &Path<'_>) {
+    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &Value, path: &Path<'_>) -> bool {
         let range = Range::of(layers);
         // Within a whole number's format, u64 and f64 compare exactly enough: every bound is far below 2^53 or at 2^64.
         let inside = value.as_f64().is_some_and(|number| range.contains(number))
@@ -159,9 +166,16 @@ impl<'a> Walker<'a> {
         if !inside {
             self.refuse(schema, value, path);
         }
+        // Whole numbers are read into words of some length, wherever their bounds are.
+        let fits = |format: &str| match format {
+            "uint32" => value.as_u64().is_some_and(|number| number <= u64::from(u32::MAX)),
+            "uint64" => value.is_u64(),
+            _ => true,
+        };
+        inside || layers.iter().filter_map(|layer| layer["format"].as_str()).all(fits)
     }
 
-    fn check_text(&mut self, schema: &Value, layers: &[&Value], text: &str, path: &Path<'_>) {
+    fn check_text(&mut self, schema: &Value, layers: &[&Value], text: &str, path: &Path<'_>) -> bool {
         for layer in layers {
             let short = layer["minLength"].as_u64().is_some_and(|least| (text.chars().count() as u64) < least);
             let other = layer.get("const").is_some_and(|only| only != text);
@@ -170,12 +184,14 @@ impl<'a> Walker<'a> {
                 let choices = layer["enum"].as_array().into_iter().flatten().filter_map(Value::as_str);
                 let problem = Problem::new(path, format!("found \"{text}\""), accepted(self.root, schema));
                 self.problems.push(problem.suggest(nearest(text, choices)));
-                return;
+                return short;
             }
         }
+        true
     }
 
-    fn check_list(&mut self, schema: &Value, layers: &[&'a Value], list: &mut [Value], path: &Path<'_>) {
+    fn check_list(&mut self, schema: &Value, layers: &[&'a Value], list: &mut [Value], path: &Path<'_>) -> bool {
+        let mut readable = true;
         for layer in layers {
             let length = list.len() as u64;
             let short = layer["minItems"].as_u64().is_some_and(|least| length < least);
@@ -184,17 +200,19 @@ impl<'a> Walker<'a> {
                 let entries = if length == 1 { "entry" } else { "entries" };
                 let found = format!("found a list of {length} {entries}");
                 self.problems.push(Problem::new(path, found, accepted(self.root, schema)));
+                readable &= layer["minItems"] != layer["maxItems"];
             }
             let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
             for (index, entry) in list.iter_mut().enumerate() {
                 if let Some(schema) = first.get(index).or_else(|| layer.get("items")) {
-                    self.check(schema, entry, &path.index(index));
+                    readable &= self.check(schema, entry, &path.index(index));
                 }
             }
         }
+        readable
     }
 
-    fn check_object(&mut self, layers: &[&'a Value], object: &mut Map<String, Value>, path: &Path<'_>) {
+    fn check_object(&mut self, layers: &[&'a Value], object: &mut Map<String, Value>, path: &Path<'_>) -> bool {
         let known: Vec<(&'a str, &'a Value)> = layers
             .iter()
             .filter_map(|layer| layer["properties"].as_object())
@@ -205,13 +223,18 @@ impl<'a> Walker<'a> {
             .iter()
             .any(|layer| layer["additionalProperties"] == false || layer["unevaluatedProperties"] == false);
         let required = layers.iter().filter_map(|layer| layer["required"].as_array()).flatten();
-        let mut missing: Vec<&str> =
-            required.filter_map(Value::as_str).filter(|key| !object.contains_key(*key)).collect();
+        let required: Vec<&str> = required.filter_map(Value::as_str).collect();
+        let mut missing: Vec<&str> = required.iter().copied().filter(|key| !object.contains_key(*key)).collect();
+        let mut readable = missing.is_empty();
 
-        let mut unknown = Vec::new();
+        let mut taken_out = Vec::new();
         for (key, value) in object.iter_mut() {
             match known.iter().find(|(name, _)| name == key) {
-                Some((_, schema)) => self.check(schema, value, &path.key(key)),
+                Some((_, schema)) if self.check(schema, value, &path.key(key)) => {}
+                Some(_) => {
+                    readable &= !required.contains(&key.as_str());
+                    taken_out.push(key.clone());
+                }
                 None if closed => {
                     // What is not there yet is likelier to be meant than what is; a missing key most of all.
                     let names = known.iter().map(|(name, _)| *name);
@@ -221,18 +244,19 @@ impl<'a> Walker<'a> {
                     let accepted = names.filter(|name| *name != "$schema").collect::<Vec<_>>().join(", ");
                     let problem = Problem::new(path.key(key), "unknown key", accepted);
                     self.problems.push(problem.suggest(suggestion));
-                    unknown.push(key.clone());
+                    taken_out.push(key.clone());
                 }
                 None => {}
             }
         }
-        for key in unknown {
+        for key in taken_out {
             object.remove(&key);
         }
         for key in missing {
             let schema = known.iter().find(|(name, _)| *name == key).map_or(&Value::Null, |(_, schema)| *schema);
             self.problems.push(Problem::new(path.key(key), "missing", accepted(self.root, schema)));
         }
+        readable
     }
 }
 

@@ -137,7 +137,7 @@ pub struct Noise {
     /// The counter-based generator.
     #[serde(default)]
     pub generator: Generator,
-    /// The distribution of the noise on a pair.
+    /// The distribution of the noise on a pair without memory; all other noise is Gaussian.
     #[serde(default)]
     pub distribution: Distribution,
 }

@@ -5,7 +5,7 @@ use super::{
     ColouredNoiseInteraction, InitialMasses, Integrator, Interaction, NoiseProcess, Placement, Scene, Velocities,
     VoronoiForm, VoronoiInteraction,
 };
-use crate::model::{CLEAN_SHARE, FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, ShallowWater, Species, Voronoi};
+use crate::model::{FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, ShallowWater, Species, Voronoi};
 use std::f64::consts::PI;
 
 /// Units of momentum that a thermal momentum or an impulse should have: it is rounded to a whole number of them.
@@ -29,6 +29,7 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn_of_friction(scene, &model, force, &mut warnings);
         warn_of_stiffness(scene, &model, force, &mut warnings);
         warn_of_rounding(&model, force, &mut warnings);
+        warn_of_attraction(&model, force, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
         match interaction {
@@ -133,10 +134,17 @@ fn warn_of_rounding(model: &Model, force: &PairForce, warnings: &mut Vec<Warning
     let thermal = |species: &Species| units((species.mass * model.pair_temperature()).sqrt());
     let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
     let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
+    let alike = model.species.iter().all(|species| species.mass == lightest.mass);
+    let advice = if alike {
+        "choose units in which masses, temperature and repulsion are nearer to 1"
+    } else {
+        "choose masses that are nearer to each other"
+    };
     let told = |name: &str, value: f64| {
         format!(
-            "{name} is {value:.1} units of the integer momenta, which follow the heaviest species, and is lost in rounding below \
-             some {FEWEST_UNITS}: results will be wrong; choose masses that are nearer to each other"
+            "{name} is {} units of the integer momenta, which follow the heaviest species, and is lost in rounding below \
+             some {FEWEST_UNITS}: results will be wrong; {advice}",
+            brief(value)
         )
     };
     let warmth = thermal(lightest);
@@ -146,6 +154,21 @@ fn warn_of_rounding(model: &Model, force: &PairForce, warnings: &mut Vec<Warning
     let impulse = units(force.largest_repulsion() * model.time_step);
     if impulse > 0.0 && impulse < FEWEST_UNITS {
         warn(warnings, "interactions", told("the impulse of the repulsion in a step", impulse));
+    }
+}
+
+/// Soft particles that attract each other, and nothing stiffer to hold them apart, fall into one another.
+fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let mut species = model.species.iter().enumerate();
+    if let Some((_, species)) =
+        species.find(|(index, species)| species.count > 1 && force.repulsion(*index, *index) < 0.0)
+    {
+        let message = format!(
+            "with a negative repulsion particles of `{}` attract each other, the more the closer they are: unless something \
+             else holds them apart they collapse, however short the step",
+            species.name
+        );
+        warn(warnings, "interactions", message);
     }
 }
 
@@ -174,18 +197,24 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
     let step = scene.time.step;
     let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
     let share = water.stability(&scene.integrator, lengths, step);
-    if share > CLEAN_SHARE {
+    let clean = water.clean_share();
+    if share > clean {
         let advisable = water.advisable_step(&scene.integrator, lengths, step);
-        let verdict = if share >= 1.0 { "the run will become unstable" } else { "the limit is near" };
-        warn(
-            warnings,
-            "time.step",
+        let verdict = if share >= 1.0 { "the run will become unstable" } else { "the run may become unstable" };
+        let cause = if share.is_finite() {
             format!(
-                "the stiffest wave on the mesh takes p = {} of the limit of stability, where p < 1 is stable and \
-                 up to {CLEAN_SHARE} is clean: {verdict}; a step of {advisable:.2e} is advisable",
-                brief(share)
-            ),
-        );
+                "the stiffest wave on the mesh takes p = {} of the limit of stability of water spread evenly; with {} particles \
+                 a cell at random places up to {clean:.2} is stable",
+                brief(share),
+                brief(water.carriers as f64 / water.nodes() as f64)
+            )
+        } else {
+            format!(
+                "the rotation turns a particle by {} in one step, half a turn or more",
+                brief((water.rotation * step).abs())
+            )
+        };
+        warn(warnings, "time.step", format!("{cause}: {verdict}; a step of {advisable:.2e} is advisable"));
     }
 }
 

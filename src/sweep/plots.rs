@@ -6,7 +6,7 @@ use super::files;
 use super::summary::{SweepSummary, VariantState};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::model::Model;
-use crate::output::{RunDirectory, Table, files as run_files, read_table};
+use crate::output::{RunDirectory, Table, files as run_files};
 use crate::plot::{Curve, Plotter, SeriesInk, overlay_chart};
 use crate::run;
 use crate::scene::{self, PlotStyle};
@@ -89,7 +89,8 @@ pub(super) fn draw(
     let mut finished: Vec<(&Variant, Table)> = Vec::new();
     for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
         if ended.state == VariantState::Finished {
-            let table = read_table(&directory.join(&variant.name).join(run_files::ENERGIES))?;
+            let path = directory.join(&variant.name).join(run_files::ENERGIES);
+            let table = run::read_energies(&path, &variant.scene, ended.steps)?;
             finished.push((variant, table));
         }
     }
@@ -108,8 +109,12 @@ pub(super) fn draw(
     let mut written = Vec::new();
     for quantity in quantities {
         let mut curves: Vec<Curve> = Vec::new();
+        let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {
-            let Some(points) = points(table, quantity, look.relative) else { continue };
+            let Some(points) = points(table, quantity, look.relative) else {
+                without.push(&variant.label);
+                continue;
+            };
             let index = sweep.variants().iter().position(|known| known.name == variant.name).unwrap_or(0);
             curves.push(Curve { name: variant.label.clone(), points, ink: inks[index] });
         }
@@ -117,7 +122,11 @@ pub(super) fn draw(
             continue;
         }
         let title = finished.first().map_or("", |(variant, _)| variant.scene.title.as_str());
-        let mut chart = overlay_chart(title, &subtitle(sweep, summary), quantity, look.relative, curves);
+        let mut subtitle = subtitle(sweep, summary);
+        if !without.is_empty() {
+            subtitle = format!("{subtitle}; without {}", without.join(", "));
+        }
+        let mut chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
         let hot = quantity.contains("temperature") && !look.relative;
         if hot && chart.panels.iter_mut().any(run::show_settled) {
             chart.subtitle.push_str("; the start is off the scale");

@@ -9,7 +9,7 @@ use super::{default_jobs, files, table};
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::model::Model;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Summary, files as run_files, read_table};
+use crate::output::{Summary, files as run_files};
 use crate::run::{self, Event, Outcome, Progress, RunError, Simulation};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -270,7 +270,8 @@ fn finished(directory: &Path, variant: &Variant) -> Option<Summary> {
     let came_to_its_end =
         |summary: &Summary| summary.steps >= variant.scene.time.steps && is_of(variant, &summary.scene);
     let summary = Summary::load(&directory.join(run_files::SUMMARY)).ok().filter(came_to_its_end)?;
-    read_table(&directory.join(run_files::ENERGIES)).is_ok().then_some(summary)
+    let table = run::read_energies(&directory.join(run_files::ENERGIES), &variant.scene, summary.steps);
+    table.is_ok().then_some(summary)
 }
 
 /// Whether a scene is that of a variant, but for how long it runs.
