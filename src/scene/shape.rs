@@ -231,6 +231,8 @@ impl<'a> Walker<'a> {
         for (key, value) in object.iter_mut() {
             match known.iter().find(|(name, _)| name == key) {
                 Some((_, schema)) if self.check(schema, value, &path.key(key)) => {}
+                // Without a list of interactions or pairs a scene would be another one.
+                Some(_) if value.is_array() => readable = false,
                 Some(_) => {
                     readable &= !required.contains(&key.as_str());
                     taken_out.push(key.clone());
