@@ -681,15 +681,15 @@ fn water_at_random_places_is_stable_up_to_the_share_that_it_is_promised() {
         let (_, clean) = share(0.01);
         for set_up in IMPLEMENTATIONS {
             let is_stable = |step: f64| {
+                // Uneven water starts to flow, and has no more energy than at the start.
                 let mut run = set_up(&scene(step));
-                (0..6).all(|_| run.attempt(100) && run.observe().kinetic_temperature() < 1e-7)
+                let initial = run.observe().total_energy();
+                (0..6).all(|_| run.attempt(100) && run.observe().total_energy() < 2.0 * initial)
             };
-            let found = [clean, 1.05].map(|target| is_stable(step_of(target)));
-            assert_eq!(
-                found,
-                [true, false],
-                "{count} particles, splines of order {order}, {bath}: up to p = {clean:.3}"
-            );
+            let text = format!("{count} particles, splines of order {order}, {bath}");
+            assert!(is_stable(step_of(clean)), "{text}: p = {clean:.3}");
+            // Smoothing hides the uneven places from the waves; without a bath they are hardly stiffer.
+            assert!(bath != WHITE || !is_stable(step_of(1.0)), "{text}: p = 1");
         }
     }
 }

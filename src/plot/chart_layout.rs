@@ -420,10 +420,13 @@ impl Layout<'_> {
         let fits = |text: &str| setter.width(text, Weight::Regular, size) <= room;
         if !fits(text)
             && let Some(unit) = text.rfind(" (")
-            && fits(&text[..unit])
             && fits(&text[unit + 1..])
         {
-            return (vec![text[..unit].to_owned(), text[unit + 1..].to_owned()], true);
+            let mut lines = setter.wrap(&text[..unit], Weight::Regular, size, room, 2);
+            if lines.join(" ") == text[..unit] {
+                lines.push(text[unit + 1..].to_owned());
+                return (lines, true);
+            }
         }
         let lines = setter.wrap(text, Weight::Regular, size, room, 3);
         let whole = lines.join(" ") == text;

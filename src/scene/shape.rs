@@ -168,7 +168,7 @@ impl<'a> Walker<'a> {
         }
         // Whole numbers are read into words of some length, wherever their bounds are.
         let fits = |format: &str| match format {
-            "uint32" => value.as_u64().is_some_and(|number| number <= u64::from(u32::MAX)),
+            "uint32" => value.as_u64().is_some_and(|number| u32::try_from(number).is_ok()),
             "uint64" => value.is_u64(),
             _ => true,
         };
