@@ -74,12 +74,28 @@ pub fn threefry2x32(counter: [u32; 2], key: [u32; 2]) -> [u32; 2] {
 }
 
 /// The key of one stream over all steps.
+///
+/// ```
+/// use mesoscope::noise::{seed_key, stream, threefry2x32, step_key};
+///
+/// // Of step 5 of the run with seed 1: the steps of a stream differ in the counter alone.
+/// let key = seed_key(1, stream::PAIR);
+/// assert_eq!(step_key(1, stream::PAIR, 5), threefry2x32([5, 0], key));
+/// assert_ne!(key, seed_key(1, stream::MESH));
+/// ```
 #[must_use]
 pub fn seed_key(seed: u64, stream: u32) -> [u32; 2] {
     threefry2x32([stream, 0], [seed as u32, (seed >> 32) as u32])
 }
 
 /// The key of one stream at one step, from which all words of that step are drawn.
+///
+/// ```
+/// use mesoscope::noise::{step_key, stream};
+///
+/// // Steps are counted in 64 bits: nothing repeats after 2³² of them.
+/// assert_ne!(step_key(1, stream::PAIR, 7), step_key(1, stream::PAIR, 7 + (1 << 32)));
+/// ```
 #[must_use]
 pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
     threefry2x32([step as u32, (step >> 32) as u32], seed_key(seed, stream))

@@ -67,6 +67,13 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
     assert!(error.to_string().contains("--force"));
     assert_eq!(fs::read(run.file(files::SUMMARY)).unwrap(), b"old");
 
+    // Where something cannot be replaced, nothing is.
+    fs::create_dir(run.file(files::ENERGIES_PLOT)).unwrap();
+    let error = RunDirectory::create(&path, true).unwrap_err();
+    assert!(matches!(&error, OutputError::DirectoryInTheWay { path } if path.ends_with("energies.png")), "{error}");
+    assert_eq!(fs::read(run.file(files::ENERGIES)).unwrap(), b"old");
+    fs::remove_dir(run.file(files::ENERGIES_PLOT)).unwrap();
+
     RunDirectory::create(&path, true).unwrap();
     assert_eq!(directory_listing(&path), ["notes.txt"]);
 }

@@ -44,7 +44,10 @@ fn unknown_keys() {
         &["interactions.0.fricton=4"],
         &["interactions[0].fricton: unknown key; did you mean `friction`? accepted: type, cutoff, weight_exponent"],
     );
-    refused(&["interactions.0.gamma=4"], &["did you mean `friction`?"]);
+    for symbol in ["gamma", "gama"] {
+        refused(&[&format!("interactions.0.{symbol}=4")], &["did you mean `friction`?"]);
+    }
+    refused(&["particles.0.densty=3"], &["did you mean `number_density`?"]);
     refused(&["tempreature=1"], &["tempreature: unknown key; did you mean `temperature`?"]);
     refused(&["integrator.type=splitting", "integrator.lambda=0.5"], &["integrator.lambda: unknown key"]);
     refused(&["particles.0.placement.type=random", "particles.0.placement.spread=1"], &["placement.spread"]);

@@ -437,7 +437,7 @@ fn a_time_step_beyond_the_limit() {
     );
     let turned = warned(&["time.step=0.6"]);
     assert!(
-        turned.contains("the rotation turns a particle by 3.600 in one step, half a turn or more: the run will"),
+        turned.contains("the rotation turns a particle by 3.600 in one step, half a turn or more: the run may"),
         "{turned}"
     );
     let beyond = warned(&[rotate, &step(1.234)]);

@@ -90,7 +90,10 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
         _ => scene.integrator.name().to_owned(),
     };
-    let per_particle = plan.bytes() as f64 / plan.particles.max(1) as f64;
+    let mut memory = bytes(plan.bytes());
+    if plan.particles > 0 {
+        memory += &format!(", {:.1} bytes a particle", plan.bytes() as f64 / plan.particles as f64);
+    }
     let particles = match &model.shallow_water {
         Some(water) if water.carriers < plan.particles => {
             let noun = if plan.particles - water.carriers == 1 { "tracer" } else { "tracers" };
@@ -114,7 +117,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     }
     rows.extend([
         ("adapter", adapter.to_owned()),
-        ("memory", format!("{}, {per_particle:.1} bytes a particle", bytes(plan.bytes()))),
+        ("memory", memory),
         (
             "arithmetic",
             format!("about {} operations a particle and step", grouped(plan.operations_per_particle as u64)),
@@ -209,7 +212,8 @@ fn mesh(
         "none".to_owned()
     } else {
         let (length, power) = (smoothing.length, smoothing.power);
-        format!("{solver}, length {length:.4} ({:.2} × {:.2} cells), power {power}", cells[0], cells[1])
+        let length = if length < 1e-3 { format!("{length:.3e}") } else { format!("{length:.4}") };
+        format!("{solver}, length {length} ({:.2} × {:.2} cells), power {power}", cells[0], cells[1])
     };
     let storage = match plan.layout {
         Layout::Water { bins: Some(bins), .. } => format!("a bin of {} particles for every cell", bins.capacity),

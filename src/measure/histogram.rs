@@ -102,6 +102,13 @@ impl PowerMeans {
 }
 
 /// The Gaussian density with a mean and a standard deviation.
+///
+/// ```
+/// use mesoscope::measure::histogram::gaussian_density;
+///
+/// assert!((gaussian_density(1.0, 1.0, 2.0) - 0.19947).abs() < 1e-5);
+/// assert_eq!(gaussian_density(0.0, 1.0, 2.0), gaussian_density(2.0, 1.0, 2.0));
+/// ```
 #[must_use]
 pub fn gaussian_density(value: f64, mean: f64, standard_deviation: f64) -> f64 {
     let z = (value - mean) / standard_deviation;

@@ -33,14 +33,20 @@ impl RunDirectory {
     ///
     /// # Errors
     /// [`OutputError::InTheWay`] when there are files of an earlier run and `force` is not given;
-    /// [`OutputError::NoDirectory`] when `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
+    /// [`OutputError::DirectoryInTheWay`] when a directory has the name of a result; [`OutputError::NoDirectory`] when
+    /// `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
         let directory = Self { path: path.into() };
-        if directory.path.is_file() {
+        if directory.path.exists() && !directory.path.is_dir() {
             return Err(OutputError::NoDirectory { path: directory.path });
         }
         fs::create_dir_all(&directory.path).map_err(OutputError::io("create the directory", &directory.path))?;
         let in_the_way = directory.run_files()?;
+        // Nothing is removed where not everything can be.
+        let mut paths = in_the_way.iter().map(|name| directory.file(name));
+        if let Some(path) = paths.find(|path| path.is_dir()) {
+            return Err(OutputError::DirectoryInTheWay { path });
+        }
         if let (false, Some(name)) = (force, in_the_way.first()) {
             return Err(OutputError::InTheWay { path: directory.file(name) });
         }

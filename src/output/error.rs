@@ -23,6 +23,12 @@ pub enum OutputError {
         /// The first such file.
         path: PathBuf,
     },
+    /// A directory has the name of a result.
+    #[error("`{}` is a directory, and a result is to have its name: move it away, or choose another directory with --out", path.display())]
+    DirectoryInTheWay {
+        /// The directory inside that of the run.
+        path: PathBuf,
+    },
     /// A file stands where the directory should be.
     #[error("`{}` is a file, and the results need a directory: choose one with --out", path.display())]
     NoDirectory {

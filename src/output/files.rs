@@ -171,6 +171,13 @@ pub fn field(stem: &str, number: Option<u64>, extension: &str) -> String {
 }
 
 /// The number in the name of a numbered snapshot or field.
+///
+/// ```
+/// use mesoscope::output::files;
+///
+/// assert_eq!(files::snapshot_number(&files::snapshot(12)), Some(12));
+/// assert_eq!(files::snapshot_number("snapshot-12.png"), None);
+/// ```
 #[must_use]
 pub fn snapshot_number(name: &str) -> Option<u64> {
     let (stem, rest) = name.split_once('-')?;

@@ -16,6 +16,17 @@ const CHUNK: usize = 8192;
 /// The values are float64, little-endian, in C order: the last index runs fastest. That is the order of
 /// [`Field::values`](crate::measure::Field::values), whose shape is its `nodes`.
 ///
+/// ```
+/// use mesoscope::output::write_npy;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("depth.npy");
+/// write_npy(&path, &[2, 3], &[1.0, 1.1, 1.2, 0.9, 1.0, 1.1])?;
+/// // A header of 128 bytes, then six numbers.
+/// assert_eq!(std::fs::metadata(&path)?.len(), 128 + 6 * 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be written, or when `shape` does not hold as many values as there are.
 pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), OutputError> {

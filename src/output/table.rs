@@ -26,6 +26,21 @@ impl Table {
 
 /// Reads a table: a header line, then one line of numbers per row.
 ///
+/// ```
+/// use mesoscope::output::read_table;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("energies.csv");
+/// std::fs::write(&path, "step,temperature,pressure\n0,1.02,\n20,0.98,23.5\n")?;
+/// let table = read_table(&path)?;
+/// assert_eq!(table.column("temperature"), Some(vec![1.02, 0.98]));
+/// assert!(table.rows[0][2].is_nan());
+///
+/// std::fs::write(&path, "step,temperature\n0,warm\n")?;
+/// assert!(read_table(&path).unwrap_err().to_string().ends_with("line 2: `warm` is not a number"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`OutputError::Line`] names the first line that is no row of the table; [`OutputError::Io`] when the file cannot
 /// be read.

@@ -73,6 +73,18 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 
 /// The factor by which the smoothing multiplies the mode of the mesh with these wave numbers, which count waves in the
 /// box: what the kernels compute, but for rounding.
+///
+/// ```
+/// use mesoscope::plan::smoothing::transfer;
+///
+/// let scene = mesoscope::scene::load("shallow-water", &[])?;
+/// let water = mesoscope::model::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
+/// // The depth as a whole stays what it is, short waves all but vanish.
+/// assert_eq!(transfer(&water, lengths, [0, 0]), 1.0);
+/// assert!(transfer(&water, lengths, [32, 32]) < 0.1 * transfer(&water, lengths, [1, 1]));
+/// # Ok::<(), mesoscope::scene::SceneError>(())
+/// ```
 #[must_use]
 pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 {
     let smoothing = &water.smoothing;
@@ -88,6 +100,17 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 }
 
 /// Number of iterations of [`SmoothingSolver::Chebyshev`], in which (1 - Λ²∇²)⁻¹ is a polynomial of that degree less one.
+///
+/// ```
+/// use mesoscope::plan::smoothing::iterations;
+///
+/// let scene = mesoscope::scene::load("shallow-water", &[])?;
+/// let water = mesoscope::model::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
+/// let [rough, fine] = [1e-1, 1e-6].map(|tolerance| iterations(&water, lengths, tolerance));
+/// assert!(1 < rough && rough < fine && fine < 100);
+/// # Ok::<(), mesoscope::scene::SceneError>(())
+/// ```
 #[must_use]
 pub fn iterations(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> u32 {
     Polynomial::new(water, lengths, tolerance).weights.len() as u32

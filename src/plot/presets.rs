@@ -143,6 +143,13 @@ pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
 }
 
 /// The radial distribution function g(r), with the value 1 of an ideal gas as a reference.
+///
+/// ```
+/// use mesoscope::plot::radial_distribution_chart;
+///
+/// let chart = radial_distribution_chart("Hard discs", &[0.5, 1.0, 1.5], &[0.0, 1.8, 1.1]);
+/// assert_eq!(chart.panels[0].x.range, Some([0.0, 1.5]));
+/// ```
 #[must_use]
 pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64]) -> Chart {
     let points = distances.iter().zip(values).map(|(r, g)| [*r, *g]).collect();
@@ -158,6 +165,15 @@ pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64])
 
 /// Mean squared displacement (on logarithmic axes) and velocity autocorrelation over the lag; an empty list leaves its
 /// panel out.
+///
+/// ```
+/// use mesoscope::plot::correlation_chart;
+///
+/// let lags = [0.0, 0.1, 0.2];
+/// let both = correlation_chart("Diffusion", &lags, &[0.0, 0.02, 0.06], &[3.0, 2.2, 1.7]);
+/// let one = correlation_chart("Diffusion", &lags, &[0.0, 0.02, 0.06], &[]);
+/// assert_eq!((both.panels.len(), one.panels.len()), (2, 1));
+/// ```
 #[must_use]
 pub fn correlation_chart(title: &str, lags: &[f64], displacement: &[f64], autocorrelation: &[f64]) -> Chart {
     let series = |name: &str, values: &[f64], first: f64| {

@@ -18,19 +18,24 @@ const SYMBOLS: [(&str, &str); 11] = [
 /// The candidate most like `word`, if any is like it at all.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let word = word.to_lowercase();
-    let meaning = SYMBOLS.iter().find(|(symbol, _)| *symbol == word).map(|(_, key)| *key);
     let mut best = (0.0, None);
     for candidate in candidates {
-        if meaning == Some(candidate) {
-            return Some(candidate.to_owned());
-        }
-        let lower = candidate.to_lowercase();
-        // One slip in a short name is a small likeness, but a likely slip.
-        let one_slip = word.len() > 2 && strsim::damerau_levenshtein(&word, &lower) == 1;
-        let likeness = strsim::jaro_winkler(&word, &lower).max(if one_slip { 0.9 } else { 0.0 });
+        let symbols = SYMBOLS.iter().filter(|(_, key)| *key == candidate).map(|(symbol, _)| *symbol);
+        let likeness =
+            symbols.map(|symbol| likeness(&word, symbol)).fold(likeness(&word, &candidate.to_lowercase()), f64::max);
         if likeness > best.0 {
             best = (likeness, Some(candidate));
         }
     }
     best.1.filter(|_| best.0 >= 0.8).map(str::to_owned)
+}
+
+/// From 0, nothing in common, to 1, the same.
+fn likeness(word: &str, name: &str) -> f64 {
+    // One slip in a short name is a small likeness, but a likely slip; in a symbol of two letters it is another one.
+    if word.len().min(name.len()) < 3 {
+        return f64::from(u8::from(word == name));
+    }
+    let one_slip = strsim::damerau_levenshtein(word, name) == 1;
+    strsim::jaro_winkler(word, name).max(if one_slip { 0.9 } else { 0.0 })
 }

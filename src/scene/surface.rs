@@ -26,7 +26,7 @@ const SECOND: [f64; 5] = [-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.
 /// Weights of f(x + jδ) - f(x - jδ), j = 1…4, in the first derivative.
 const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 /// Steps of the differences for each length over which a feature changes.
-const STEPS_PER_LENGTH: f64 = 60.0;
+const STEPS_PER_LENGTH: f64 = 30.0;
 
 impl<'a> Surface<'a> {
     /// The surface of some features over a box with these edges.
@@ -112,14 +112,17 @@ impl<'a> Surface<'a> {
     fn step(&self) -> f64 {
         let shortest = self.lengths[0].min(self.lengths[1]);
         let length = |feature: &SurfaceFeature| match *feature {
-            // Widths of a front are in radians of the box; the tanh itself changes twice as fast.
-            SurfaceFeature::Front { width, .. } => 0.5 * width.min(1.0) * shortest / TAU,
+            // Widths of a front are in radians of the box; the tanh itself changes twice as fast, and a meander lets it
+            // change up to five times its amplitude faster along x than along y.
+            SurfaceFeature::Front { width, meander, .. } => {
+                0.5 * width.min(1.0) / (5.0 * meander.abs()).max(1.0) * shortest / TAU
+            }
             SurfaceFeature::Bump { radius, .. } => radius,
             SurfaceFeature::Wave { periods, .. } => {
                 shortest / (TAU * f64::from(periods[0].unsigned_abs().max(periods[1].unsigned_abs()).max(1)))
             }
         };
-        self.features.iter().map(length).fold(shortest, f64::min) / STEPS_PER_LENGTH * 2.0
+        self.features.iter().map(length).fold(shortest, f64::min) / STEPS_PER_LENGTH
     }
 }
 

@@ -16,6 +16,13 @@ pub fn plot(quantity: &str) -> String {
 }
 
 /// Whether a sweep may have written a file of this name, finished or not.
+///
+/// ```
+/// use mesoscope::sweep::files;
+///
+/// assert!(files::is_of_a_sweep(&files::plot("temperature")));
+/// assert!(!files::is_of_a_sweep("energies.csv"));
+/// ```
 #[must_use]
 pub fn is_of_a_sweep(name: &str) -> bool {
     let name = name.strip_suffix(".tmp").unwrap_or(name);

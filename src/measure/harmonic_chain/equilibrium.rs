@@ -8,12 +8,34 @@
 use crate::model::{HarmonicChain, SpringChain};
 
 /// ⟨P²⟩ = nmkT of a cluster, of beads or whole.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::equilibrium::momentum_variance;
+/// use mesoscope::model::HarmonicChain;
+///
+/// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+///
+/// // Sixteen beads of mass 1 at kT = 0.25.
+/// assert_eq!(momentum_variance(&chain, 0.25), 4.0);
+/// ```
 #[must_use]
 pub fn momentum_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
     chain.frictionless().mass * temperature
 }
 
 /// `⟨X_μ X_ν⟩` of the clusters of a chain of beads.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::equilibrium::cluster_covariance;
+/// use mesoscope::model::HarmonicChain;
+///
+/// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+///
+/// // In the middle a cluster is freer than beside an end, and moves with its neighbour.
+/// let middle = cluster_covariance(&chain, 0.25, [7, 7]);
+/// assert!(middle > 3.0 * cluster_covariance(&chain, 0.25, [0, 0]));
+/// assert!(cluster_covariance(&chain, 0.25, [7, 8]) > 0.8 * middle);
+/// ```
 #[must_use]
 pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [usize; 2]) -> f64 {
     let size = chain.cluster_size as f64;
@@ -27,6 +49,16 @@ pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [us
 
 /// The variance of `X_{μ+1} - X_μ` of the clusters of a chain of beads, (kTn/κ) [(2 + n⁻²)/3 - n/(N+1)], in which the last
 /// part is that of the fixed ends.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::equilibrium::cluster_separation_variance;
+/// use mesoscope::model::HarmonicChain;
+///
+/// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
+///
+/// // Two thirds of n kT/κ = 4, less a fourteenth of it for the fixed ends.
+/// assert!((cluster_separation_variance(&chain, 0.25) - 4.0 * (2.0 / 3.0 - 1.0 / 14.0)).abs() < 0.01);
+/// ```
 #[must_use]
 pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
     let size = chain.cluster_size as f64;
@@ -35,6 +67,14 @@ pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f
 }
 
 /// The variance of `x_{i+1} - x_i` of a chain, kT/κ [1 - 1/(N+1)]; of clusters, that of springs κ/n.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::equilibrium::separation_variance;
+/// use mesoscope::model::SpringChain;
+///
+/// let chain = SpringChain { beads: 9, mass: 1.0, stiffness: 2.0, friction: 0.0 };
+/// assert_eq!(separation_variance(&chain, 1.0), 0.5 * 0.9);
+/// ```
 #[must_use]
 pub fn separation_variance(chain: &SpringChain, temperature: f64) -> f64 {
     temperature / chain.stiffness * (1.0 - 1.0 / (chain.beads as f64 + 1.0))

@@ -6,6 +6,19 @@ use crate::model::SpringChain;
 /// independent standard Gaussian numbers; 2N + 1 are drawn, N + 1 for the springs and then N for the momenta.
 ///
 /// The springs would be independent but for the fixed ends, which take their common mean from them.
+///
+/// ```
+/// use mesoscope::measure::harmonic_chain::thermal_start;
+/// use mesoscope::model::SpringChain;
+/// use rand::{RngExt, SeedableRng, rngs::StdRng};
+///
+/// let chain = SpringChain { beads: 3, mass: 1.0, stiffness: 2.0, friction: 0.0 };
+/// let mut generator = StdRng::seed_from_u64(7);
+/// // The sum of twelve uniform numbers is near enough to a Gaussian for an example.
+/// let gaussian = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;
+/// let (displacements, momenta) = thermal_start(&chain, 1.0, gaussian);
+/// assert_eq!((displacements.len(), momenta.len()), (3, 3));
+/// ```
 #[must_use]
 pub fn thermal_start(chain: &SpringChain, temperature: f64, mut gaussian: impl FnMut() -> f64) -> (Vec<f64>, Vec<f64>) {
     let deviation = (temperature / chain.stiffness).sqrt();
