@@ -90,10 +90,10 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
         _ => scene.integrator.name().to_owned(),
     };
-    let mut memory = bytes(plan.bytes());
-    if plan.particles > 0 {
-        memory += &format!(", {:.1} bytes a particle", plan.bytes() as f64 / plan.particles as f64);
-    }
+    let memory = match plan.particles {
+        0 => bytes(plan.bytes()),
+        count => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
+    };
     let particles = match &model.shallow_water {
         Some(water) if water.carriers < plan.particles => {
             let noun = if plan.particles - water.carriers == 1 { "tracer" } else { "tracers" };
