@@ -21,8 +21,9 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
     let mut best = (0.0, None);
     for candidate in candidates {
         let symbols = SYMBOLS.iter().filter(|(_, key)| *key == candidate).map(|(symbol, _)| *symbol);
-        let likeness =
-            symbols.map(|symbol| likeness(&word, symbol)).fold(likeness(&word, &candidate.to_lowercase()), f64::max);
+        // A symbol of two letters with a slip is another symbol.
+        let meant = symbols.filter(|symbol| symbol.len() > 2 || *symbol == word).map(|symbol| likeness(&word, symbol));
+        let likeness = meant.fold(likeness(&word, &candidate.to_lowercase()), f64::max);
         if likeness > best.0 {
             best = (likeness, Some(candidate));
         }
@@ -32,10 +33,7 @@ pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
 
 /// From 0, nothing in common, to 1, the same.
 fn likeness(word: &str, name: &str) -> f64 {
-    // One slip in a short name is a small likeness, but a likely slip; in a symbol of two letters it is another one.
-    if word.len().min(name.len()) < 3 {
-        return f64::from(u8::from(word == name));
-    }
-    let one_slip = strsim::damerau_levenshtein(word, name) == 1;
+    // One slip in a short name is a small likeness, but a likely slip.
+    let one_slip = word.len() > 2 && strsim::damerau_levenshtein(word, name) == 1;
     strsim::jaro_winkler(word, name).max(if one_slip { 0.9 } else { 0.0 })
 }

@@ -152,6 +152,19 @@ mod tests {
         }
     }
 
+    /// The numbers are those of derivatives with 40 digits.
+    #[test]
+    fn a_steep_meander_has_its_known_derivatives() {
+        let features = [SurfaceFeature::Front { amplitude: 0.1, width: 0.5, meander: 4.0 }];
+        let surface = Surface::new(&features, [TAU, TAU]);
+        for (point, exact) in
+            [([0.3, 1.1], 1.079_930_010_422_5), ([2.0, 0.4], 5.099_558_206_738_46), ([3.3, 5.0], 2.453_854_933_295_7)]
+        {
+            let found = surface.unsmoothed(point, 0.4, 1);
+            assert!((found - exact).abs() < 1e-8, "{point:?}: {found} instead of {exact}");
+        }
+    }
+
     #[test]
     fn every_feature_is_periodic() {
         let features = [

@@ -159,10 +159,10 @@ pub enum Generator {
 #[serde(rename_all = "kebab-case")]
 pub enum Distribution {
     /// Uniform on (-√3, √3): enough for a sum over many pairs and steps, and the cheapest (default). Long steps show what
-    /// it lacks: it raises the configurational temperature of `groot-warren` by 0.003 at 0.06.
+    /// it lacks: it raises the configurational temperature of `groot-warren` by 0.003 at a step of 0.06.
     #[default]
     Uniform,
-    /// Gaussian, by Box and Muller's transform; a step takes 2 % longer.
+    /// Gaussian, by Box and Muller's transform; a step takes some 2 % longer.
     Gaussian,
 }
 
