@@ -18,6 +18,8 @@ use support::{INTEGRATORS, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
+const SAMPLED_TEXTURES: usize = 16;
+const STORAGE_TEXTURES: usize = 4;
 const WORKGROUPS: u64 = 65_535 * 65_535;
 const WORKGROUP_BYTES: u32 = 16_384;
 
@@ -353,6 +355,21 @@ fn shader(kernel: &Kernel) -> &'static LinkedShader {
     linked()[&kernel.modules].as_ref().expect("every_kernel_links lists what does not link")
 }
 
+/// How many textures a kernel loads from, and how many it stores to.
+fn texture_bindings(shader: &LinkedShader) -> (usize, usize) {
+    let names: BTreeSet<&str> =
+        shader.bindings.iter().filter(|binding| binding.texture).map(|binding| binding.name.as_str()).collect();
+    let stored = shader.module.global_variables.iter().filter(|(_, variable)| {
+        let stores = matches!(
+            shader.module.types[variable.ty].inner,
+            naga::TypeInner::Image { class: naga::ImageClass::Storage { .. }, .. }
+        );
+        stores && variable.name.as_deref().is_some_and(|name| names.contains(name))
+    });
+    let stored = stored.count();
+    (names.len() - stored, stored)
+}
+
 /// The buffer that a kernel's variable is bound to.
 fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
     kernel.renamed.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
@@ -436,12 +453,15 @@ fn every_constant_without_default_has_a_value_that_fits() {
 fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
     let mut complaints = BTreeMap::new();
     for (scene, plan) in plans() {
-        let buffers: BTreeSet<&str> = plan.buffers.iter().map(|buffer| buffer.name).collect();
-        if buffers.len() != plan.buffers.len() {
-            complaints.entry("two buffers share a name".to_owned()).or_insert(scene.clone());
+        let named = plan.buffers.iter().map(|buffer| (buffer.name, false));
+        let buffers: BTreeMap<&str, bool> =
+            named.chain(plan.textures.iter().map(|texture| (texture.name, true))).collect();
+        if buffers.len() != plan.buffers.len() + plan.textures.len() {
+            complaints.entry("two buffers or textures share a name".to_owned()).or_insert(scene.clone());
         }
         let mut bound = BTreeSet::new();
-        let most = plan.kernels.iter().map(|kernel| shader(kernel).bindings.len()).max().unwrap_or(0);
+        let storage = |kernel| shader(kernel).bindings.iter().filter(|binding| !binding.texture).count();
+        let most = plan.kernels.iter().map(storage).max().unwrap_or(0);
         if plan.storage_buffers as usize != most.max(STORAGE_BUFFERS) {
             let complaint = format!("asks for {} storage buffers and binds {most}", plan.storage_buffers);
             complaints.entry(complaint).or_insert(scene.clone());
@@ -451,9 +471,13 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             let mut complain = |complaint: String| {
                 complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
             };
-            if bindings.len() > plan.storage_buffers as usize {
+            if storage(kernel) > plan.storage_buffers as usize {
                 let names: Vec<&str> = bindings.iter().map(|binding| binding.name.as_str()).collect();
-                complain(format!("{} storage buffers: {}", bindings.len(), names.join(", ")));
+                complain(format!("{} storage buffers among {}", storage(kernel), names.join(", ")));
+            }
+            let (loaded, stored) = texture_bindings(shader(kernel));
+            if loaded > SAMPLED_TEXTURES || stored > STORAGE_TEXTURES {
+                complain(format!("loads from {loaded} textures and stores to {stored}"));
             }
             if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
                 complain("two of its buffers share a number".to_owned());
@@ -466,12 +490,13 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             for binding in bindings {
                 let name = buffer_name(kernel, &binding.name);
                 match buffers.get(name) {
-                    Some(name) => drop(bound.insert(*name)),
+                    Some(texture) if *texture == binding.texture => drop(bound.insert(name)),
+                    Some(_) => complain(format!("`{name}` is a texture in the plan or in the kernel, but not in both")),
                     None => complain(format!("the plan has no buffer `{name}`")),
                 }
             }
         }
-        for name in buffers.difference(&bound) {
+        for name in buffers.keys().filter(|name| !bound.contains(**name)) {
             complaints.entry(format!("no kernel uses buffer `{name}`")).or_insert(scene.clone());
         }
     }

@@ -9,8 +9,8 @@ fn prepare_hits(row: u32, me: Particle) {
 fn hits_of_cluster(row: u32, index: u32, lane: u32, s: Stretches, base: u32, end: u32) -> u32 {
     var mask = 0u;
     for (var part = 0u; part < 32u && base + part < end; part += 8u) {
-        let word = probes[resolve(s, min(base + part + lane, s.total - 1u))];
-        mask |= eight_hits(hits_probe, probe_of_word(word, hits_middle)) << part;
+        let candidate = candidate_probe(resolve(s, min(base + part + lane, s.total - 1u)), hits_middle);
+        mask |= eight_hits(hits_probe, candidate) << part;
     }
     let left = end - base;
     mask &= select(0xffffffffu, (1u << (left & 31u)) - 1u, left < 32u);

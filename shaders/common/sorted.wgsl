@@ -1,2 +1,6 @@
 // Particles ordered by cell; where rows have frames, with those filled in.
 @group(0) @binding(2) var<storage, read_write> sorted: array<Particle>;
+
+fn particle_at(index: u32) -> Particle { return sorted[index]; }
+fn position_at(index: u32) -> vec4<u32> { return sorted[index].position; }
+fn momentum_at(index: u32) -> vec4<i32> { return sorted[index].momentum; }

@@ -10,7 +10,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            let me = sorted[index];
+            let me = particle_at(index);
             pass_end(row, index, me, pass_begin(me));
         }
     }

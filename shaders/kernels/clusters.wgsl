@@ -16,7 +16,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var bases: array<u32, WORDS>;
     for (var first = row_first + (group - row * SEGMENTS) * 8u; first < row_last; first += 8u * SEGMENTS) {
         let index = min(first + lane, row_last - 1u);
-        let me = sorted[index];
+        let me = particle_at(index);
         let s = cluster_stretches(row, lane, column_of(fraction_of(me.position)));
         prepare_hits(row, me);
         var sums = pass_begin(me);

@@ -19,7 +19,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            count_pairs(row, sorted[index].position);
+            count_pairs(row, position_at(index));
         }
     }
     workgroupBarrier();
@@ -41,7 +41,7 @@ fn count_pairs(row: u32, position: vec4<u32>) {
             let cell = cell_index(other_row, other_column);
             let cell_end = cells[cell + 1u];
             for (var other = cells[cell]; other < cell_end; other++) {
-                let there = sorted[other].position;
+                let there = position_at(other);
                 let d = separation(position, there);
                 let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));
                 if (position.w < there.w && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }

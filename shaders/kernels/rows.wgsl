@@ -20,7 +20,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 }
 
 fn visit(row: u32, index: u32) {
-    let me = sorted[index];
+    let me = particle_at(index);
     let column = column_of(fraction_of(me.position));
     prepare_hits(row, me);
     let last_column = column + 2u * frame();

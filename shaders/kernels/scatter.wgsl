@@ -16,21 +16,18 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let fraction = fraction_of(four_words(particle[0]));
     let row = row_of(fraction);
     let column = column_of(fraction);
-    let probe = probe_word(fraction);
     let target_index = cells[cell_index(row, column)] + rank;
     if (target_index >= CAPACITY) {
         raise(FAILURE_FRAMES);
         return;
     }
-    sorted[target_index] = particle;
-    probes[target_index] = probe;
+    put_sorted(target_index, particle);
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
         let copy = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)] + rank;
         if (copy >= CAPACITY) {
             raise(FAILURE_FRAMES);
             return;
         }
-        sorted[copy] = particle;
-        probes[copy] = probe;
+        put_sorted(copy, particle);
     }
 }

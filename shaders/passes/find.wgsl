@@ -4,7 +4,7 @@ struct Sums { kick: Steps, rate: u32 }
 
 fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0u); }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
-    let contact = contact_of(separation(me.position, sorted[other_index].position));
+    let contact = contact_of(separation(me.position, position_at(other_index)));
     // Of the other particle's words only the species is read here, and that never changes, though the word is written.
     let c = coefficients_of(species_of(me), other_species(other_index));
     let root = root_weight(contact.w);
@@ -15,11 +15,11 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let momentum = steps_of(me.momentum) + control.closing * sums.kick;
     let word = momentum_word(momentum, species_of(me) | (min(i32(sums.rate), RATE_LIMIT) << 8u));
-    sorted[index].momentum = word;
+    keep_momentum(index, word);
     let column = column_of(fraction_of(me.position));
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
         let copies = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)];
-        sorted[copies + index - cells[cell_index(row, column)]].momentum = word;
+        keep_momentum(copies + index - cells[cell_index(row, column)], word);
     }
 }
 fn pass_finish(group: u32, lane: u32) {}

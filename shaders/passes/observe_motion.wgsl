@@ -7,7 +7,7 @@ fn pass_begin(me: Particle) -> Sums {
     return Sums(Steps(0), Sum64(0u));
 }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
-    let other = sorted[other_index];
+    let other = particle_at(other_index);
     let contact = contact_of(separation(me.position, other.position));
     if (!contact.inside) { return; }
     let c = coefficients_of(species_of(me), species_of(other));

@@ -373,9 +373,12 @@ fn buffers(text: &mut String, plan: &Plan) {
     let rows: Vec<Vec<String>> = plan
         .buffers
         .iter()
-        .map(|buffer| vec![buffer.name.to_owned(), bytes(buffer.bytes), buffer.purpose.to_owned()])
+        .map(|buffer| (buffer.name, buffer.bytes, buffer.purpose))
+        .chain(plan.textures.iter().map(|texture| (texture.name, texture.bytes(), texture.purpose)))
+        .map(|(name, size, purpose)| vec![name.to_owned(), bytes(size), purpose.to_owned()])
         .collect();
-    let _ = write!(text, "\nBuffers\n{}", aligned(&rows, "  "));
+    let title = if plan.textures.is_empty() { "Buffers" } else { "Buffers and textures" };
+    let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));
 }
 
 fn outputs(scene: &Scene, model: &Model) -> String {

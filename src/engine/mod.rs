@@ -159,10 +159,29 @@ impl<'a> Engine<'a> {
             })?;
             buffers.insert(buffer.name, made);
         }
+        let mut textures = HashMap::new();
+        for texture in &plan.textures {
+            let doing = format!("creating texture `{}`", texture.name);
+            let [width, height] = texture.size;
+            let made = gpu.scoped(&doing, texture.bytes(), || {
+                let made = gpu.device.create_texture(&wgpu::TextureDescriptor {
+                    label: Some(texture.name),
+                    size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension: wgpu::TextureDimension::D2,
+                    format: wgpu::TextureFormat::Rgba32Uint,
+                    usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
+                    view_formats: &[],
+                });
+                made.create_view(&wgpu::TextureViewDescriptor::default())
+            })?;
+            textures.insert(texture.name, made);
+        }
         let stages = plan
             .kernels
             .iter()
-            .map(|kernel| pipeline::stage(gpu, &plan, kernel, &buffers))
+            .map(|kernel| pipeline::stage(gpu, &plan, kernel, &buffers, &textures))
             .collect::<Result<Vec<_>, _>>()?;
         let pending_rows = vec![0; plan.samplers.len()];
         let mut engine = Self {

@@ -40,6 +40,7 @@ pub(super) fn stage(
     plan: &Plan,
     kernel: &Kernel,
     buffers: &HashMap<&'static str, wgpu::Buffer>,
+    textures: &HashMap<&'static str, wgpu::TextureView>,
 ) -> Result<Stage, GpuError> {
     let linked = gpu::link(kernel.name, &kernel.modules)?;
     // What a kernel sets for itself goes before what holds for all.
@@ -62,11 +63,13 @@ pub(super) fn stage(
     let entries = |odd: bool| {
         let bound = linked.bindings.iter().zip(&names).map(|(binding, name)| {
             let name = plan.buffer_at(name, odd);
-            let buffer = buffers.get(name).ok_or_else(|| GpuError::Refused {
+            let buffer = buffers.get(name).map(wgpu::Buffer::as_entire_binding);
+            let resource = buffer.or_else(|| textures.get(name).map(wgpu::BindingResource::TextureView));
+            let resource = resource.ok_or_else(|| GpuError::Refused {
                 doing: format!("binding the buffers of kernel `{}`", kernel.name),
-                reason: format!("the plan has no buffer `{name}`"),
+                reason: format!("the plan has no buffer and no texture `{name}`"),
             })?;
-            Ok(wgpu::BindGroupEntry { binding: binding.number, resource: buffer.as_entire_binding() })
+            Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
         });
         bound.collect::<Result<Vec<_>, GpuError>>()
     };

@@ -5,13 +5,15 @@ use std::collections::BTreeMap;
 use super::GpuError;
 use super::shader_library::module_text;
 
-/// A storage buffer that a kernel uses.
+/// A storage buffer or a texture that a kernel uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Binding {
     /// Number within group 0.
     pub number: u32,
     /// Name of the variable.
     pub name: String,
+    /// Whether it is a texture.
+    pub texture: bool,
 }
 
 /// A kernel's modules joined, parsed and validated.
@@ -19,7 +21,7 @@ pub struct Binding {
 pub struct LinkedShader {
     /// The parsed module.
     pub module: naga::Module,
-    /// The buffers that the entry point `main` uses, directly or through functions it calls.
+    /// The buffers and textures that the entry point `main` uses, directly or through functions it calls.
     pub bindings: Vec<Binding>,
     /// Names of all override constants.
     pub overrides: Vec<String>,
@@ -105,7 +107,8 @@ pub fn link_texts(kernel: &str, modules: &[(&str, &str)]) -> Result<LinkedShader
         .filter(|(handle, _)| !used[*handle].is_empty())
         .filter_map(|(_, variable)| {
             let binding = variable.binding.as_ref()?;
-            Some(Binding { number: binding.binding, name: variable.name.clone()? })
+            let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });
+            Some(Binding { number: binding.binding, name: variable.name.clone()?, texture })
         })
         .collect();
     bindings.sort_by_key(|binding| binding.number);

@@ -46,7 +46,7 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
         _ => pair::plan(model, equilibration, output, hardware, options),
     };
-    if options.serial_memory.unwrap_or(hardware.serial_memory) {
+    if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory();
     }
     plan
@@ -134,6 +134,12 @@ impl Options {
         }
     }
 
+    /// Whether kernels suit lanes that are taken one after the other.
+    #[must_use]
+    pub fn suits_serial_memory(&self, hardware: Hardware) -> bool {
+        self.serial_memory.unwrap_or(hardware.serial_memory)
+    }
+
     /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
     #[must_use]
     pub fn workgroup(&self) -> u64 {
@@ -198,6 +204,18 @@ pub struct Buffer {
     pub bytes: u64,
     /// Initial contents.
     pub contents: Contents,
+}
+
+/// An array of texels of four words on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer.
+/// It begins as zeros.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Texture {
+    /// The name, which is also that of the shader variable.
+    pub name: &'static str,
+    /// What it is for.
+    pub purpose: &'static str,
+    /// Texels in a row, and rows.
+    pub size: [u32; 2],
 }
 
 /// Kernels that turn the particles of a report into one row of sums.
@@ -267,6 +285,8 @@ pub struct Plan {
     pub constants: Vec<(&'static str, f64)>,
     /// All buffers.
     pub buffers: Vec<Buffer>,
+    /// All textures: arrays that are loaded lane by lane where that is dear.
+    pub textures: Vec<Texture>,
     /// Kernels run once after an upload.
     pub prepare: Vec<usize>,
     /// Kernels that begin a step and order the particles.
@@ -309,6 +329,26 @@ impl Kernel {
     }
 }
 
+impl Texture {
+    /// Texels in a row: half of what every adapter has, so that a quotient is a shift.
+    pub const ROW: u64 = 4096;
+
+    /// Rows that every adapter has.
+    const ROWS: u64 = 8192;
+
+    /// Whether a texture can have so many texels.
+    #[must_use]
+    pub fn holds(texels: u64) -> bool {
+        texels <= Self::ROW * Self::ROWS
+    }
+
+    /// Bytes on the device.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        16 * u64::from(self.size[0]) * u64::from(self.size[1])
+    }
+}
+
 impl Sampler {
     /// Whether a sample is due at a step.
     #[must_use]
@@ -333,6 +373,7 @@ impl Plan {
             kernels: Vec::new(),
             constants: Vec::new(),
             buffers: Vec::new(),
+            textures: Vec::new(),
             prepare: Vec::new(),
             sort: Vec::new(),
             before_report: Vec::new(),
@@ -398,6 +439,12 @@ impl Plan {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
     }
 
+    /// Adds a texture.
+    fn add_texture(&mut self, name: &'static str, purpose: &'static str, texels: u64) {
+        let size = [texels.clamp(1, Texture::ROW) as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
+        self.textures.push(Texture { name, purpose, size });
+    }
+
     /// The buffer that stands for one of a name, `odd` if the number of steps since the upload is.
     #[must_use]
     pub fn buffer_at<'a>(&self, name: &'a str, odd: bool) -> &'a str {
@@ -408,7 +455,7 @@ impl Plan {
         }
     }
 
-    /// Bytes of all buffers.
+    /// Bytes of all buffers and textures.
     ///
     /// ```
     /// use mesoscope::model::Model;
@@ -423,7 +470,8 @@ impl Plan {
     /// ```
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        self.buffers.iter().map(|buffer| buffer.bytes).sum()
+        let textures = self.textures.iter().map(Texture::bytes);
+        self.buffers.iter().map(|buffer| buffer.bytes).chain(textures).sum()
     }
 
     /// The largest buffer in bytes.

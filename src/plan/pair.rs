@@ -4,7 +4,7 @@ use super::analyses::{self, Reported};
 use super::layout::PARTICLE;
 use super::prefix_sum::PrefixSum;
 use super::recording::record_histogram;
-use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Traversal};
+use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Texture, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
 use crate::scene::{Distribution, Generator, Integrator, Output, RadialDistribution};
@@ -26,8 +26,18 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
         (true, None, Some(8)) => Traversal::Clusters,
         (true, None, _) => Traversal::Rows,
     };
-    let mut builder =
-        Builder { model, force, grid, particles, traversal, options, equilibration, plan: empty_plan(model, &grid) };
+    let mut builder = Builder {
+        model,
+        force,
+        grid,
+        particles,
+        traversal,
+        options,
+        equilibration,
+        texels: false,
+        plan: empty_plan(model, &grid),
+    };
+    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity());
     builder.constants();
     builder.ordering();
     builder.integration(output);
@@ -89,6 +99,8 @@ struct Builder<'a> {
     traversal: Traversal,
     options: Options,
     equilibration: u64,
+    /// Whether sorted particles are texels.
+    texels: bool,
     plan: Plan,
 }
 
@@ -207,11 +219,25 @@ impl Builder<'_> {
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
         let scatter = self.kernel(
             "scatter",
-            &["common/storage", "common/copies", "common/probes", "kernels/scatter"],
+            &[&["common/storage", "kernels/scatter"], self.copied()].concat(),
             self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
         );
         kernels.push(scatter);
         kernels
+    }
+
+    /// Modules that load sorted particles.
+    fn sorted(&self) -> &'static [&'static str] {
+        if self.texels { &["common/texels", "common/sorted_texels"] } else { &["common/sorted"] }
+    }
+
+    /// Modules that store sorted particles.
+    fn copied(&self) -> &'static [&'static str] {
+        if self.texels {
+            &["common/texels", "common/put_sorted_texels"]
+        } else {
+            &["common/copies", "common/probes", "common/put_sorted"]
+        }
     }
 
     /// Whether steps are split: friction needs a second pass over the pairs.
@@ -223,7 +249,9 @@ impl Builder<'_> {
     fn force_modules(&self) -> Vec<&'static str> {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        let mut modules = vec!["common/sorted", "common/probes", "common/contact"];
+        let probes = if self.texels { "common/probes_of_positions" } else { "common/probes" };
+        let mut modules = vec![probes, "common/contact"];
+        modules.extend(self.sorted());
         modules.extend(if self.single() {
             ["common/coefficients_single", "common/other_species_single"]
         } else {
@@ -332,7 +360,8 @@ impl Builder<'_> {
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
-        let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
+        let keep = if self.texels { "common/keep_momentum_texels" } else { "common/keep_momentum" };
+        let find = self.traversal("find", self.traversal, Masks::Keep, &[keep, "passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
         let relax_pass = ["common/advance", "passes/relax"];
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &relax_pass);
@@ -349,6 +378,11 @@ impl Builder<'_> {
         );
         for kernel in [find, motion, configuration, rest] {
             self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
+        }
+        for kernel in [relax, relax_to_report, motion] {
+            if self.texels {
+                self.plan.kernels[kernel].renamed.push(("sorted_momenta", "kept_momenta"));
+            }
         }
         let again = self.sorting("common/same_step");
         self.plan.before_report = vec![find];
@@ -443,8 +477,8 @@ impl Builder<'_> {
         let rows = self.grid.rows();
         let segments = (self.particles / rows).div_ceil(self.workgroup_size()).max(1).min((8192 / rows).max(1));
         let mut modules = space(&self.model.units, self.predicted());
+        modules.extend(self.sorted());
         modules.extend([
-            "common/sorted",
             "common/contact",
             if self.grid.dimension == 3 { "common/span3" } else { "common/span2" },
             "kernels/pair_histogram",
@@ -487,8 +521,18 @@ impl Builder<'_> {
             "particles in the order they were advanced"
         };
         self.plan.add_buffer("particles", purpose, PARTICLE * self.particles);
-        self.plan.add_buffer("sorted", "particles in order of cells", PARTICLE * (self.particles + copies));
-        self.plan.add_buffer("probes", "one word a sorted particle for the prefilter", 4 * (self.particles + copies));
+        if self.texels {
+            let count = self.particles + copies;
+            self.plan.add_texture("sorted_positions", "positions in order of cells", count);
+            self.plan.add_texture("sorted_momenta", "momenta in order of cells", count);
+            if self.splits() {
+                self.plan.add_texture("kept_momenta", "momenta between the two passes of a step", count);
+            }
+        } else {
+            let count = self.particles + copies;
+            self.plan.add_buffer("sorted", "particles in order of cells", PARTICLE * count);
+            self.plan.add_buffer("probes", "one word a sorted particle for the prefilter", 4 * count);
+        }
         self.plan.add_buffer("cells", "where each cell begins", 4 * (rows * width + 1 + rows));
         self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
         self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * self.particles);

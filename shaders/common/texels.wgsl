@@ -1,0 +1,5 @@
+// Arrays whose elements are texels of four words, in rows of 4096: adapters that load lane by lane assemble a vector word by
+// word where it comes from a buffer, and as a whole where it comes from a texture.
+const TEXELS_IN_ROW: u32 = 4096u;
+
+fn texel(index: u32) -> vec2<u32> { return vec2<u32>(index % TEXELS_IN_ROW, index / TEXELS_IN_ROW); }
