@@ -62,7 +62,7 @@ fn store_moved_of_eight(eight: Eight, bin: Bin, cell: u32, owner: u32, first: u3
         failures_of_motion |= select(FAILURE_FRAMES, 0u, arrival < ARRIVALS);
         place = select(index, place, arrival < ARRIVALS);
     }
-    if (inside) { bins[place] = packed(particle); }
+    if (inside) { store(place, particle); }
 }
 fn end_moving_eight(eight: Eight, bin: Bin, cell: u32) {
     // What begins or ends with the end of the eight may have no number there.

@@ -18,7 +18,7 @@ fn store_moved(cell: u32, bin: Bin, index: u32, particle: Water) {
         }
     }
     // One place in the program that stores: software adapters pay for every one.
-    bins[place] = packed(particle);
+    store(place, particle);
 }
 fn end_moving(cell: u32, bin: Bin) {
     stayed[cell] = kept | ((1u - bin.turn) << 31u);

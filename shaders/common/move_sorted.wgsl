@@ -3,9 +3,7 @@
 
 fn begin_moving(cell: u32) {}
 fn store_moved(cell: u32, bin: Bin, index: u32, particle: Water) {
-    let moved = packed(particle);
-    sorted[index].position = moved.position;
-    sorted[index].velocity = moved.velocity;
+    store_motion(index, particle);
     let destination = cell_of(particle.position);
     if (destination != cell) {
         atomicAdd(&counts[destination], 1u);

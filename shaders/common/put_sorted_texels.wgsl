@@ -1,8 +1,8 @@
 // Puts a particle among the sorted ones, in textures.
 alias Copied = array<Four, 2>;
 @group(0) @binding(1) var<storage, read_write> particles: array<Copied>;
-@group(0) @binding(2) var sorted_positions: texture_storage_2d<rgba32uint, write>;
-@group(0) @binding(46) var sorted_momenta: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(2) var sorted_positions: texture_storage_2d<rgba32uint, read_write>;
+@group(0) @binding(46) var sorted_momenta: texture_storage_2d<rgba32uint, read_write>;
 
 fn put_sorted(index: u32, particle: Copied) {
     textureStore(sorted_positions, texel(index), four_words(particle[0]));

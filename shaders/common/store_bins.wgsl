@@ -3,7 +3,6 @@
 // does not fit.
 override CAPACITY: u32; // of those that stay
 override ARRIVALS: u32; // of each stretch of those that arrive
-@group(0) @binding(2) var<storage, read_write> bins: array<StoredWater>;
 @group(0) @binding(3) var<storage, read_write> stayed: array<u32>;          // and, in the highest bit, whose turn it is
 @group(0) @binding(5) var<storage, read_write> arrived: array<atomic<u32>>; // in the first stretch, then in the second
 
@@ -20,4 +19,3 @@ fn opened_bin(cell: u32) -> Bin {
 fn place_in(bin: Bin, k: u32) -> u32 {
     return bin.begin + k + select(CAPACITY + bin.turn * ARRIVALS - bin.stayed, 0u, k < bin.stayed);
 }
-fn stored(index: u32) -> Water { return unpacked(bins[index]); }

@@ -1,5 +1,4 @@
 // Particles in order of their cells, sorted anew every step: for any crowd.
-@group(0) @binding(2) var<storage, read_write> sorted: array<StoredWater>;
 @group(0) @binding(3) var<storage, read_write> cells: array<u32>; // where each cell ends
 
 struct Bin { begin: u32, count: u32 }
@@ -8,4 +7,3 @@ fn opened_bin(cell: u32) -> Bin {
     return Bin(begin, cells[cell] - begin);
 }
 fn place_in(bin: Bin, k: u32) -> u32 { return bin.begin + k; }
-fn stored(index: u32) -> Water { return unpacked(sorted[index]); }

@@ -1,4 +1,4 @@
-// Arrays whose elements are texels of four words, in rows of 4096: adapters that load lane by lane assemble a vector word by
+// Arrays whose elements are the texels of a texture, in rows of 4096: adapters that load lane by lane assemble a vector word by
 // word where it comes from a buffer, and as a whole where it comes from a texture.
 const TEXELS_IN_ROW: u32 = 4096u;
 

@@ -1,6 +1,5 @@
 // Counts freshly uploaded particles in the cells of the mesh; every later step keeps count as it advances.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Water>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
 @compute @workgroup_size(WORKGROUP)
@@ -8,5 +7,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    atomicAdd(&counts[cell_of(particles[index].position)], 1u);
+    atomicAdd(&counts[cell_of(copied_position(copied(index)))], 1u);
 }

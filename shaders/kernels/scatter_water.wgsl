@@ -1,7 +1,5 @@
 // Puts every particle into its cell of the mesh, in any order: what is made of them are sums of integers.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<StoredWater>;
-@group(0) @binding(2) var<storage, read_write> sorted: array<StoredWater>;
 @group(0) @binding(3) var<storage, read_write> cells: array<atomic<u32>>; // where each cell begins, then where it ends
 
 @compute @workgroup_size(WORKGROUP)
@@ -9,6 +7,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    let particle = particles[index];
-    sorted[atomicAdd(&cells[cell_of(two_words(particle.position))], 1u)] = particle;
+    let particle = copied(index);
+    put_copy(atomicAdd(&cells[cell_of(copied_position(particle))], 1u), particle);
 }

@@ -4,6 +4,7 @@
 mod error;
 mod pipeline;
 mod readback;
+mod texels;
 mod timing;
 
 pub use error::EngineError;
@@ -11,11 +12,12 @@ pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
 
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, GpuError};
 use crate::plan::{Contents, Hardware, Layout, Misfit, Plan};
 use crate::state::State;
 use pipeline::Stage;
 use readback::Readback;
+use texels::Texels;
 
 /// Words of the control buffer, as `shaders/common/control.wgsl` declares them.
 #[repr(C)]
@@ -105,6 +107,7 @@ pub struct Engine<'a> {
     gpu: &'a Gpu,
     plan: Plan,
     buffers: HashMap<&'static str, wgpu::Buffer>,
+    textures: HashMap<&'static str, Texels>,
     stages: Vec<Stage>,
     /// Species of the particles, for layouts that leave them on the host.
     species: Vec<u32>,
@@ -159,25 +162,8 @@ impl<'a> Engine<'a> {
             })?;
             buffers.insert(buffer.name, made);
         }
-        let mut textures = HashMap::new();
-        for texture in &plan.textures {
-            let doing = format!("creating texture `{}`", texture.name);
-            let [width, height] = texture.size;
-            let made = gpu.scoped(&doing, texture.bytes(), || {
-                let made = gpu.device.create_texture(&wgpu::TextureDescriptor {
-                    label: Some(texture.name),
-                    size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension: wgpu::TextureDimension::D2,
-                    format: wgpu::TextureFormat::Rgba32Uint,
-                    usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
-                    view_formats: &[],
-                });
-                made.create_view(&wgpu::TextureViewDescriptor::default())
-            })?;
-            textures.insert(texture.name, made);
-        }
+        let textures = plan.textures.iter().map(|&planned| Ok((planned.name, Texels::new(gpu, planned)?)));
+        let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
         let stages = plan
             .kernels
             .iter()
@@ -188,6 +174,7 @@ impl<'a> Engine<'a> {
             gpu,
             plan,
             buffers,
+            textures,
             stages,
             species: Vec::new(),
             step: 0,
@@ -252,7 +239,10 @@ impl<'a> Engine<'a> {
             ..Control::default()
         };
         for (name, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
-            self.gpu.queue.write_buffer(&self.buffers[name], 0, bytemuck::cast_slice(words));
+            match self.textures.get(name) {
+                Some(texels) => texels.write(self.gpu, words),
+                None => self.gpu.queue.write_buffer(&self.buffers[name], 0, bytemuck::cast_slice(words)),
+            }
         }
         self.species.clone_from(&state.species);
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
@@ -366,23 +356,35 @@ impl<'a> Engine<'a> {
         state.map_err(|reason| EngineError::State { reason })
     }
 
-    /// The words of a buffer of the plan, as they are once the device is done.
+    /// The words of a buffer or texture of the plan, as they are once the device is done.
     ///
     /// # Errors
-    /// [`EngineError`] if the device failed or the plan has no such buffer.
+    /// [`EngineError`] if the device failed or the plan has no such buffer or texture.
     pub fn words(&mut self, buffer: &str) -> Result<Vec<u32>, EngineError> {
         self.wait_all()?;
-        let Some(buffer) = self.buffers.get(self.plan.buffer_at(buffer, self.is_odd())) else {
-            return Err(EngineError::State { reason: format!("the plan has no buffer `{buffer}`") });
+        Ok(bytemuck::pod_collect_to_vec(&self.read(buffer)?))
+    }
+
+    fn read(&self, name: &str) -> Result<Vec<u8>, EngineError> {
+        let current = self.plan.buffer_at(name, self.is_odd());
+        let bytes = match (self.buffers.get(current), self.textures.get(current)) {
+            (Some(buffer), _) => readback::read(self.gpu, buffer.size(), |encoder, staging| {
+                encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
+            }),
+            (None, Some(texels)) => readback::read(self.gpu, texels.bytes(), |encoder, staging| {
+                texels.copy_to(encoder, staging);
+            }),
+            (None, None) => {
+                return Err(EngineError::State { reason: format!("the plan has no buffer and no texture `{name}`") });
+            }
         };
-        Ok(bytemuck::pod_collect_to_vec(&readback::read(self.gpu, buffer)?))
+        Ok(bytes?)
     }
 
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
         let names = self.plan.layout.buffers();
-        let read = |name: &&str| readback::read(self.gpu, &self.buffers[self.plan.buffer_at(name, self.is_odd())]);
-        let bytes = names.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let bytes = names.iter().map(|name| self.read(name)).collect::<Result<Vec<_>, _>>()?;
         let words: Vec<&[u32]> = bytes.iter().map(|bytes| bytemuck::cast_slice(bytes)).collect();
         let count = self.plan.particles as usize;
         let state = self.plan.layout.unpack(self.step, &words, count);

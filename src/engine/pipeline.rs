@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::texels::Texels;
 use crate::gpu::{self, Gpu, GpuError};
 use crate::plan::{Kernel, Plan, folded};
 
@@ -40,7 +41,7 @@ pub(super) fn stage(
     plan: &Plan,
     kernel: &Kernel,
     buffers: &HashMap<&'static str, wgpu::Buffer>,
-    textures: &HashMap<&'static str, wgpu::TextureView>,
+    textures: &HashMap<&'static str, Texels>,
 ) -> Result<Stage, GpuError> {
     let linked = gpu::link(kernel.name, &kernel.modules)?;
     // What a kernel sets for itself goes before what holds for all.
@@ -64,7 +65,7 @@ pub(super) fn stage(
         let bound = linked.bindings.iter().zip(&names).map(|(binding, name)| {
             let name = plan.buffer_at(name, odd);
             let buffer = buffers.get(name).map(wgpu::Buffer::as_entire_binding);
-            let resource = buffer.or_else(|| textures.get(name).map(wgpu::BindingResource::TextureView));
+            let resource = buffer.or_else(|| textures.get(name).map(Texels::binding));
             let resource = resource.ok_or_else(|| GpuError::Refused {
                 doing: format!("binding the buffers of kernel `{}`", kernel.name),
                 reason: format!("the plan has no buffer and no texture `{name}`"),

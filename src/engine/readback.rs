@@ -103,18 +103,22 @@ fn arrived(
     Ok(view.to_vec())
 }
 
-/// Waits for the device and reads a whole buffer.
-pub(super) fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
-    let staging = gpu.scoped("creating a readback buffer", buffer.size(), || {
+/// Waits for the device and reads as many bytes as `copy` records to be copied into a buffer.
+pub(super) fn read(
+    gpu: &Gpu,
+    size: u64,
+    copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
+) -> Result<Vec<u8>, GpuError> {
+    let staging = gpu.scoped("creating a readback buffer", size, || {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),
-            size: buffer.size(),
+            size,
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     })?;
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    copy(&mut encoder, &staging);
     let (sender, arrival) = mpsc::channel();
     encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
         let _ = sender.send(result);

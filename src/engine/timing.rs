@@ -130,7 +130,9 @@ impl Engine<'_> {
         encoder.resolve_query_set(&queries, 0..count, &ticks, 0);
         self.submit(encoder)?;
         self.wait_all()?;
-        let bytes = readback::read(self.gpu, &ticks)?;
+        let bytes = readback::read(self.gpu, bytes, |encoder, staging| {
+            encoder.copy_buffer_to_buffer(&ticks, 0, staging, 0, bytes);
+        })?;
         let ticks: Vec<u64> = bytes.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
         let period = f64::from(self.gpu.queue.get_timestamp_period()) * 1e-9;
         Ok(ticks.chunks_exact(2).map(|pair| pair[1].saturating_sub(pair[0]) as f64 * period).collect())

@@ -14,6 +14,11 @@ pub struct Requirements {
     pub storage_buffers: u32,
 }
 
+/// What kernels use where lanes load and store one after the other: eight bytes at a time, and textures that are loaded from
+/// and stored to as buffers are.
+const SERIAL_FEATURES: wgpu::Features =
+    wgpu::Features::SHADER_INT64.union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
+
 /// An opened device with its queue.
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
@@ -74,8 +79,13 @@ impl Gpu {
             }
             limits.max_storage_buffers_per_shader_stage = requirements.storage_buffers;
         }
-        let serial_memory =
-            info.device_type == wgpu::DeviceType::Cpu && adapter.features().contains(wgpu::Features::SHADER_INT64);
+        let texels = |format| {
+            let flags = adapter.get_texture_format_features(format).flags;
+            flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE)
+        };
+        let serial_memory = info.device_type == wgpu::DeviceType::Cpu
+            && adapter.features().contains(SERIAL_FEATURES)
+            && [wgpu::TextureFormat::Rgba32Uint, wgpu::TextureFormat::Rg32Uint].into_iter().all(texels);
         let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
@@ -83,7 +93,7 @@ impl Gpu {
             label: Some("mesoscope"),
             required_features: timestamps
                 | wanted(wgpu::Features::SUBGROUP, subgroups)
-                | wanted(wgpu::Features::SHADER_INT64, serial_memory),
+                | wanted(SERIAL_FEATURES, serial_memory),
             required_limits: limits,
             ..Default::default()
         }))

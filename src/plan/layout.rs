@@ -26,6 +26,8 @@ pub enum Layout {
         tracers: usize,
         /// Nodes that have a bath variable; zero without a bath.
         bath_nodes: usize,
+        /// Whether masses and ids of particles with mass are apart from their motion, both in textures.
+        texels: bool,
         /// The bins of particles with mass, if they are not in one array.
         bins: Option<Bins>,
     },
@@ -142,8 +144,22 @@ impl From<&str> for Misfit {
     }
 }
 
-/// Words of a particle or tracer of shallow water.
+/// Words of a particle or tracer of shallow water, the first of which are its position and velocity.
 const WATER: usize = 6;
+const MOTION: usize = 4;
+
+/// Particles taken apart: positions and velocities, masses and ids.
+fn apart(particles: &[u32]) -> [Vec<u32>; 2] {
+    let motion = particles.chunks_exact(WATER).flat_map(|particle| &particle[..MOTION]);
+    let masses = particles.chunks_exact(WATER).flat_map(|particle| &particle[MOTION..]);
+    [motion.copied().collect(), masses.copied().collect()]
+}
+
+/// What [`apart`] took apart.
+fn together(motion: &[u32], masses: &[u32]) -> Vec<u32> {
+    let pairs = motion.chunks_exact(MOTION).zip(masses.chunks_exact(WATER - MOTION));
+    pairs.flat_map(|(motion, masses)| motion.iter().chain(masses)).copied().collect()
+}
 
 impl Layout {
     /// The buffers that hold the state.
@@ -164,8 +180,13 @@ impl Layout {
                 let asked = optional.into_iter().filter(|(_, asked)| *asked).map(|(name, _)| name);
                 std::iter::once("particles").chain(asked).collect()
             }
-            Self::Water { tracers, bath_nodes, bins, .. } => {
-                let mut names = if bins.is_some() { vec!["bins", "stayed", "arrived"] } else { vec!["particles"] };
+            Self::Water { tracers, bath_nodes, texels, bins, .. } => {
+                let mut names = match (bins.is_some(), texels) {
+                    (false, false) => vec!["particles"],
+                    (false, true) => vec!["particles", "particle_masses"],
+                    (true, false) => vec!["bins", "stayed", "arrived"],
+                    (true, true) => vec!["bins", "bin_masses", "stayed", "arrived"],
+                };
                 if tracers > 0 {
                     names.push("tracers");
                 }
@@ -229,7 +250,7 @@ impl Layout {
                 }
                 Ok(contents)
             }
-            Self::Water { carriers, tracers, bath_nodes, bins } => {
+            Self::Water { carriers, tracers, bath_nodes, texels, bins } => {
                 if state.masses.len() != state.len() {
                     return Err("masses are".into());
                 }
@@ -254,6 +275,10 @@ impl Layout {
                     Some(bins) => bins.pack(&water.iter().map(particle).collect::<Vec<_>>())?,
                     None => vec![water.iter().flat_map(particle).collect::<Vec<u32>>()],
                 };
+                if texels {
+                    let [motion, masses] = apart(&contents[0]);
+                    contents.splice(0..1, [motion, masses]);
+                }
                 if tracers > 0 {
                     contents.push(drifting.iter().flat_map(particle).collect());
                 }
@@ -294,12 +319,14 @@ impl Layout {
                     self.unpack_array(&mut state, name, contents(index), &numbers, contents(index.saturating_sub(1)));
                 }
             }
-            Self::Water { carriers, tracers, bath_nodes, bins } => {
+            Self::Water { carriers, tracers, bath_nodes, texels, bins } => {
                 state.masses = vec![0; count];
-                let arrays = if bins.is_some() { 3 } else { 1 };
+                let joined = if texels { together(contents(0), contents(1)) } else { Vec::new() };
+                let (water, water_arrays) = if texels { (joined.as_slice(), 2) } else { (contents(0), 1) };
+                let arrays = water_arrays + if bins.is_some() { 2 } else { 0 };
                 let mut particles = match bins {
-                    Some(bins) => bins.particles(contents(0), contents(1), contents(2)),
-                    None => contents(0).chunks_exact(WATER).take(carriers).collect(),
+                    Some(bins) => bins.particles(water, contents(water_arrays), contents(water_arrays + 1)),
+                    None => water.chunks_exact(WATER).take(carriers).collect(),
                 };
                 if tracers > 0 {
                     particles.extend(contents(arrays).chunks_exact(WATER).take(tracers));

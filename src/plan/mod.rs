@@ -206,14 +206,15 @@ pub struct Buffer {
     pub contents: Contents,
 }
 
-/// An array of texels of four words on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer.
-/// It begins as zeros.
+/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer. It begins as zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Texture {
     /// The name, which is also that of the shader variable.
     pub name: &'static str,
     /// What it is for.
     pub purpose: &'static str,
+    /// Words of a texel: two or four.
+    pub words: u32,
     /// Texels in a row, and rows.
     pub size: [u32; 2],
 }
@@ -303,8 +304,9 @@ pub struct Plan {
     pub samplers: Vec<Sampler>,
     /// The most storage buffers that one kernel binds, if they are more than the eight that every adapter has; else eight.
     pub storage_buffers: u32,
-    /// Two buffers that change places after every step: the first holds the state as uploaded, the second that one step on.
-    pub swapped: Option<[&'static str; 2]>,
+    /// Pairs of buffers that change places after every step: the first holds the state as uploaded, the second that one step
+    /// on.
+    pub swapped: Vec<[&'static str; 2]>,
     /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
     pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.
@@ -345,7 +347,13 @@ impl Texture {
     /// Bytes on the device.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        16 * u64::from(self.size[0]) * u64::from(self.size[1])
+        self.row_bytes() * u64::from(self.size[1])
+    }
+
+    /// Bytes of a row: a multiple of 256, as copies ask for.
+    #[must_use]
+    pub fn row_bytes(&self) -> u64 {
+        4 * u64::from(self.words) * u64::from(self.size[0])
     }
 }
 
@@ -382,7 +390,7 @@ impl Plan {
             finish_report: Vec::new(),
             samplers: Vec::new(),
             storage_buffers: 8,
-            swapped: None,
+            swapped: Vec::new(),
             reported: None,
             operations_per_particle: 0.0,
         }
@@ -440,19 +448,21 @@ impl Plan {
     }
 
     /// Adds a texture.
-    fn add_texture(&mut self, name: &'static str, purpose: &'static str, texels: u64) {
-        let size = [texels.clamp(1, Texture::ROW) as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
-        self.textures.push(Texture { name, purpose, size });
+    fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
+        let width = texels.clamp(1, Texture::ROW).next_multiple_of(64);
+        let size = [width as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
+        self.textures.push(Texture { name, purpose, words, size });
     }
 
     /// The buffer that stands for one of a name, `odd` if the number of steps since the upload is.
     #[must_use]
     pub fn buffer_at<'a>(&self, name: &'a str, odd: bool) -> &'a str {
-        match self.swapped {
-            Some([one, other]) if odd && name == one => other,
-            Some([one, other]) if odd && name == other => one,
-            _ => name,
-        }
+        let partner = self.swapped.iter().find_map(|[one, other]| match name {
+            _ if name == *one => Some(*other),
+            _ if name == *other => Some(*one),
+            _ => None,
+        });
+        partner.filter(|_| odd).unwrap_or(name)
     }
 
     /// Bytes of all buffers and textures.

@@ -360,8 +360,7 @@ impl Builder<'_> {
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
-        let keep = if self.texels { "common/keep_momentum_texels" } else { "common/keep_momentum" };
-        let find = self.traversal("find", self.traversal, Masks::Keep, &[keep, "passes/find"]);
+        let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
         let relax_pass = ["common/advance", "passes/relax"];
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &relax_pass);
@@ -378,11 +377,6 @@ impl Builder<'_> {
         );
         for kernel in [find, motion, configuration, rest] {
             self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
-        }
-        for kernel in [relax, relax_to_report, motion] {
-            if self.texels {
-                self.plan.kernels[kernel].renamed.push(("sorted_momenta", "kept_momenta"));
-            }
         }
         let again = self.sorting("common/same_step");
         self.plan.before_report = vec![find];
@@ -523,11 +517,8 @@ impl Builder<'_> {
         self.plan.add_buffer("particles", purpose, PARTICLE * self.particles);
         if self.texels {
             let count = self.particles + copies;
-            self.plan.add_texture("sorted_positions", "positions in order of cells", count);
-            self.plan.add_texture("sorted_momenta", "momenta in order of cells", count);
-            if self.splits() {
-                self.plan.add_texture("kept_momenta", "momenta between the two passes of a step", count);
-            }
+            self.plan.add_texture("sorted_positions", "positions in order of cells", 4, count);
+            self.plan.add_texture("sorted_momenta", "momenta in order of cells", 4, count);
         } else {
             let count = self.particles + copies;
             self.plan.add_buffer("sorted", "particles in order of cells", PARTICLE * count);

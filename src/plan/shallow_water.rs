@@ -6,7 +6,7 @@
 use super::prefix_sum::PrefixSum;
 use super::recording::SAMPLE_ROWS;
 use super::smoothing::smoothing;
-use super::{Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Traversal};
+use super::{Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Texture, Traversal};
 use crate::model::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{Generator, Integrator, Output};
@@ -34,7 +34,9 @@ const FEWEST_NODES: u64 = 1 << 12;
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let eights = takes_eights(water, hardware, options);
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
-    let mut builder = Builder { model, water, options, storage, eights, plan: empty_plan(model, water, storage) };
+    let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage));
+    let plan = empty_plan(model, water, storage, texels);
+    let mut builder = Builder { model, water, options, storage, eights, texels, plan };
     builder.constants();
     builder.ordering();
     builder.depth();
@@ -79,12 +81,21 @@ fn best_storage(model: &Model, water: &ShallowWater, eights: bool) -> Storage {
     if bins <= 4 * sorted && bins <= most { Storage::Bins } else { Storage::Sorted }
 }
 
-fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage) -> Plan {
+/// Places for particles.
+fn places(model: &Model, water: &ShallowWater, storage: Storage) -> u64 {
+    match storage {
+        Storage::Sorted => water.carriers,
+        Storage::Bins => bin_bytes(water, bin_places(model, water)) / WATER,
+    }
+}
+
+fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage, texels: bool) -> Plan {
     let bath_nodes = if water.bath.is_some() { water.nodes() as usize } else { 0 };
     let layout = Layout::Water {
         carriers: water.carriers as usize,
         tracers: (model.particle_count() - water.carriers) as usize,
         bath_nodes,
+        texels,
         bins: match storage {
             Storage::Sorted => None,
             Storage::Bins => {
@@ -137,6 +148,8 @@ struct Builder<'a> {
     storage: Storage,
     /// Whether the lanes of a subgroup take eight cells side by side.
     eights: bool,
+    /// Whether particles are texels.
+    texels: bool,
     plan: Plan,
 }
 
@@ -240,7 +253,12 @@ impl Builder<'_> {
             return;
         }
         let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
-        let bin = self.kernel("bin", &["kernels/bin_water"], particle_groups);
+        let copies: &[&str] = if self.texels {
+            &["common/texels", "common/water_copies_texels"]
+        } else {
+            &["common/storage", "common/stored_water", "common/water_copies"]
+        };
+        let bin = self.kernel("bin", &[copies, &["kernels/bin_water"]].concat(), particle_groups);
         self.plan.prepare.push(bin);
         let (cells, row_scan) = if self.water.mesh[0].is_multiple_of(2) {
             (&["common/storage", "common/mesh_cells_paired"][..], "common/row_scan_paired")
@@ -259,10 +277,12 @@ impl Builder<'_> {
             let kernel = self.plan.add_kernel(kernel);
             self.plan.sort.push(kernel);
         }
-        let modules = ["common/storage", "common/stored_water", "kernels/scatter_water"];
-        let scatter = self.kernel("scatter", &modules, particle_groups);
+        let scatter = self.kernel("scatter", &[copies, &["kernels/scatter_water"]].concat(), particle_groups);
         self.plan.sort.push(scatter);
-        self.plan.swapped = Some(["particles", "sorted"]);
+        self.plan.swapped.push(["particles", "sorted"]);
+        if self.texels {
+            self.plan.swapped.push(["particle_masses", "sorted_masses"]);
+        }
     }
 
     /// From particles to the surface that drives them.
@@ -319,9 +339,27 @@ impl Builder<'_> {
 
     /// Modules of the stored particles.
     fn stored(&self) -> &'static [&'static str] {
-        match self.storage {
-            Storage::Sorted => &["common/storage", "common/stored_water", "common/store_sorted"],
-            Storage::Bins => &["common/storage", "common/stored_water", "common/store_bins"],
+        match (self.storage, self.texels) {
+            (Storage::Sorted, false) => {
+                &["common/storage", "common/stored_water", "common/water_sorted", "common/store_sorted"]
+            }
+            (Storage::Sorted, true) => &[
+                "common/storage",
+                "common/texels",
+                "common/stored_water_texels",
+                "common/water_sorted_texels",
+                "common/store_sorted",
+            ],
+            (Storage::Bins, false) => {
+                &["common/storage", "common/stored_water", "common/water_bins", "common/store_bins"]
+            }
+            (Storage::Bins, true) => &[
+                "common/storage",
+                "common/texels",
+                "common/stored_water_texels",
+                "common/water_bins_texels",
+                "common/store_bins",
+            ],
         }
     }
 
@@ -346,6 +384,7 @@ impl Builder<'_> {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
         let moving = self.moving(false);
         let (store_moved, store_reported) = match self.storage {
+            Storage::Sorted if self.texels => ("common/move_sorted", "common/report_sorted_texels"),
             Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
             Storage::Bins => ("common/move_bins", "common/report_bins"),
         };
@@ -408,21 +447,33 @@ impl Builder<'_> {
         });
     }
 
+    /// A buffer of so many particles, or two textures: of their motion, and of their masses and numbers.
+    fn add_water(&mut self, [name, masses]: [&'static str; 2], purpose: &'static str, particles: u64) {
+        if self.texels {
+            self.plan.add_texture(name, purpose, 4, particles);
+            self.plan.add_texture(masses, "their masses and numbers", 2, particles);
+        } else {
+            self.plan.add_buffer(name, purpose, WATER * particles);
+        }
+    }
+
     fn buffers(&mut self) {
         let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
         let width = u64::from(self.water.spline_order + 1);
         self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
         match self.storage {
             Storage::Sorted => {
-                self.plan.add_buffer("particles", "particles in the order of the step before", WATER * particles);
-                self.plan.add_buffer("sorted", "particles in order of cells", WATER * particles);
+                let purposes = ["particles in the order of the step before", "particles in order of cells"];
+                self.add_water(["particles", "particle_masses"], purposes[0], particles);
+                self.add_water(["sorted", "sorted_masses"], purposes[1], particles);
                 self.plan.add_buffer("counts", "particles in each cell", 4 * nodes);
                 self.plan.add_buffer("cells", "where each cell begins, and ends", 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
                 let (capacity, arrivals) = bin_places(self.model, self.water);
                 self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
-                self.plan.add_buffer("bins", "particles of each cell", bin_bytes(self.water, (capacity, arrivals)));
+                let places = places(self.model, self.water, self.storage);
+                self.add_water(["bins", "bin_masses"], "particles of each cell", places);
                 self.plan.add_buffer("stayed", "particles that stay in each cell", 4 * nodes);
                 self.plan.add_buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
             }
