@@ -2,7 +2,6 @@
 override DISPLACEMENT_LIMIT: f32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
 const STRAIN_LIMIT: f32 = 1073741824.0;
@@ -22,5 +21,5 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
     let slot = unframed_index(row, index);
     particles[slot] = advanced_particle(position_word(fraction, me.position.w), word, kick);
-    ranks[slot] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
+    put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }

@@ -1,9 +1,8 @@
 // Where each cell's particles begin in the sorted array, which holds every particle once.
-@group(0) @binding(3) var<storage, read_write> cells: array<u32>;
 
 fn frame() -> u32 { return 0u; }
 fn row_width() -> u32 { return CELLS_X; }
 fn cell_index(row: u32, column: u32) -> u32 { return row * CELLS_X + column; }
 fn row_offset_index(row: u32) -> u32 { return rows() * CELLS_X + 1u + row; }
-fn row_begin(row: u32) -> u32 { return cells[cell_index(row, 0u)]; }
-fn row_end(row: u32) -> u32 { return cells[cell_index(row, CELLS_X - 1u) + 1u]; }
+fn row_begin(row: u32) -> u32 { return cell_at(cell_index(row, 0u)); }
+fn row_end(row: u32) -> u32 { return cell_at(cell_index(row, CELLS_X - 1u) + 1u); }

@@ -15,17 +15,17 @@ fn write_row(row: u32, before: vec2<u32>) {
     let base = row * CELLS_X;
     var begin = before.x;
     if (frame() == 1u) {
-        cells[row * row_width()] = begin;
+        put_cell(row * row_width(), begin);
         begin += atomicLoad(&counts[base + CELLS_X - 1u]);
     }
     for (var column = 0u; column < CELLS_X; column++) {
-        cells[cell_index(row, column)] = begin;
+        put_cell(cell_index(row, column), begin);
         begin += atomicLoad(&counts[base + column]);
     }
     if (frame() == 1u) {
-        cells[cell_index(row, CELLS_X)] = begin;
+        put_cell(cell_index(row, CELLS_X), begin);
         begin += atomicLoad(&counts[base]);
     }
-    if (row == rows() - 1u) { cells[rows() * row_width()] = begin; }
-    cells[row_offset_index(row)] = before.y;
+    if (row == rows() - 1u) { put_cell(rows() * row_width(), begin); }
+    put_cell(row_offset_index(row), before.y);
 }

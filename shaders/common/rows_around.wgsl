@@ -84,7 +84,7 @@ fn next_stretch() {
     let stop = min(last_column + 1, box_end);
     let folded = column + select(0, columns, column < 0) - select(0, columns, column >= columns);
     let cell = select(0u, cell_index(row, u32(folded)), exists);
-    other = cells[cell];
-    end = select(other, cells[cell + select(0u, u32(stop - column), exists)], exists);
+    other = cell_at(cell);
+    end = select(other, cell_at(cell + select(0u, u32(stop - column), exists)), exists);
     column = select(column, stop, exists);
 }

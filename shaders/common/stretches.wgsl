@@ -60,8 +60,8 @@ fn cluster_stretches(row: u32, lane: u32, column: u32) -> Stretches {
     let whole = rightmost - leftmost + 1u + 2u * frame() > CELLS_X;
     let from_cell = select(leftmost, frame(), whole);
     let to_cell = select(rightmost + 1u + 2u * frame(), frame() + CELLS_X, whole);
-    let begin = cells[lane_start + from_cell];
-    let length = select(0u, cells[lane_start + to_cell] - begin, lane < others);
-    let own = cells[own_start + from_cell];
-    return stretches_of(own, cells[own_start + to_cell] - own, begin, length);
+    let begin = cell_at(lane_start + from_cell);
+    let length = select(0u, cell_at(lane_start + to_cell) - begin, lane < others);
+    let own = cell_at(own_start + from_cell);
+    return stretches_of(own, cell_at(own_start + to_cell) - own, begin, length);
 }

@@ -2,7 +2,6 @@
 override PARTICLES: u32;
 override CELLS: u32;
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -13,7 +12,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let particle = particles[index];
     let position = four_words(particle[0]);
     let fraction = fraction_of(position);
-    let slot = cells[cell_index(row_of(fraction), column_of(fraction))] + ranks[index];
+    let slot = cell_at(cell_index(row_of(fraction), column_of(fraction))) + rank_of(index);
     sorted[slot] = particle;
     note_anchor(slot, position);
     note_origin(slot, index);

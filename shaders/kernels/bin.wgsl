@@ -2,7 +2,6 @@
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -10,5 +9,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
     let fraction = fraction_of(particles[index].position);
-    ranks[index] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
+    put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }

@@ -3,7 +3,6 @@
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>; // particles in each grid cell
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -14,5 +13,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let position = drifted(me, velocity_of(me));
     particles[slot].position = position;
     let fraction = fraction_of(position);
-    ranks[slot] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
+    put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }

@@ -2,7 +2,6 @@
 override PARTICLES: u32;
 @group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -12,5 +11,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let particle = particles[index];
     let fraction = fraction_of(particle.position) + unsigned(half_drift_steps(particle.momentum));
     particles[index].position = position_word(fraction, particle.position.w);
-    ranks[index] = atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u);
+    put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }

@@ -25,8 +25,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let other_row = row_at(row, across);
         for (var along = 0u; along < SPAN_X; along++) {
             let cell = cell_index(other_row, (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X);
-            let end = cells[cell + 1u];
-            for (var other = cells[cell]; other < end; other++) {
+            let end = cell_at(cell + 1u);
+            for (var other = cell_at(cell); other < end; other++) {
                 let there = sorted[other].position;
                 let d = Vector(signed(fraction - fraction_of(there))) * unit_lengths();
                 if (dot(d, d) < SQUARED_RANGE && owns(position.w, there.w)) {

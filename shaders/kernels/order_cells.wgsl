@@ -10,8 +10,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var particle = sorted[index];
     let fraction = fraction_of(particle.position);
     let cell = cell_index(row_of(fraction), column_of(fraction));
-    let begin = cells[cell];
-    let end = cells[cell + 1u];
+    let begin = cell_at(cell);
+    let end = cell_at(cell + 1u);
     var rank = 0u;
     var same = 0u;
     for (var other = begin; other < end; other++) {

@@ -39,8 +39,8 @@ fn count_pairs(row: u32, position: vec4<u32>) {
         for (var along = 0u; along < SPAN_X; along++) {
             let other_column = (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X;
             let cell = cell_index(other_row, other_column);
-            let cell_end = cells[cell + 1u];
-            for (var other = cells[cell]; other < cell_end; other++) {
+            let cell_end = cell_at(cell + 1u);
+            for (var other = cell_at(cell); other < cell_end; other++) {
                 let there = position_at(other);
                 let d = separation(position, there);
                 let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));

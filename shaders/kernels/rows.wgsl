@@ -37,8 +37,8 @@ fn visit(row: u32, index: u32) {
             if (base >= end) {
                 if (neighbour == neighbour_rows()) { break; }
                 let start = neighbour_row(row, neighbour) * row_width();
-                base = cells[start + column];
-                end = cells[start + last_column + 1u];
+                base = cell_at(start + column);
+                end = cell_at(start + last_column + 1u);
                 neighbour += 1u;
                 continue;
             }

@@ -3,7 +3,6 @@ override PARTICLES: u32;
 override CELLS: u32;
 override CAPACITY: u32; // of the sorted array, frames included
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-@group(0) @binding(6) var<storage, read_write> ranks: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -12,18 +11,18 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     if (index < CELLS) { counts[index] = 0u; }
     if (index >= PARTICLES) { return; }
     let particle = particles[index];
-    let rank = ranks[index];
+    let rank = rank_of(index);
     let fraction = fraction_of(four_words(particle[0]));
     let row = row_of(fraction);
     let column = column_of(fraction);
-    let target_index = cells[cell_index(row, column)] + rank;
+    let target_index = cell_at(cell_index(row, column)) + rank;
     if (target_index >= CAPACITY) {
         raise(FAILURE_FRAMES);
         return;
     }
     put_sorted(target_index, particle);
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
-        let copy = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)] + rank;
+        let copy = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u)) + rank;
         if (copy >= CAPACITY) {
             raise(FAILURE_FRAMES);
             return;

@@ -46,8 +46,8 @@ fn next_cell() {
     let gap = max(max(corner, -opposite) - STRAY, Vector(0.0)) * 4294967296.0 * scale();
     let worth = exists && dot(gap, gap) < reach;
     let cell = select(0u, cell_index(place.y, place.x), worth);
-    other = cells[cell];
-    end = select(other, cells[cell + 1u], worth);
+    other = cell_at(cell);
+    end = select(other, cell_at(cell + 1u), worth);
     along += select(max(2 * ring, 1), 1, abs(across) == ring);
     if (along > wide || !exists) {
         across += 1;

@@ -18,8 +18,8 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     keep_momentum(index, word);
     let column = column_of(fraction_of(me.position));
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
-        let copies = cells[row * row_width() + select(0u, CELLS_X + 1u, column == 0u)];
-        keep_momentum(copies + index - cells[cell_index(row, column)], word);
+        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
+        keep_momentum(copies + index - cell_at(cell_index(row, column)), word);
     }
 }
 fn pass_finish(group: u32, lane: u32) {}

@@ -20,10 +20,10 @@ impl Texels {
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: if planned.words == 4 {
-                    wgpu::TextureFormat::Rgba32Uint
-                } else {
-                    wgpu::TextureFormat::Rg32Uint
+                format: match planned.words {
+                    1 => wgpu::TextureFormat::R32Uint,
+                    2 => wgpu::TextureFormat::Rg32Uint,
+                    _ => wgpu::TextureFormat::Rgba32Uint,
                 },
                 usage: wgpu::TextureUsages::STORAGE_BINDING
                     | wgpu::TextureUsages::COPY_SRC

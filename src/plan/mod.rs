@@ -53,8 +53,10 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
 }
 
 /// Modules that put particles into the cells of a grid, and note nothing beside.
-const ARRANGE: [&str; 7] = [
+const ARRANGE: [&str; 9] = [
     "common/cells_plain",
+    "common/cells_buffer",
+    "common/ranks",
     "common/storage",
     "common/copies",
     "common/anchors_off",
@@ -213,7 +215,7 @@ pub struct Texture {
     pub name: &'static str,
     /// What it is for.
     pub purpose: &'static str,
-    /// Words of a texel: two or four.
+    /// Words of a texel: one, two or four.
     pub words: u32,
     /// Texels in a row, and rows.
     pub size: [u32; 2],
@@ -400,6 +402,8 @@ impl Plan {
     /// shares of nodes are moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs
     /// more than it saves), and few lanes wait for each other where one workgroup has all of the work.
     fn suit_serial_memory(&mut self) {
+        self.hold_in_texture("cells", "common/cells_buffer", "common/cells_texels");
+        self.hold_in_texture("ranks", "common/ranks", "common/ranks_texels");
         const SUITED: [(&str, &str, &str); 10] = [
             ("deposit", "common/storage", "common/storage_paired"),
             ("gather_nodes", "common/storage", "common/storage_paired"),
@@ -417,6 +421,26 @@ impl Plan {
                 for module in kernel.modules.iter_mut().filter(|module| **module == usual) {
                     *module = suited;
                 }
+            }
+        }
+    }
+
+    /// Holds a buffer of words in a texture instead, if all kernels come to it by a module that has a counterpart for textures.
+    fn hold_in_texture(&mut self, name: &'static str, module: &'static str, counterpart: &'static str) {
+        let Some(place) = self.buffers.iter().position(|buffer| buffer.name == name) else { return };
+        let texels = self.buffers[place].bytes / 4;
+        let uses = |kernel: &Kernel| kernel.modules.contains(&module);
+        if !Texture::holds(texels) || !self.kernels.iter().any(uses) {
+            return;
+        }
+        let Buffer { purpose, .. } = self.buffers.remove(place);
+        self.add_texture(name, purpose, 1, texels);
+        for kernel in &mut self.kernels {
+            for used in kernel.modules.iter_mut().filter(|used| **used == module) {
+                *used = counterpart;
+            }
+            if kernel.modules.contains(&counterpart) && !kernel.modules.contains(&"common/texels") {
+                kernel.modules.push("common/texels");
             }
         }
     }

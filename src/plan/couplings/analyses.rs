@@ -60,7 +60,7 @@ impl Builder<'_> {
         // On the side: the list and what it has noted stay as they are.
         let arrange = [&[self.cells()][..], &ARRANGE].concat();
         kernels.push(self.kernel("arrange_by_cell", &arrange, groups));
-        let sorted = [self.cells(), "common/cells_plain", "common/sorted"];
+        let sorted = [self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let modules = [&sorted[..], &["common/contact", span, "kernels/pair_histogram"]].concat();
         let count = self.kernel("pair_histogram", &modules, rows * segments);

@@ -99,10 +99,10 @@ impl Builder<'_> {
     /// The kernels that count the particles into cells and find where each cell begins.
     pub(super) fn binning(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
-        let modules = [&self.space()[..], &[self.cells(), "common/cells_plain"]].concat();
+        let modules = [&self.space()[..], &[self.cells(), "common/cells_plain", "common/cells_buffer"]].concat();
         let (rows, cells) = (self.grid.rows(), self.grid.count());
         let sum = PrefixSum { modules, row_scan: "common/row_scan", clock: &["common/same_step"], rows, cells };
-        let mut kernels = vec![self.kernel("bin", &[self.cells(), "kernels/bin"], groups)];
+        let mut kernels = vec![self.kernel("bin", &[self.cells(), "common/ranks", "kernels/bin"], groups)];
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
         kernels
     }
@@ -111,17 +111,19 @@ impl Builder<'_> {
     fn rebuild(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
         let mut kernels = self.binning();
-        let sorted = [self.cells(), "common/cells_plain", "common/sorted"];
+        let sorted = [self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let origins = if self.force.remembers() { "common/origins_on" } else { "common/origins_off" };
         let arrange = [
             self.cells(),
             "common/cells_plain",
+            "common/cells_buffer",
             "common/storage",
             "common/copies",
             "common/anchors_on",
             origins,
             self.slots(),
+            "common/ranks",
             "kernels/arrange",
         ];
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));

@@ -68,7 +68,7 @@ impl Builder<'_> {
 
     /// A half drift, half a push, friction and heat, half a push, a half drift.
     fn split_step(&mut self) -> Vec<usize> {
-        let modules = ["common/grid2", "common/cell", "common/cell_drift", "kernels/drift_cells"];
+        let modules = ["common/grid2", "common/cell", "common/cell_drift", "common/ranks", "kernels/drift_cells"];
         let groups = self.groups(self.particles);
         let drift = self.kernel("drift", &modules, groups);
         self.plan.kernels[drift].constants = self.drift_constants(0.5);

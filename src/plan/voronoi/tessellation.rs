@@ -31,13 +31,13 @@ impl Builder<'_> {
         let mut kernels = Vec::new();
         if occasion == Occasion::Report {
             let groups = self.groups(self.particles);
-            kernels.push(self.shared_kernel("bin", &["common/grid2", "kernels/bin"], groups));
+            kernels.push(self.shared_kernel("bin", &["common/grid2", "common/ranks", "kernels/bin"], groups));
         }
         self.scan(&mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
         let arrange = [&["common/grid2"][..], &ARRANGE].concat();
         kernels.push(self.shared_kernel("arrange", &arrange, arrange_groups));
-        let sorted = ["common/grid2", "common/cells_plain", "common/sorted"];
+        let sorted = ["common/grid2", "common/cells_plain", "common/cells_buffer", "common/sorted"];
         let groups = self.groups(self.particles);
         kernels.push(self.shared_kernel(
             "order_cells",
@@ -46,8 +46,15 @@ impl Builder<'_> {
         ));
         let stored = self.options.list_growth > 0;
         let corners = if stored { "common/corners_stored" } else { "common/corners_private" };
-        let cells =
-            ["common/grid2", "common/cells_plain", "common/face", "common/places", "common/sites", "common/meeting"];
+        let cells = [
+            "common/grid2",
+            "common/cells_plain",
+            "common/cells_buffer",
+            "common/face",
+            "common/places",
+            "common/sites",
+            "common/meeting",
+        ];
         let few = ["common/few_corners", "common/rows_around", "kernels/tessellate"];
         let quickly = self.shared_kernel("tessellate", &[&cells[..], &few].concat(), groups);
         self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
@@ -71,7 +78,7 @@ impl Builder<'_> {
 
     /// Kernels of the prefix sum over grid cells.
     fn scan(&mut self, kernels: &mut Vec<usize>) {
-        let modules = [&SPACE[..], &["common/grid2", "common/cells_plain"]].concat();
+        let modules = [&SPACE[..], &["common/grid2", "common/cells_plain", "common/cells_buffer"]].concat();
         let (rows, cells) = (self.grid.rows(), self.grid.count());
         let sum = PrefixSum { modules, row_scan: "common/row_scan", clock: &["common/same_step"], rows, cells };
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel_once(kernel)));
