@@ -11,7 +11,7 @@ pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
     let mut lines = vec![
         format!("- date: {}", date()),
         format!("- adapter: {} ({}, {}), driver {}", adapter.name, adapter.kind, adapter.backend, adapter.driver),
-        format!("- processor: {}, {cores} cores", processor()),
+        format!("- processor: {}, {cores} cores, {}", processor(), widest_vectors()),
     ];
     let version = env!("CARGO_PKG_VERSION");
     lines.push(format!("- mesoscope {version}, wgpu {}, {}", locked("wgpu"), compiler()));
@@ -46,6 +46,21 @@ fn processor() -> String {
     known
         .or_else(|| answer("sysctl", &["-n", "machdep.cpu.brand_string"]))
         .unwrap_or_else(|| std::env::consts::ARCH.to_owned())
+}
+
+/// The widest vectors that a software adapter may compile for: they decide what it costs to put them together.
+#[cfg(target_arch = "x86_64")]
+fn widest_vectors() -> &'static str {
+    match (std::is_x86_feature_detected!("avx512f"), std::is_x86_feature_detected!("avx2")) {
+        (true, _) => "AVX-512",
+        (false, true) => "AVX2",
+        (false, false) => "neither AVX2 nor AVX-512",
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn widest_vectors() -> &'static str {
+    std::env::consts::ARCH
 }
 
 fn compiler() -> String {

@@ -8,10 +8,9 @@ override LOSS: f32;         // 1 - e
 override DECAY: f32;        // ln |e|
 override SPREAD: f32;       // root of 1 - e^2
 override BATH_IMPULSE: f32; // impulse of half a step per bath
-@group(0) @binding(24) var<storage, read_write> memories: array<vec2<u32>>;
 
 fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
-    let memory = memories[place];
+    let memory = pair_memory(place);
     let missed = control.step.x - memory.y - 1u;
     let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, PERSISTENCE < 0.0 && (missed & 1u) == 1u);
     let exponent = -2.0 * DECAY * (f32(missed) + 1.0);

@@ -1,6 +1,5 @@
 // Every angle hands the impulses of half a step to its three particles: V = k (1 + cos), least where a chain is straight.
 override ANGLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(33) var<storage, read_write> slots: array<u32>;
 override FIRST_ANGLE: u32;
 // A word for each species, 1 if it can move; then for each angle the numbers of three particles, the middle of the angle in
@@ -32,9 +31,9 @@ fn visit(angle: u32) {
     let word = angles[FIRST_ANGLE + angle];
     let ends = vec3<u32>(slots[word.x], slots[word.y], slots[word.z]);
     let stiffness = bitcast<f32>(word.w);
-    let first_end = particles[ends.x];
-    let middle = particles[ends.y];
-    let last_end = particles[ends.z];
+    let first_end = stored_particle(ends.x);
+    let middle = stored_particle(ends.y);
+    let last_end = stored_particle(ends.z);
     let first_arm = contact_of(separation(first_end.position, middle.position));
     let last_arm = contact_of(separation(last_end.position, middle.position));
     // Without an arm there is no angle, and no force.

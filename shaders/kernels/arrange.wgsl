@@ -9,11 +9,11 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
     if (index >= PARTICLES) { return; }
-    let particle = particles[index];
-    let position = four_words(particle[0]);
+    let particle = stored_particle(index);
+    let position = particle.position;
     let fraction = fraction_of(position);
     let slot = cell_at(cell_index(row_of(fraction), column_of(fraction))) + rank_of(index);
-    sorted[slot] = particle;
+    sort_particle(slot, particle);
     note_anchor(slot, position);
     note_origin(slot, index);
     note_slot(position.w, slot);

@@ -1,6 +1,5 @@
 // Every bond hands the impulses of half a step to both of its ends: those of its potential and of its bath.
 override BONDS: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(33) var<storage, read_write> slots: array<u32>;
 
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
@@ -22,7 +21,7 @@ fn visit(bond: u32) {
     let kind = bond_kind(word.z);
     let slot = slots[word.x];
     let other_slot = slots[word.y];
-    let ends = Ends(slot, other_slot, particles[slot], particles[other_slot]);
+    let ends = Ends(slot, other_slot, stored_particle(slot), stored_particle(other_slot));
     let contact = contact_of(separation(ends.me.position, ends.other.position));
     let stretch = stretch_of(kind, contact.distance);
     let magnitude = stretch.force + bond_bath(bond, kind, ends.me, ends.other);

@@ -4,7 +4,6 @@ override PARTICLES: u32;
 override IMPULSE_STEPS: f32; // units of momentum in one
 override MASS_STEPS: f32;    // units of mass in one
 override ENERGY_STEPS: f32;  // units of energy in one
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 const UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
 
@@ -14,7 +13,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     prepare_noise();
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let mine = side_of(slot, me);
     var total = vec4<i32>(0);
     var fits = true;
@@ -23,7 +22,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let face = number * PARTICLES + slot;
         let word = face_words[face];
         let other = neighbour_of(word);
-        let they = particles[other];
+        let they = stored_particle(other);
         if (!owns_face(me.position.w, they.position.w)) { continue; }
         let theirs = side_of(other, they);
         let facet = facet_of(face, word, me.position, they.position);

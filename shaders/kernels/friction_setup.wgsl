@@ -1,6 +1,5 @@
 // Sets up the equations of friction; the velocities before it are the first guess.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>;       // W, residual
 @group(0) @binding(22) var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
 @group(0) @binding(23) var<storage, read_write> searches: array<vec4<f32>>;        // preconditioned residual; place
@@ -19,7 +18,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 // Returns the square of the right-hand side.
 fn set_up(slot: u32) -> f32 {
     prepare_noise();
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let velocity = velocity_of(me);
     let temperature = temperature_of(me);
     let inertia = 2.0 * mass_of(me);
@@ -32,7 +31,7 @@ fn set_up(slot: u32) -> f32 {
         let word = face_words[face];
         let other = neighbour_of(word);
         if (other == slot) { continue; }
-        let they = particles[other];
+        let they = stored_particle(other);
         let facet = facet_of(face, word, me.position, they.position);
         let e = facet.direction;
         friction += drag(facet, velocity - velocity_of(they));

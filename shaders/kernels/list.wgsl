@@ -6,8 +6,6 @@ override SQUARED_RANGE: f32;  // of cutoff and margin
 override SPAN_X: u32; // cells to visit on each axis, centred on the particle's
 override SPAN_Y: u32;
 override SPAN_Z: u32;
-// The number of a particle's pairs, then its pairs: one row of particles after the other.
-@group(0) @binding(25) var<storage, read_write> neighbours_next: array<u32>;
 
 fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
 
@@ -16,7 +14,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    let position = sorted[slot].position;
+    let position = position_at(slot);
     let fraction = fraction_of(position);
     let row = row_of(fraction);
     let column = column_of(fraction);
@@ -27,17 +25,17 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             let cell = cell_index(other_row, (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X);
             let end = cell_at(cell + 1u);
             for (var other = cell_at(cell); other < end; other++) {
-                let there = sorted[other].position;
+                let there = position_at(other);
                 let d = Vector(signed(fraction - fraction_of(there))) * unit_lengths();
                 if (dot(d, d) < SQUARED_RANGE && owns(position.w, there.w)) {
                     count += 1u;
                     if (count <= LIST_CAPACITY) {
-                        neighbours_next[count * PARTICLES + slot] = other | excluded(position.w, there.w);
+                        put_next_neighbour_word(count * PARTICLES + slot, other | excluded(position.w, there.w));
                     }
                 }
             }
         }
     }
-    neighbours_next[slot] = min(count, LIST_CAPACITY);
+    put_next_neighbour_word(slot, min(count, LIST_CAPACITY));
     raise(select(0u, FAILURE_FRAMES, count > LIST_CAPACITY));
 }

@@ -2,7 +2,6 @@
 // (14)-(17), doi:10.1209/epl/i2003-00621-8.
 override PARTICLES: u32;
 override DISPLACEMENT_LIMIT: f32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(22) var<storage, read_write> kicks: array<vec4<i32>>;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
@@ -14,7 +13,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     prepare_position_noise();
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let id = me.position.w;
     let species = species_of(me);
     let held = advance_hold(id);
@@ -32,6 +31,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT));
     let word = momentum_word(momentum, species);
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
-    particles[slot] = advanced_particle(position_word(fraction, id), word, opening);
+    store_particle(slot, advanced_particle(position_word(fraction, id), word, opening));
     check_anchor(slot, fraction);
 }

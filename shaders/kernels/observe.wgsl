@@ -1,7 +1,6 @@
 // The report of every particle's motion, once all couplings have left their half kicks, and the particle by its number with
 // its momentum at the full step.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(22) var<storage, read_write> kicks: array<vec4<i32>>;
 @group(0) @binding(40) var<storage, read_write> reported: array<array<vec4<u32>, 2>>;
 
@@ -16,7 +15,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 
 fn observe(slot: u32) {
     prepare_position_noise();
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let id = me.position.w;
     let species = species_of(me);
     let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());

@@ -2,7 +2,6 @@
 override PARTICLES: u32;
 override KINETIC: f32;         // sums' units in a real energy
 override VOLUME_STEPS: f32;    // and in a volume
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -15,7 +14,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 }
 
 fn observe(slot: u32) {
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let velocity = velocity_of(me);
     let volume = volumes[slot];
     total_add(0u, sum64_of_f32(0.5 * mass_of(me) * dot(velocity, velocity) * KINETIC));

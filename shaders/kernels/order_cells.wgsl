@@ -1,13 +1,12 @@
 // Brings the particles of every grid cell into the order of their numbers, so that nothing depends on the order in which they
 // came, and parts those at the same place: Voronoi cells have none in common.
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    var particle = sorted[index];
+    var particle = particle_at(index);
     let fraction = fraction_of(particle.position);
     let cell = cell_index(row_of(fraction), column_of(fraction));
     let begin = cell_at(cell);
@@ -15,7 +14,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var rank = 0u;
     var same = 0u;
     for (var other = begin; other < end; other++) {
-        let place = sorted[other].position;
+        let place = position_at(other);
         let earlier = place.w < particle.position.w;
         rank += select(0u, 1u, earlier);
         same += select(0u, 1u, earlier && all(fraction_of(place) == fraction));
@@ -24,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     // search for neighbours leaves to a particle for being beside its grid cell.
     let apart = Fraction(same, (same * same) & 65535u);
     particle.position = vec4<u32>(fraction + apart, particle.position.zw);
-    particles[begin + rank] = particle;
+    store_particle(begin + rank, particle);
     places.elements[begin + rank] = fraction_of(particle.position);
     for (var first = index == 0u; first; first = false) { atomicStore(&places.doubtful, 0u); }
 }

@@ -1,9 +1,6 @@
 // Visits every listed pair, from its owner: first finds those in contact, then computes their impulses and hands them to
 // both ends.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
-// The number of a particle's pairs, then its pairs: one row of particles after the other.
-@group(0) @binding(23) var<storage, read_write> neighbours: array<u32>;
 
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
 
@@ -18,24 +15,24 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
 
 fn visit(slot: u32) {
     prepare_noise();
-    let me = particles[slot];
-    let count = neighbours[slot];
+    let me = stored_particle(slot);
+    let count = neighbour_word(slot);
     var kick = Steps(0);
     var sound = true;
     for (var base = 0u; base < count; base += 32u) {
         let end = min(32u, count - base);
         var mask = 0u;
         for (var bit = 0u; bit < end; bit++) {
-            let neighbour = neighbours[(base + bit + 1u) * PARTICLES + slot];
-            let d = separation(me.position, particles[neighbour & NEIGHBOUR_MASK].position);
+            let neighbour = neighbour_word((base + bit + 1u) * PARTICLES + slot);
+            let d = separation(me.position, stored_position(neighbour & NEIGHBOUR_MASK));
             mask |= select(0u, 1u << bit, dot(d, d) < CUTOFF * CUTOFF);
         }
         while (mask != 0u) {
             let entry = base + firstTrailingBit(mask);
             mask &= mask - 1u;
-            let neighbour = neighbours[(entry + 1u) * PARTICLES + slot];
+            let neighbour = neighbour_word((entry + 1u) * PARTICLES + slot);
             let other_slot = neighbour & NEIGHBOUR_MASK;
-            let other = particles[other_slot];
+            let other = stored_particle(other_slot);
             let contact = contact_of(separation(me.position, other.position));
             let c = coefficients_of(species_of(me), species_of(other));
             let root = root_weight(contact.w);

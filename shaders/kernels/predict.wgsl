@@ -1,7 +1,6 @@
 // What is to come of an exchange: the mean velocity of before and after it, at which impulses do their work, and the
 // pressure in the middle of it. Neither has to be exact for anything to be conserved.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(18) var<storage, read_write> predictions: array<vec4<f32>>; // velocity, pressure, volume
 
 @compute @workgroup_size(WORKGROUP)
@@ -10,7 +9,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     prepare_noise();
-    let me = particles[slot];
+    let me = stored_particle(slot);
     let mine = side_of(slot, me);
     var impulses = Vector(0.0);
     var masses = 0.0;
@@ -21,7 +20,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let word = face_words[face];
         let other = neighbour_of(word);
         if (other == slot) { continue; }
-        let they = particles[other];
+        let they = stored_particle(other);
         let theirs = side_of(other, they);
         let facet = facet_of(face, word, me.position, they.position);
         let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);

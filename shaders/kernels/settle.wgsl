@@ -1,11 +1,10 @@
 // Makes the new order of the particles the one that counts.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    particles[slot] = sorted[slot];
+    store_particle(slot, particle_at(slot));
 }

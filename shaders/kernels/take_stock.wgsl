@@ -1,13 +1,12 @@
 // After an upload: where the particles are, and whether their neighbours have to be listed.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    let position = particles[slot].position;
+    let position = stored_position(slot);
     note_slot(position.w, slot);
     check_anchor(slot, fraction_of(position));
 }

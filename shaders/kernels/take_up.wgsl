@@ -1,6 +1,5 @@
 // Every cell takes up what came through its faces.
 override PARTICLES: u32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 const UNITS_LIMIT: i32 = 1073741824; // 2^30
 
@@ -9,7 +8,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    var me = particles[slot];
+    var me = stored_particle(slot);
     let before = velocity_of(me);
     let change = take_change(slot);
     me.momentum += vec4<i32>(change.xyw, 0);
@@ -19,5 +18,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     raise(select(0u, FAILURE_MOMENTUM, any_beyond(steps_of(me.momentum), UNITS_LIMIT)));
     check_energy(me);
     me.position = moved(me, before);
-    particles[slot] = me;
+    store_particle(slot, me);
 }

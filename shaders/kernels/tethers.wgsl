@@ -1,7 +1,6 @@
 // A spring from every particle to where it started.
 override PARTICLES: u32;
 override TETHER: f32; // impulse of half a step per length
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(35) var<storage, read_write> tethers: array<vec4<u32>>; // by number
 
 @compute @workgroup_size(WORKGROUP)
@@ -10,7 +9,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let group = linear_workgroup(workgroup, workgroups);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) {
-        let position = particles[slot].position;
+        let position = stored_position(slot);
         let length = separation(position, tethers[position.w]);
         let impulse = -TETHER * length;
         add_kick(slot, Steps(round(impulse)));

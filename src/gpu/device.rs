@@ -19,6 +19,9 @@ pub struct Requirements {
 const SERIAL_FEATURES: wgpu::Features =
     wgpu::Features::SHADER_INT64.union(wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES);
 
+/// The most textures that one kernel binds there.
+const STORAGE_TEXTURES: u32 = 8;
+
 /// An opened device with its queue.
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
@@ -85,7 +88,11 @@ impl Gpu {
         };
         let serial_memory = info.device_type == wgpu::DeviceType::Cpu
             && adapter.features().contains(SERIAL_FEATURES)
+            && offered.max_storage_textures_per_shader_stage >= STORAGE_TEXTURES
             && [wgpu::TextureFormat::Rgba32Uint, wgpu::TextureFormat::Rg32Uint].into_iter().all(texels);
+        if serial_memory {
+            limits.max_storage_textures_per_shader_stage = STORAGE_TEXTURES;
+        }
         let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
@@ -142,7 +149,8 @@ impl Gpu {
         self.subgroup_size
     }
 
-    /// Whether lanes load and store one after the other, and can do so with eight bytes at a time.
+    /// Whether lanes load and store one after the other, and can do so with eight bytes at a time, and whether textures can be
+    /// loaded from and stored to in one kernel.
     #[must_use]
     pub fn serial_memory(&self) -> bool {
         self.serial_memory

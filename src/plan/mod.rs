@@ -8,13 +8,16 @@ mod pair;
 mod precision;
 mod prefix_sum;
 mod recording;
+mod serial_memory;
 mod shallow_water;
 pub mod smoothing;
+mod texture;
 mod voronoi;
 
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
 pub use precision::check_precision;
+pub use texture::Texture;
 
 use crate::model::Model;
 use crate::noise;
@@ -53,12 +56,11 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
 }
 
 /// Modules that put particles into the cells of a grid, and note nothing beside.
-const ARRANGE: [&str; 9] = [
+const ARRANGE: [&str; 8] = [
     "common/cells_plain",
     "common/cells_buffer",
     "common/ranks",
-    "common/storage",
-    "common/copies",
+    "common/sorted",
     "common/anchors_off",
     "common/origins_off",
     "common/slots_off",
@@ -81,8 +83,8 @@ pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
 pub struct Hardware {
     /// Lanes of every subgroup, if fixed and usable.
     pub subgroup_size: Option<u32>,
-    /// Whether lanes load and store one after the other, as on software adapters: every access is dear, and one of eight
-    /// bytes no dearer than one of four.
+    /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is dear, and one
+    /// of eight bytes no dearer than one of four; texels of a texture are loaded whole.
     pub serial_memory: bool,
 }
 
@@ -208,19 +210,6 @@ pub struct Buffer {
     pub contents: Contents,
 }
 
-/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer. It begins as zeros.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Texture {
-    /// The name, which is also that of the shader variable.
-    pub name: &'static str,
-    /// What it is for.
-    pub purpose: &'static str,
-    /// Words of a texel: one, two or four.
-    pub words: u32,
-    /// Texels in a row, and rows.
-    pub size: [u32; 2],
-}
-
 /// Kernels that turn the particles of a report into one row of sums.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampler {
@@ -333,32 +322,6 @@ impl Kernel {
     }
 }
 
-impl Texture {
-    /// Texels in a row: half of what every adapter has, so that a quotient is a shift.
-    pub const ROW: u64 = 4096;
-
-    /// Rows that every adapter has.
-    const ROWS: u64 = 8192;
-
-    /// Whether a texture can have so many texels.
-    #[must_use]
-    pub fn holds(texels: u64) -> bool {
-        texels <= Self::ROW * Self::ROWS
-    }
-
-    /// Bytes on the device.
-    #[must_use]
-    pub fn bytes(&self) -> u64 {
-        self.row_bytes() * u64::from(self.size[1])
-    }
-
-    /// Bytes of a row: a multiple of 256, as copies ask for.
-    #[must_use]
-    pub fn row_bytes(&self) -> u64 {
-        4 * u64::from(self.words) * u64::from(self.size[0])
-    }
-}
-
 impl Sampler {
     /// Whether a sample is due at a step.
     #[must_use]
@@ -398,53 +361,6 @@ impl Plan {
         }
     }
 
-    /// Suits kernels to lanes that are taken one after the other: words are loaded and stored in pairs where particles and
-    /// shares of nodes are moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs
-    /// more than it saves), and few lanes wait for each other where one workgroup has all of the work.
-    fn suit_serial_memory(&mut self) {
-        self.hold_in_texture("cells", "common/cells_buffer", "common/cells_texels");
-        self.hold_in_texture("ranks", "common/ranks", "common/ranks_texels");
-        const SUITED: [(&str, &str, &str); 10] = [
-            ("deposit", "common/storage", "common/storage_paired"),
-            ("gather_nodes", "common/storage", "common/storage_paired"),
-            ("scatter", "common/storage", "common/storage_paired"),
-            ("arrange", "common/storage", "common/storage_paired"),
-            ("push", "common/storage", "common/storage_paired"),
-            ("push_from_report", "common/storage", "common/storage_paired"),
-            ("scan", "common/storage", "common/storage_paired"),
-            ("scan_blocks", "common/storage", "common/storage_paired"),
-            ("scan_rows", "common/storage", "common/storage_paired"),
-            ("scan", "common/scan_wide", "common/scan_narrow"),
-        ];
-        for kernel in &mut self.kernels {
-            for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
-                for module in kernel.modules.iter_mut().filter(|module| **module == usual) {
-                    *module = suited;
-                }
-            }
-        }
-    }
-
-    /// Holds a buffer of words in a texture instead, if all kernels come to it by a module that has a counterpart for textures.
-    fn hold_in_texture(&mut self, name: &'static str, module: &'static str, counterpart: &'static str) {
-        let Some(place) = self.buffers.iter().position(|buffer| buffer.name == name) else { return };
-        let texels = self.buffers[place].bytes / 4;
-        let uses = |kernel: &Kernel| kernel.modules.contains(&module);
-        if !Texture::holds(texels) || !self.kernels.iter().any(uses) {
-            return;
-        }
-        let Buffer { purpose, .. } = self.buffers.remove(place);
-        self.add_texture(name, purpose, 1, texels);
-        for kernel in &mut self.kernels {
-            for used in kernel.modules.iter_mut().filter(|used| **used == module) {
-                *used = counterpart;
-            }
-            if kernel.modules.contains(&counterpart) && !kernel.modules.contains(&"common/texels") {
-                kernel.modules.push("common/texels");
-            }
-        }
-    }
-
     /// Adds a kernel, and says which it is.
     fn add_kernel(&mut self, kernel: Kernel) -> usize {
         self.kernels.push(kernel);
@@ -469,13 +385,6 @@ impl Plan {
 
     fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
-    }
-
-    /// Adds a texture.
-    fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
-        let width = texels.clamp(1, Texture::ROW).next_multiple_of(64);
-        let size = [width as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
-        self.textures.push(Texture { name, purpose, words, size });
     }
 
     /// The buffer that stands for one of a name, `odd` if the number of steps since the upload is.

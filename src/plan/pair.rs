@@ -200,7 +200,8 @@ impl Builder<'_> {
     }
 
     fn ordering(&mut self) {
-        let bin = self.kernel("bin", &["kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
+        let bin =
+            self.kernel("bin", &["common/particles", "kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting("common/begin_step");
     }

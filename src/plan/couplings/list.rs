@@ -8,6 +8,9 @@ use crate::plan::prefix_sum::PrefixSum;
 use crate::plan::{Kernel, Options, folded};
 use std::f64::consts::PI;
 
+/// Modules of the list that there is and of the one that is being made.
+const LISTS: [&str; 4] = ["common/neighbours", "common/neighbours_next", "common/memories", "common/memories_next"];
+
 /// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
 /// that for every time it has turned out to be too little.
 pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u64 {
@@ -118,8 +121,7 @@ impl Builder<'_> {
             self.cells(),
             "common/cells_plain",
             "common/cells_buffer",
-            "common/storage",
-            "common/copies",
+            "common/sorted",
             "common/anchors_on",
             origins,
             self.slots(),
@@ -129,11 +131,12 @@ impl Builder<'_> {
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let exclusions = self.exclusions();
-        let modules = [&sorted[..], &[span, exclusions, "kernels/list"]].concat();
+        let modules = [&sorted[..], &[span, exclusions, "common/neighbours_next", "kernels/list"]].concat();
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {
             let mut modules = vec!["common/sorted", "common/neighbour_words", self.coefficients()];
+            modules.extend(LISTS);
             modules.extend(["common/gaussian", "common/threefry", "kernels/carry"]);
             modules.extend(self.words());
             let carry = self.kernel("carry", &modules, groups);
@@ -141,7 +144,7 @@ impl Builder<'_> {
             self.plan.kernels[carry].constants =
                 vec![("START_STREAM_X", f64::from(key[0])), ("START_STREAM_Y", f64::from(key[1]))];
             kernels.push(carry);
-            kernels.push(self.kernel("settle_list", &["kernels/settle_list"], groups));
+            kernels.push(self.kernel("settle_list", &[&LISTS[..], &["kernels/settle_list"]].concat(), groups));
         } else {
             self.plan.kernels[list].renamed = vec![("neighbours_next", "neighbours")];
         }

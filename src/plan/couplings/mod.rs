@@ -245,7 +245,7 @@ impl Builder<'_> {
 
     /// Adds a kernel of the space with further modules.
     fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        let modules = [&self.space()[..], modules].concat();
+        let modules = [&self.space()[..], &["common/particles"], modules].concat();
         self.plan.add_kernel(Kernel::new(name, modules, workgroups))
     }
 

@@ -39,13 +39,14 @@ impl Builder<'_> {
     /// Modules of the pair force.
     fn pair_modules(&self) -> Vec<&'static str> {
         let force = self.force;
-        let mut modules = vec![self.kicks(), "common/contact", "common/neighbour_words", self.coefficients()];
+        let mut modules =
+            vec![self.kicks(), "common/contact", "common/neighbour_words", "common/neighbours", self.coefficients()];
         modules.push(if self.spares() { "common/repulsion_spared" } else { "common/repulsion_always" });
         modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         let thermal = force.has_friction() && force.temperature > 0.0;
         if force.remembers() {
-            modules.push("common/pair_memory");
+            modules.extend(["common/memories", "common/pair_memory"]);
             modules.push(if thermal { "common/bath_noise_on" } else { "common/bath_noise_off" });
         } else {
             modules.push("common/pair_white");

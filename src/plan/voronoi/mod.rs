@@ -155,7 +155,7 @@ impl Builder<'_> {
 
     /// Adds a kernel of the plane with further modules.
     fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        self.plan.add_kernel(Kernel::new(name, [&SPACE[..], modules].concat(), workgroups))
+        self.plan.add_kernel(Kernel::new(name, [&SPACE[..], &["common/particles"], modules].concat(), workgroups))
     }
 
     fn buffers(&mut self) {

@@ -102,7 +102,7 @@ impl Builder<'_> {
 
     /// A kernel that is made once, however often it is asked for.
     fn shared_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        self.plan.add_kernel_once(Kernel::new(name, [&SPACE[..], modules].concat(), workgroups))
+        self.plan.add_kernel_once(Kernel::new(name, [&SPACE[..], &["common/particles"], modules].concat(), workgroups))
     }
 
     fn geometry_buffers(&mut self) {

@@ -1,0 +1,95 @@
+//! Suits a plan to adapters whose lanes load and store one after the other.
+//!
+//! Software adapters assemble a vector that lanes load from a buffer word by word, each time through memory; from a texture
+//! they load whole texels. So what kernels load lane by lane, and often, is held in textures.
+
+use super::{Buffer, Kernel, Layout, Plan, Texture};
+
+/// A buffer that may be held in a texture instead.
+struct Held {
+    name: &'static str,
+    /// Words of a texel.
+    words: u32,
+    /// The module by which kernels come to the buffer.
+    module: &'static str,
+    /// Its counterpart for a texture.
+    counterpart: &'static str,
+}
+
+const fn held(name: &'static str, words: u32, module: &'static str, counterpart: &'static str) -> Held {
+    Held { name, words, module, counterpart }
+}
+
+const ORDER: [Held; 2] = [
+    held("cells", 1, "common/cells_buffer", "common/cells_texels"),
+    held("ranks", 1, "common/ranks", "common/ranks_texels"),
+];
+
+/// Where neighbours are found without a pass of their own over ordered particles: by lists, or as Voronoi cells.
+const NEIGHBOURHOODS: [Held; 6] = [
+    held("particles", 4, "common/particles", "common/particles_texels"),
+    held("sorted", 4, "common/sorted", "common/sorted_interleaved"),
+    held("neighbours", 1, "common/neighbours", "common/neighbours_texels"),
+    held("neighbours_next", 1, "common/neighbours_next", "common/neighbours_next_texels"),
+    held("memories", 2, "common/memories", "common/memories_texels"),
+    held("memories_next", 2, "common/memories_next", "common/memories_next_texels"),
+];
+
+/// Modules of kernels that are replaced: kernel, module, replacement. Words are loaded and stored in pairs where particles and
+/// shares of nodes are moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs more
+/// than it saves), and few lanes wait for each other where one workgroup has all of the work.
+const SUITED: [(&str, &str, &str); 9] = [
+    ("deposit", "common/storage", "common/storage_paired"),
+    ("gather_nodes", "common/storage", "common/storage_paired"),
+    ("scatter", "common/storage", "common/storage_paired"),
+    ("push", "common/storage", "common/storage_paired"),
+    ("push_from_report", "common/storage", "common/storage_paired"),
+    ("scan", "common/storage", "common/storage_paired"),
+    ("scan_blocks", "common/storage", "common/storage_paired"),
+    ("scan_rows", "common/storage", "common/storage_paired"),
+    ("scan", "common/scan_wide", "common/scan_narrow"),
+];
+
+impl Plan {
+    /// Suits kernels and buffers to lanes that are taken one after the other.
+    pub(super) fn suit_serial_memory(&mut self) {
+        let neighbourhoods = matches!(self.layout, Layout::Coupled { .. } | Layout::Cells { .. });
+        for array in ORDER.iter().chain(NEIGHBOURHOODS.iter().filter(|_| neighbourhoods)) {
+            self.hold_in_texture(array);
+        }
+        for kernel in &mut self.kernels {
+            for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
+                for module in kernel.modules.iter_mut().filter(|module| **module == usual) {
+                    *module = suited;
+                }
+            }
+        }
+    }
+
+    /// Holds a buffer in a texture if a kernel comes to it by the module, and lets kernels that do so, or come to another such
+    /// buffer by that module, use its counterpart.
+    fn hold_in_texture(&mut self, array: &Held) {
+        let bound = |kernel: &Kernel| {
+            let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == array.name);
+            kernel.modules.contains(&array.module).then(|| renamed.map_or(array.name, |(_, buffer)| buffer))
+        };
+        let used = self.kernels.iter().any(|kernel| bound(kernel) == Some(array.name));
+        let place = self.buffers.iter().position(|buffer| buffer.name == array.name);
+        if let Some(place) = place.filter(|_| used) {
+            let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));
+            if Texture::holds(texels) {
+                let Buffer { name, purpose, .. } = self.buffers.remove(place);
+                self.add_texture(name, purpose, array.words, texels);
+            }
+        }
+        for kernel in &mut self.kernels {
+            let held = bound(kernel).is_some_and(|name| self.textures.iter().any(|texture| texture.name == name));
+            for module in kernel.modules.iter_mut().filter(|module| held && **module == array.module) {
+                *module = array.counterpart;
+            }
+            if held && !kernel.modules.contains(&"common/texels") {
+                kernel.modules.push("common/texels");
+            }
+        }
+    }
+}
