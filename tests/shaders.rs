@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use mesoscope::engine::Control;
 use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
 use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Traversal};
+use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::Hold;
 use support::{INTEGRATORS, cells, fluid, water};
@@ -488,6 +488,19 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
         }
     }
     report(&complaints);
+}
+
+#[test]
+fn rows_of_texels_are_as_long_in_plans_as_in_shaders() {
+    let said = format!("const TEXELS_IN_ROW: u32 = {}u;", Texture::ROW);
+    assert!(module_text("common/texels").unwrap().contains(&said), "{said}");
+    let textures: Vec<&Texture> = plans().iter().flat_map(|(_, plan)| &plan.textures).collect();
+    assert!(!textures.is_empty());
+    for texture in textures {
+        let [width, height] = texture.size.map(u64::from);
+        assert!(width == Texture::ROW || width < Texture::ROW && height == 1, "{texture:?}");
+        assert!(texture.row_bytes().is_multiple_of(256) && Texture::holds(width * height, texture.words));
+    }
 }
 
 #[test]

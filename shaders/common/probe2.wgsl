@@ -1,5 +1,6 @@
-// The prefilter: one word a particle tells, without ever missing a neighbour, whether a pair is worth looking at. Each
-// axis keeps its leading bits inside a window of a few cells; distances are in the quantised units of the x axis.
+// The prefilter: one word a particle, or its position, tells without ever missing a neighbour whether a pair is worth
+// looking at. Each axis keeps its leading bits inside a window of a few cells; distances are in the quantised units of
+// the x axis.
 override WINDOW_X: u32;  // the window is the box divided by 2^WINDOW
 override WINDOW_Y: u32;
 override PROBE_Y: f32;   // length of a window unit of y over one of x; 0 where the axis is a single cell

@@ -1,10 +1,10 @@
-// Particles ordered by cell, in textures; where rows have frames, with those filled in.
-@group(0) @binding(2) var sorted_positions: texture_storage_2d<rgba32uint, read_write>;
-@group(0) @binding(46) var sorted_momenta: texture_storage_2d<rgba32uint, read_write>;
+// Particles ordered by cell, in a texture: of each a texel for its position and one for its momentum.
+@group(0) @binding(2) var sorted: texture_storage_2d<rgba32uint, read_write>;
 
-fn position_at(index: u32) -> vec4<u32> { return textureLoad(sorted_positions, texel(index)); }
-fn momentum_at(index: u32) -> vec4<i32> { return bitcast<vec4<i32>>(textureLoad(sorted_momenta, texel(index))); }
+fn position_at(index: u32) -> vec4<u32> { return textureLoad(sorted, texel(2u * index)); }
+fn momentum_at(index: u32) -> vec4<i32> { return bitcast<vec4<i32>>(textureLoad(sorted, texel(2u * index + 1u))); }
 fn particle_at(index: u32) -> Particle { return Particle(position_at(index), momentum_at(index)); }
-fn keep_momentum(index: u32, word: vec4<i32>) {
-    textureStore(sorted_momenta, texel(index), bitcast<vec4<u32>>(word));
+fn sort_particle(index: u32, particle: Particle) {
+    textureStore(sorted, texel(2u * index), particle.position);
+    textureStore(sorted, texel(2u * index + 1u), bitcast<vec4<u32>>(particle.momentum));
 }

@@ -1,4 +1,4 @@
-//! Executes a plan: owns buffers and pipelines, records many steps a submission, and reads results back while the next
+//! Executes a plan: owns buffers, textures and pipelines, records many steps a submission, and reads results back while the next
 //! batch runs. Knows no physics.
 
 mod error;
@@ -133,7 +133,7 @@ impl From<&Gpu> for Hardware {
 }
 
 impl<'a> Engine<'a> {
-    /// Creates the buffers and pipelines of a plan and uploads a state.
+    /// Creates the buffers, textures and pipelines of a plan and uploads a state.
     ///
     /// # Errors
     /// [`EngineError`] if the device has too little memory, a shader is not valid or the state does not fit.

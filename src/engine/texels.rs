@@ -47,11 +47,23 @@ impl Texels {
     /// Fills it from its beginning; the rest of the last row that is reached becomes zeros.
     pub(super) fn write(&self, gpu: &Gpu, words: &[u32]) {
         let row_words = (self.planned.row_bytes() / 4) as usize;
-        let rows = words.len().div_ceil(row_words).max(1);
-        let mut padded = words.to_vec();
-        padded.resize(rows * row_words, 0);
-        let size = wgpu::Extent3d { height: rows as u32, ..extent(self.planned) };
-        gpu.queue.write_texture(self.texture.as_image_copy(), bytemuck::cast_slice(&padded), self.rows(), size);
+        let (full, rest) = words.split_at(words.len() - words.len() % row_words);
+        self.write_rows(gpu, 0, (full.len() / row_words) as u32, full);
+        if !rest.is_empty() {
+            let mut last = rest.to_vec();
+            last.resize(row_words, 0);
+            self.write_rows(gpu, (full.len() / row_words) as u32, 1, &last);
+        }
+    }
+
+    fn write_rows(&self, gpu: &Gpu, first: u32, height: u32, words: &[u32]) {
+        if height == 0 {
+            return;
+        }
+        let origin = wgpu::Origin3d { y: first, ..wgpu::Origin3d::ZERO };
+        let destination = wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() };
+        let size = wgpu::Extent3d { height, ..extent(self.planned) };
+        gpu.queue.write_texture(destination, bytemuck::cast_slice(words), self.rows(), size);
     }
 
     /// Records a copy of all of it to the beginning of a buffer.

@@ -149,8 +149,8 @@ impl Gpu {
         self.subgroup_size
     }
 
-    /// Whether lanes load and store one after the other, and can do so with eight bytes at a time, and whether textures can be
-    /// loaded from and stored to in one kernel.
+    /// Whether lanes load and store one after the other, and kernels may do so with eight bytes at a time, and load from and
+    /// store to one texture.
     #[must_use]
     pub fn serial_memory(&self) -> bool {
         self.serial_memory

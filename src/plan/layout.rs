@@ -1,4 +1,4 @@
-//! How the integer state lies in the buffers of a plan.
+//! How the integer state lies in the buffers and textures of a plan.
 
 use crate::model::LARGEST_MASS;
 use crate::prediction;
@@ -7,7 +7,7 @@ use crate::state::{Hold, PairBath, State};
 /// Bytes of a particle of [`Layout::Particles`] and [`Layout::Coupled`].
 pub(super) const PARTICLE: u64 = 32;
 
-/// How the integer state lies in buffers.
+/// How the integer state lies in buffers and textures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
     /// One array `particles` of position and id, momentum and species, with what a predicted momentum adds.
@@ -17,8 +17,8 @@ pub enum Layout {
         /// Whether particles carry predicted momenta.
         predicted: bool,
     },
-    /// Shallow water: an array `particles` of position, velocity, mass and id; tracers without mass apart from them;
-    /// what the bath remembers of every node.
+    /// Shallow water: an array `particles` of position, velocity, mass and id, in textures two; tracers without mass apart
+    /// from them; what the bath remembers of every node.
     Water {
         /// Number of particles with mass, which come first.
         carriers: usize,
@@ -162,7 +162,7 @@ fn together(motion: &[u32], masses: &[u32]) -> Vec<u32> {
 }
 
 impl Layout {
-    /// The buffers that hold the state.
+    /// The buffers and textures that hold the state.
     #[must_use]
     pub fn buffers(&self) -> Vec<&'static str> {
         match *self {
@@ -550,5 +550,38 @@ impl Listed {
         }
         pairs.sort_unstable_by_key(|pair| (pair.first, pair.second));
         pairs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bins, Layout};
+    use crate::state::State;
+
+    #[test]
+    fn shallow_water_comes_back_from_buffers_and_from_textures_with_rows_filled_up() {
+        let count = 7_u32;
+        let state = State {
+            positions: (0..count).map(|id| [id << 29, 5 * id, 0]).collect(),
+            momenta: (0..count as i32).map(|id| [-id, id * id, 0]).collect(),
+            masses: (100..100 + count).collect(),
+            species: vec![0; count as usize],
+            ..State::default()
+        };
+        let bins = Bins { cells: [4, 2], capacity: 3, arrivals: 2, centred: false };
+        let order: Vec<usize> = (0..count as usize).rev().collect();
+        for (texels, bins) in [(false, None), (true, None), (false, Some(bins)), (true, Some(bins))] {
+            let layout = Layout::Water { carriers: 5, tracers: 2, bath_nodes: 0, texels, bins };
+            let mut contents = layout.pack(&state, &order).expect("it fits");
+            assert_eq!(contents.len(), layout.buffers().len());
+            if texels {
+                contents[0].resize(4096, 0);
+                contents[1].resize(4096, 0);
+            }
+            let words: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+            let mut back = layout.unpack(0, &words, count as usize).expect("all particles are there");
+            back.species.clone_from(&state.species);
+            assert_eq!(back, state, "texels {texels}, {bins:?}");
+        }
     }
 }

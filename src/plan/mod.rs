@@ -259,7 +259,7 @@ pub struct Plan {
     pub units: Units,
     /// Cells on each axis.
     pub cells: [u32; 3],
-    /// How the integer state lies in buffers.
+    /// How the integer state lies in buffers and textures.
     pub layout: Layout,
     /// Units of the observables' sums.
     pub quanta: Quanta,
@@ -293,9 +293,10 @@ pub struct Plan {
     pub finish_report: Vec<usize>,
     /// The samplers; the first is that of the observables.
     pub samplers: Vec<Sampler>,
-    /// The most storage buffers that one kernel binds, if they are more than the eight that every adapter has; else eight.
+    /// At most so many storage buffers are bound by one kernel, before any is held in a texture; eight, which every adapter has,
+    /// at the least.
     pub storage_buffers: u32,
-    /// Pairs of buffers that change places after every step: the first holds the state as uploaded, the second that one step
+    /// Pairs of buffers or textures that change places after every step: the first holds the state as uploaded, the second that one step
     /// on.
     pub swapped: Vec<[&'static str; 2]>,
     /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
@@ -387,7 +388,7 @@ impl Plan {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
     }
 
-    /// The buffer that stands for one of a name, `odd` if the number of steps since the upload is.
+    /// The buffer or texture that stands for one of a name, `odd` if the number of steps since the upload is.
     #[must_use]
     pub fn buffer_at<'a>(&self, name: &'a str, odd: bool) -> &'a str {
         let partner = self.swapped.iter().find_map(|[one, other]| match name {
@@ -408,7 +409,8 @@ impl Plan {
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
     /// // Room for positions and momenta at least; some MiB in all for 48 000 particles.
     /// assert!(plan.bytes() > 24 * plan.particles && plan.bytes() < 64 << 20);
-    /// assert_eq!(plan.bytes(), plan.buffers.iter().map(|buffer| buffer.bytes).sum::<u64>());
+    /// let textures: u64 = plan.textures.iter().map(|texture| texture.bytes()).sum();
+    /// assert_eq!(plan.bytes(), textures + plan.buffers.iter().map(|buffer| buffer.bytes).sum::<u64>());
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
     #[must_use]

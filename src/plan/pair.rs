@@ -37,7 +37,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
         texels: false,
         plan: empty_plan(model, &grid),
     };
-    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity());
+    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
     builder.integration(output);
@@ -229,13 +229,13 @@ impl Builder<'_> {
 
     /// Modules that load sorted particles.
     fn sorted(&self) -> &'static [&'static str] {
-        if self.texels { &["common/texels", "common/sorted_texels"] } else { &["common/sorted"] }
+        if self.texels { &["common/texels", "common/sorted_apart_texels"] } else { &["common/sorted"] }
     }
 
     /// Modules that store sorted particles.
     fn copied(&self) -> &'static [&'static str] {
         if self.texels {
-            &["common/texels", "common/put_sorted_texels"]
+            &["common/texels", "common/put_sorted_apart_texels"]
         } else {
             &["common/copies", "common/probes", "common/put_sorted"]
         }

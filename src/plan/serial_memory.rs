@@ -6,7 +6,7 @@
 use super::{Buffer, Kernel, Layout, Plan, Texture};
 
 /// A buffer that may be held in a texture instead.
-struct Held {
+struct Candidate {
     name: &'static str,
     /// Words of a texel.
     words: u32,
@@ -16,28 +16,29 @@ struct Held {
     counterpart: &'static str,
 }
 
-const fn held(name: &'static str, words: u32, module: &'static str, counterpart: &'static str) -> Held {
-    Held { name, words, module, counterpart }
+const fn candidate(name: &'static str, words: u32, module: &'static str, counterpart: &'static str) -> Candidate {
+    Candidate { name, words, module, counterpart }
 }
 
-const ORDER: [Held; 2] = [
-    held("cells", 1, "common/cells_buffer", "common/cells_texels"),
-    held("ranks", 1, "common/ranks", "common/ranks_texels"),
+const ORDER: [Candidate; 2] = [
+    candidate("cells", 1, "common/cells_buffer", "common/cells_texels"),
+    candidate("ranks", 1, "common/ranks", "common/ranks_texels"),
 ];
 
 /// Where neighbours are found without a pass of their own over ordered particles: by lists, or as Voronoi cells.
-const NEIGHBOURHOODS: [Held; 6] = [
-    held("particles", 4, "common/particles", "common/particles_texels"),
-    held("sorted", 4, "common/sorted", "common/sorted_interleaved"),
-    held("neighbours", 1, "common/neighbours", "common/neighbours_texels"),
-    held("neighbours_next", 1, "common/neighbours_next", "common/neighbours_next_texels"),
-    held("memories", 2, "common/memories", "common/memories_texels"),
-    held("memories_next", 2, "common/memories_next", "common/memories_next_texels"),
+const NEIGHBOURHOODS: [Candidate; 6] = [
+    candidate("particles", 4, "common/particles", "common/particles_texels"),
+    candidate("sorted", 4, "common/sorted", "common/sorted_texels"),
+    candidate("neighbours", 1, "common/neighbours", "common/neighbours_texels"),
+    candidate("neighbours_next", 1, "common/neighbours_next", "common/neighbours_next_texels"),
+    candidate("memories", 2, "common/memories", "common/memories_texels"),
+    candidate("memories_next", 2, "common/memories_next", "common/memories_next_texels"),
 ];
 
 /// Modules of kernels that are replaced: kernel, module, replacement. Words are loaded and stored in pairs where particles and
 /// shares of nodes are moved about and little else is done (where arithmetic is what costs, taking the pairs apart costs more
-/// than it saves), and few lanes wait for each other where one workgroup has all of the work.
+/// than it saves), and few lanes wait for each other where one workgroup has all of the work. Of the particles this matters
+/// where they are too many for textures.
 const SUITED: [(&str, &str, &str); 9] = [
     ("deposit", "common/storage", "common/storage_paired"),
     ("gather_nodes", "common/storage", "common/storage_paired"),
@@ -66,9 +67,9 @@ impl Plan {
         }
     }
 
-    /// Holds a buffer in a texture if a kernel comes to it by the module, and lets kernels that do so, or come to another such
-    /// buffer by that module, use its counterpart.
-    fn hold_in_texture(&mut self, array: &Held) {
+    /// Holds a buffer in a texture if a kernel comes to it by its module. Every kernel that comes to a texture by that module,
+    /// to this one or to another in its place, then does so by the counterpart.
+    fn hold_in_texture(&mut self, array: &Candidate) {
         let bound = |kernel: &Kernel| {
             let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == array.name);
             kernel.modules.contains(&array.module).then(|| renamed.map_or(array.name, |(_, buffer)| buffer))
@@ -77,7 +78,7 @@ impl Plan {
         let place = self.buffers.iter().position(|buffer| buffer.name == array.name);
         if let Some(place) = place.filter(|_| used) {
             let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));
-            if Texture::holds(texels) {
+            if Texture::holds(texels, array.words) {
                 let Buffer { name, purpose, .. } = self.buffers.remove(place);
                 self.add_texture(name, purpose, array.words, texels);
             }

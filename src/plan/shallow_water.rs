@@ -34,7 +34,7 @@ const FEWEST_NODES: u64 = 1 << 12;
 pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let eights = takes_eights(water, hardware, options);
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
-    let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage));
+    let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);
     let plan = empty_plan(model, water, storage, texels);
     let mut builder = Builder { model, water, options, storage, eights, texels, plan };
     builder.constants();

@@ -16,16 +16,27 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Texels in a row: half of what every adapter has, so that a quotient is a shift.
+    /// Texels in a row, as `shaders/common/texels.wgsl` has it: short enough that what fills up the last row is little.
     pub const ROW: u64 = 4096;
 
     /// Rows that every adapter has.
     const ROWS: u64 = 8192;
 
-    /// Whether a texture can have so many texels.
+    /// Bytes of the largest buffer that every adapter has: to one of that size textures are read back.
+    const BYTES: u64 = 1 << 28;
+
+    /// Whether every adapter has room for a texture of so many texels of so many words.
+    ///
+    /// ```
+    /// use mesoscope::plan::Texture;
+    ///
+    /// assert!(Texture::holds(1 << 24, 4) && !Texture::holds((1 << 24) + 1, 4));
+    /// assert!(Texture::holds(1 << 25, 1) && !Texture::holds((1 << 25) + 1, 1));
+    /// ```
     #[must_use]
-    pub fn holds(texels: u64) -> bool {
-        texels <= Self::ROW * Self::ROWS
+    pub fn holds(texels: u64, words: u32) -> bool {
+        let rows = texels.div_ceil(Self::ROW);
+        rows <= Self::ROWS && 4 * u64::from(words) * Self::ROW * rows <= Self::BYTES
     }
 
     /// Bytes on the device.
@@ -42,7 +53,7 @@ impl Texture {
 }
 
 impl Plan {
-    /// Adds a texture.
+    /// Adds a texture that can hold the texels.
     pub(super) fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
         let width = texels.clamp(1, Texture::ROW).next_multiple_of(64);
         let size = [width as u32, texels.div_ceil(Texture::ROW).max(1) as u32];

@@ -1,4 +1,4 @@
-// Puts a particle among the sorted ones, in textures.
+// Puts a particle among the sorted ones, its position and its momentum in textures of their own.
 alias Copied = array<Four, 2>;
 @group(0) @binding(1) var<storage, read_write> particles: array<Copied>;
 @group(0) @binding(2) var sorted_positions: texture_storage_2d<rgba32uint, read_write>;
