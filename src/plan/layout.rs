@@ -559,7 +559,7 @@ mod tests {
     use crate::state::State;
 
     #[test]
-    fn shallow_water_comes_back_from_buffers_and_from_textures_with_rows_filled_up() {
+    fn shallow_water_comes_back_from_buffers_and_from_textures_with_rows_filled_up() -> Result<(), String> {
         let count = 7_u32;
         let state = State {
             positions: (0..count).map(|id| [id << 29, 5 * id, 0]).collect(),
@@ -572,16 +572,17 @@ mod tests {
         let order: Vec<usize> = (0..count as usize).rev().collect();
         for (texels, bins) in [(false, None), (true, None), (false, Some(bins)), (true, Some(bins))] {
             let layout = Layout::Water { carriers: 5, tracers: 2, bath_nodes: 0, texels, bins };
-            let mut contents = layout.pack(&state, &order).expect("it fits");
+            let mut contents = layout.pack(&state, &order).map_err(|misfit| format!("{misfit:?}"))?;
             assert_eq!(contents.len(), layout.buffers().len());
             if texels {
                 contents[0].resize(4096, 0);
                 contents[1].resize(4096, 0);
             }
             let words: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
-            let mut back = layout.unpack(0, &words, count as usize).expect("all particles are there");
+            let mut back = layout.unpack(0, &words, count as usize)?;
             back.species.clone_from(&state.species);
             assert_eq!(back, state, "texels {texels}, {bins:?}");
         }
+        Ok(())
     }
 }
