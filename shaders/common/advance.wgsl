@@ -1,6 +1,5 @@
 // The end of a step for one particle: drift, and count it into its next cell.
 override DISPLACEMENT_LIMIT: f32;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
@@ -20,6 +19,6 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     let word = momentum_word(momentum, species_of(me));
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
     let slot = unframed_index(row, index);
-    particles[slot] = advanced_particle(position_word(fraction, me.position.w), word, kick);
+    store_particle(slot, advanced_particle(position_word(fraction, me.position.w), word, kick));
     put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }

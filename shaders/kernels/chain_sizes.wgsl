@@ -3,7 +3,6 @@
 override CHAINS: u32;
 override QUANTITIES: u32;   // two for each group
 override CHAIN_LENGTH: f32; // squared length over its quantum
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(44) var<storage, read> chain_starts: array<vec4<u32>>; // first bead, beads, group
 
 @compute @workgroup_size(WORKGROUP)
@@ -18,8 +17,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var sum = Vector(0.0);
     var squares = 0.0;
     for (var bead = 1u; bead < chain.y; bead++) {
-        let to = fraction_of(particles[chain.x + bead].position);
-        place += Vector(signed(to - fraction_of(particles[chain.x + bead - 1u].position))) * unit_lengths();
+        let to = fraction_of(stored_position(chain.x + bead));
+        place += Vector(signed(to - fraction_of(stored_position(chain.x + bead - 1u)))) * unit_lengths();
         sum += place;
         squares += dot(place, place);
     }

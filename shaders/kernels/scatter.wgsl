@@ -10,9 +10,9 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
     if (index >= PARTICLES) { return; }
-    let particle = particles[index];
+    let particle = copied(index);
     let rank = rank_of(index);
-    let fraction = fraction_of(four_words(particle[0]));
+    let fraction = fraction_of(copied_position(particle));
     let row = row_of(fraction);
     let column = column_of(fraction);
     let target_index = cell_at(cell_index(row, column)) + rank;

@@ -1,7 +1,6 @@
 // The total momentum, as exact integers. Reads the particles in the order of their ids.
 override PARTICLES: u32;
 const QUANTITIES: u32 = 3u;
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -10,7 +9,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let id = group * WORKGROUP + lane;
     for (var axis = 0u; axis < QUANTITIES; axis++) {
         var momentum = Sum64(0u);
-        if (id < PARTICLES) { momentum = sum64_of_i32(particles[id].momentum[axis]); }
+        if (id < PARTICLES) { momentum = sum64_of_i32(stored_particle(id).momentum[axis]); }
         reduce_quantity(group, lane, axis, momentum);
     }
 }

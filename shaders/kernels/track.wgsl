@@ -12,7 +12,6 @@ struct Tracker {
     origin: vec4<u32>,   // position when the window began
     momentum: vec4<i32>, // momentum when the window began
 }
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 @group(0) @binding(8) var<storage, read_write> trackers: array<Tracker>;
 @group(0) @binding(10) var<storage, read_write> samples: array<vec2<u32>>; // rows in the batch and in all, then the rows
 
@@ -24,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var squared = Sum64(0u);
     var kept = Sum64(0u);
     if (id < PARTICLES) {
-        let particle = particles[id];
+        let particle = stored_particle(id);
         var tracker = trackers[id];
         if (samples[0].y % WINDOW == 0u) {
             tracker = Tracker(particle.position, vec4<i32>(0), particle.position, particle.momentum);

@@ -2,7 +2,6 @@
 // the sine of the position along it. Reads the particles in the order of their ids.
 override PARTICLES: u32;
 const QUANTITIES: u32 = 2u * DIMENSION * (DIMENSION - 1u);
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
@@ -15,7 +14,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             var cosine = Sum64(0u);
             var sine = Sum64(0u);
             if (id < PARTICLES) {
-                let particle = particles[id];
+                let particle = stored_particle(id);
                 let angle = f32(bitcast<i32>(particle.position[axis])) * 1.4629181e-9; // 2 pi / 2^32
                 let momentum = f32(particle.momentum[(axis + across) % DIMENSION]);
                 cosine = sum64_of_f32(momentum * cos(angle));

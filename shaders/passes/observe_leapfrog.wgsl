@@ -1,5 +1,4 @@
 // The report of a leapfrog step: positions are at the step, momenta half a step behind until the closing half kick.
-@group(0) @binding(1) var<storage, read_write> particles: array<Particle>;
 
 struct Sums { kick: Steps, pairs: PairSums }
 
@@ -30,6 +29,6 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     add_force(momentum_word(sums.kick, 0));
     store_force(me.position.w);
     // By id, for whoever wants the particles of the report.
-    particles[me.position.w] = advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0));
+    store_particle(me.position.w, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, QUANTITIES); }

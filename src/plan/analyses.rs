@@ -199,6 +199,7 @@ impl Builder<'_> {
     /// The modules that read a particle, and these.
     fn modules(&self, more: &[&'static str]) -> Vec<&'static str> {
         let mut modules = self.reported.space.clone();
+        modules.push("common/particles");
         modules.push("common/sum64");
         modules.extend(&self.reported.masses);
         modules.extend(more);

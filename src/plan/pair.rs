@@ -220,7 +220,7 @@ impl Builder<'_> {
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
         let scatter = self.kernel(
             "scatter",
-            &[&["common/storage", "kernels/scatter"], self.copied()].concat(),
+            &[&["kernels/scatter"], self.copied()].concat(),
             self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
         );
         kernels.push(scatter);
@@ -232,12 +232,17 @@ impl Builder<'_> {
         if self.texels { &["common/texels", "common/sorted_apart_texels"] } else { &["common/sorted"] }
     }
 
-    /// Modules that store sorted particles.
+    /// Modules that copy particles into their order.
     fn copied(&self) -> &'static [&'static str] {
-        if self.texels {
-            &["common/texels", "common/put_sorted_apart_texels"]
-        } else {
-            &["common/copies", "common/probes", "common/put_sorted"]
+        match (self.texels, self.splits()) {
+            (true, false) => {
+                &["common/particles", "common/copied_particles", "common/texels", "common/put_sorted_apart_texels"]
+            }
+            // The first pass of a split step keeps its hits in the buffer of the particles.
+            (true, true) => {
+                &["common/storage", "common/copied_words", "common/texels", "common/put_sorted_apart_texels"]
+            }
+            (false, _) => &["common/storage", "common/copied_words", "common/put_sorted"],
         }
     }
 
@@ -349,9 +354,9 @@ impl Builder<'_> {
 
     /// One pass a step. Returns the number of workgroups of the report.
     fn leapfrog_step(&mut self, forces: &'static str) -> u32 {
-        let pass = ["common/advance", "passes/leapfrog"];
+        let pass = ["common/particles", "common/advance", "passes/leapfrog"];
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
-        let report = self.observation("report", &[forces, "passes/observe_leapfrog"]);
+        let report = self.observation("report", &[forces, "common/particles", "passes/observe_leapfrog"]);
         self.plan.advance = vec![advance];
         self.plan.report = vec![report];
         self.plan.finish_report = vec![advance];
@@ -363,7 +368,7 @@ impl Builder<'_> {
     fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
         let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
         self.plan.kernels[find].renamed.push(("found", "particles"));
-        let relax_pass = ["common/advance", "passes/relax"];
+        let relax_pass = ["common/particles", "common/advance", "passes/relax"];
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &relax_pass);
         self.plan.kernels[relax].constants.push(("HALVES", 2.0));
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &relax_pass);

@@ -25,9 +25,10 @@ const ORDER: [Candidate; 2] = [
     candidate("ranks", 1, "common/ranks", "common/ranks_texels"),
 ];
 
-/// Where neighbours are found without a pass of their own over ordered particles: by lists, or as Voronoi cells.
-const NEIGHBOURHOODS: [Candidate; 6] = [
-    candidate("particles", 4, "common/particles", "common/particles_texels"),
+const PARTICLES: Candidate = candidate("particles", 4, "common/particles", "common/particles_texels");
+
+/// Where neighbours are found by lists, or as Voronoi cells.
+const NEIGHBOURHOODS: [Candidate; 5] = [
     candidate("sorted", 4, "common/sorted", "common/sorted_texels"),
     candidate("neighbours", 1, "common/neighbours", "common/neighbours_texels"),
     candidate("neighbours_next", 1, "common/neighbours_next", "common/neighbours_next_texels"),
@@ -55,7 +56,11 @@ impl Plan {
     /// Suits kernels and buffers to lanes that are taken one after the other.
     pub(super) fn suit_serial_memory(&mut self) {
         let neighbourhoods = matches!(self.layout, Layout::Coupled { .. } | Layout::Cells { .. });
-        for array in ORDER.iter().chain(NEIGHBOURHOODS.iter().filter(|_| neighbourhoods)) {
+        // Where the hits of a split step share the buffer of the particles, it stays one.
+        let shared = self.kernels.iter().any(|kernel| kernel.modules.contains(&"common/found"));
+        for array in
+            ORDER.iter().chain((!shared).then_some(&PARTICLES)).chain(NEIGHBOURHOODS.iter().filter(|_| neighbourhoods))
+        {
             self.hold_in_texture(array);
         }
         for kernel in &mut self.kernels {
