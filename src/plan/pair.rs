@@ -240,9 +240,9 @@ impl Builder<'_> {
             }
             // The first pass of a split step keeps its hits in the buffer of the particles.
             (true, true) => {
-                &["common/storage", "common/copied_words", "common/texels", "common/put_sorted_apart_texels"]
+                &["common/storage", "common/copied_fours", "common/texels", "common/put_sorted_apart_texels"]
             }
-            (false, _) => &["common/storage", "common/copied_words", "common/put_sorted"],
+            (false, _) => &["common/storage", "common/copied_fours", "common/put_sorted"],
         }
     }
 
