@@ -1,4 +1,5 @@
-// The number of a particle's pairs, then its pairs: one row of particles after the other. The list that is being made, in a texture.
+// The list that is being made, in a texture: the number of a particle's pairs, then its pairs, one row of particles after
+// the other.
 @group(0) @binding(25) var neighbours_next: texture_storage_2d<r32uint, read_write>;
 
 fn next_neighbour_word(index: u32) -> u32 { return textureLoad(neighbours_next, texel(index)).x; }

@@ -306,7 +306,7 @@ impl Builder<'_> {
             _ => "common/spread3",
         };
         let passes = [collect, "common/deposit", moments, spread, "passes/deposit"];
-        let modules = [self.stored(), begin, &passes].concat();
+        let modules = [&self.stored()[..], begin, &passes].concat();
         let deposit = self.cell_kernel("deposit", &modules);
         let gather = if self.eights {
             let columns = (self.water.nodes() / STRIP).div_ceil(self.options.workgroup());
@@ -338,28 +338,15 @@ impl Builder<'_> {
     }
 
     /// Modules of the stored particles.
-    fn stored(&self) -> &'static [&'static str] {
-        match (self.storage, self.texels) {
-            (Storage::Sorted, false) => {
-                &["common/storage", "common/stored_water", "common/water_sorted", "common/store_sorted"]
-            }
-            (Storage::Sorted, true) => &[
-                "common/storage",
-                "common/texels",
-                "common/stored_water_texels",
-                "common/water_sorted_texels",
-                "common/store_sorted",
-            ],
-            (Storage::Bins, false) => {
-                &["common/storage", "common/stored_water", "common/water_bins", "common/store_bins"]
-            }
-            (Storage::Bins, true) => &[
-                "common/storage",
-                "common/texels",
-                "common/stored_water_texels",
-                "common/water_bins_texels",
-                "common/store_bins",
-            ],
+    fn stored(&self) -> Vec<&'static str> {
+        let (buffer, textures, store) = match self.storage {
+            Storage::Sorted => ("common/water_sorted", "common/water_sorted_texels", "common/store_sorted"),
+            Storage::Bins => ("common/water_bins", "common/water_bins_texels", "common/store_bins"),
+        };
+        if self.texels {
+            vec!["common/storage", "common/texels", "common/stored_water_texels", textures, store]
+        } else {
+            vec!["common/storage", "common/stored_water", buffer, store]
         }
     }
 
@@ -388,13 +375,13 @@ impl Builder<'_> {
             Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
             Storage::Bins => ("common/move_bins", "common/report_bins"),
         };
-        let with = |last: &[&'static str]| [&moving[..], self.stored(), last].concat();
+        let with = |last: &[&'static str]| [&moving[..], &self.stored()[..], last].concat();
         let push = match (self.eights, self.storage) {
             (false, _) => &["passes/push"][..],
             (true, Storage::Sorted) => &["common/eight_sorted", "passes/push_of_eight"],
             (true, Storage::Bins) => &["common/eight_bins", "passes/push_of_eight"],
         };
-        let push_modules = [&self.moving(self.eights)[..], self.stored(), &[store_moved], push].concat();
+        let push_modules = [&self.moving(self.eights)[..], &self.stored()[..], &[store_moved], push].concat();
         let report = with(&[store_reported, "common/sum64", "common/reduce", "kernels/report_water"]);
         let push = self.cell_kernel("push", &push_modules);
         let push_on = self.cell_kernel("push_from_report", &push_modules);
