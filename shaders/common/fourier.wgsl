@@ -6,8 +6,6 @@ override ROW_LENGTH: u32; // of the mesh
 override SPAN: u32;   // length of the transforms that the passes before have finished
 
 @group(0) @binding(11) var<storage, read_write> symbols: array<f32>; // of the smoothing, up to the middle of both axes
-@group(0) @binding(14) var<storage, read_write> waves: array<vec2<f32>>;
-@group(0) @binding(15) var<storage, read_write> waves_next: array<vec2<f32>>;
 @group(0) @binding(16) var<storage, read_write> roots: array<vec2<f32>>; // of unity, clockwise
 
 // Where an invocation works: which line, and which of its LENGTH / RADIX butterflies.

@@ -1,7 +1,7 @@
 // What the pass before has left.
 fn load_pair(site: Site, leg: u32) -> vec4<f32> {
     return vec4<f32>(
-        waves[element(site.line, source(site, leg))],
-        waves[element(site.line, source(site, leg + RADIX / 2u))],
+        wave(element(site.line, source(site, leg))),
+        wave(element(site.line, source(site, leg + RADIX / 2u))),
     );
 }

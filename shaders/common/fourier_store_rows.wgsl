@@ -2,6 +2,6 @@
 // are the conjugates of those before it.
 fn store_pair(site: Site, leg: u32, pair: vec4<f32>) {
     let row = target_of(site, leg) * ROW_LENGTH;
-    waves_next[row + site.line] = vec2<f32>(pair.x + pair.w, pair.y - pair.z);
-    waves_next[row + (ROW_LENGTH - site.line) % ROW_LENGTH] = vec2<f32>(pair.w - pair.x, pair.y + pair.z);
+    put_wave(row + site.line, vec2<f32>(pair.x + pair.w, pair.y - pair.z));
+    put_wave(row + (ROW_LENGTH - site.line) % ROW_LENGTH, vec2<f32>(pair.w - pair.x, pair.y + pair.z));
 }

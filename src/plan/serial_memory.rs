@@ -16,6 +16,14 @@ struct Candidate {
     counterpart: &'static str,
 }
 
+impl Candidate {
+    /// What a kernel comes to by the module: the buffer, or another in its place.
+    fn bound(&self, kernel: &Kernel) -> Option<&'static str> {
+        let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == self.name);
+        kernel.modules.contains(&self.module).then(|| renamed.map_or(self.name, |(_, buffer)| buffer))
+    }
+}
+
 const fn candidate(name: &'static str, words: u32, module: &'static str, counterpart: &'static str) -> Candidate {
     Candidate { name, words, module, counterpart }
 }
@@ -23,6 +31,12 @@ const fn candidate(name: &'static str, words: u32, module: &'static str, counter
 const ORDER: [Candidate; 2] = [
     candidate("cells", 1, "common/cells_buffer", "common/cells_texels"),
     candidate("ranks", 1, "common/ranks", "common/ranks_texels"),
+];
+
+/// Where depths are smoothed by Fourier transforms.
+const WAVES: [Candidate; 2] = [
+    candidate("waves", 2, "common/waves", "common/waves_texels"),
+    candidate("waves_next", 2, "common/waves_next", "common/waves_next_texels"),
 ];
 
 const PARTICLES: Candidate = candidate("particles", 4, "common/particles", "common/particles_texels");
@@ -58,10 +72,15 @@ impl Plan {
         let neighbourhoods = matches!(self.layout, Layout::Coupled { .. } | Layout::Cells { .. });
         // Where the hits of a split step share the buffer of the particles, it stays one.
         let shared = self.kernels.iter().any(|kernel| kernel.modules.contains(&"common/found"));
-        for array in
-            ORDER.iter().chain((!shared).then_some(&PARTICLES)).chain(NEIGHBOURHOODS.iter().filter(|_| neighbourhoods))
-        {
+        let arrays: Vec<&Candidate> = (ORDER.iter().chain(&WAVES))
+            .chain((!shared).then_some(&PARTICLES))
+            .chain(NEIGHBOURHOODS.iter().filter(|_| neighbourhoods))
+            .collect();
+        for array in &arrays {
             self.hold_in_texture(array);
+        }
+        for array in &arrays {
+            self.come_to_texture(array);
         }
         for kernel in &mut self.kernels {
             for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
@@ -72,14 +91,9 @@ impl Plan {
         }
     }
 
-    /// Holds a buffer in a texture if a kernel comes to it by its module. Every kernel that comes to a texture by that module,
-    /// to this one or to another in its place, then does so by the counterpart.
+    /// Holds a buffer in a texture if a kernel comes to it by its module.
     fn hold_in_texture(&mut self, array: &Candidate) {
-        let bound = |kernel: &Kernel| {
-            let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == array.name);
-            kernel.modules.contains(&array.module).then(|| renamed.map_or(array.name, |(_, buffer)| buffer))
-        };
-        let used = self.kernels.iter().any(|kernel| bound(kernel) == Some(array.name));
+        let used = self.kernels.iter().any(|kernel| array.bound(kernel) == Some(array.name));
         let place = self.buffers.iter().position(|buffer| buffer.name == array.name);
         if let Some(place) = place.filter(|_| used) {
             let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));
@@ -88,8 +102,13 @@ impl Plan {
                 self.add_texture(name, purpose, array.words, texels);
             }
         }
+    }
+
+    /// Has every kernel that comes by the array's module to a texture, be it this array or another in its place, do so by the
+    /// counterpart.
+    fn come_to_texture(&mut self, array: &Candidate) {
         for kernel in &mut self.kernels {
-            let held = bound(kernel).is_some_and(|name| self.textures.iter().any(|texture| texture.name == name));
+            let held = array.bound(kernel).is_some_and(|name| self.textures.iter().any(|texture| texture.name == name));
             for module in kernel.modules.iter_mut().filter(|module| held && **module == array.module) {
                 *module = array.counterpart;
             }

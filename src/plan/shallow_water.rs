@@ -277,7 +277,8 @@ impl Builder<'_> {
             let kernel = self.plan.add_kernel(kernel);
             self.plan.sort.push(kernel);
         }
-        let scatter = self.kernel("scatter", &[copies, &["kernels/scatter_water"]].concat(), particle_groups);
+        let entry = if self.eights { "kernels/scatter_water_of_eight" } else { "kernels/scatter_water" };
+        let scatter = self.kernel("scatter", &[copies, &[entry]].concat(), particle_groups);
         self.plan.sort.push(scatter);
         self.plan.swapped.push(["particles", "sorted"]);
         if self.texels {

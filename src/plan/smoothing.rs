@@ -253,7 +253,15 @@ impl Fourier<'_> {
             _ => "common/fourier_radix64",
         };
         let twist = if pass.finished == 1 { "common/fourier_twist_off" } else { "common/fourier_twist_on" };
-        let mut modules = vec!["common/dispatch", "common/fourier", "common/fourier_short", radix, twist];
+        let mut modules = vec![
+            "common/dispatch",
+            "common/waves",
+            "common/waves_next",
+            "common/fourier",
+            "common/fourier_short",
+            radix,
+            twist,
+        ];
         modules.extend([lines_module, pass.load, pass.store, pass.entry]);
         let mut constants = vec![
             ("LENGTH", f64::from(length)),
