@@ -5,8 +5,10 @@ mod support;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::offset_of;
+use std::num::NonZero;
 use std::path::Path;
 use std::sync::OnceLock;
+use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
@@ -337,17 +339,23 @@ fn water_plans() -> Vec<(String, Plan)> {
 const WATER_TRACERS: &str = r#"particles=[{"species":"water","count":500,"velocities":{"type":"rest"}},
     {"species":"loop","count":100,"tracer":true,"placement":{"type":"circle","center":[1,1],"radius":0.5}}]"#;
 
-/// All distinct kernels of all plans, linked.
+/// All distinct kernels of all plans, linked by as many threads as there are cores.
 fn linked() -> &'static HashMap<Vec<&'static str>, Result<LinkedShader, String>> {
     static LINKED: OnceLock<HashMap<Vec<&'static str>, Result<LinkedShader, String>>> = OnceLock::new();
     LINKED.get_or_init(|| {
-        let mut linked = HashMap::new();
-        for kernel in plans().iter().flat_map(|(_, plan)| &plan.kernels) {
-            linked
-                .entry(kernel.modules.clone())
-                .or_insert_with(|| link(kernel.name, &kernel.modules).map_err(|error| error.to_string()));
-        }
-        linked
+        let distinct: BTreeMap<&[&'static str], &Kernel> =
+            plans().iter().flat_map(|(_, plan)| &plan.kernels).map(|kernel| (&kernel.modules[..], kernel)).collect();
+        let kernels: Vec<&Kernel> = distinct.into_values().collect();
+        let link_all = |kernels: &[&Kernel]| -> Vec<_> {
+            let linked = |kernel: &Kernel| link(kernel.name, &kernel.modules).map_err(|error| error.to_string());
+            kernels.iter().map(|kernel| (kernel.modules.clone(), linked(kernel))).collect()
+        };
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        thread::scope(|scope| {
+            let share = kernels.len().div_ceil(threads).max(1);
+            let shares: Vec<_> = kernels.chunks(share).map(|share| scope.spawn(move || link_all(share))).collect();
+            shares.into_iter().flat_map(|share| share.join().unwrap()).collect()
+        })
     })
 }
 
