@@ -1,4 +1,5 @@
-// Averages the enlarged picture of the particles down, in linear light, and lays it over the plot.
+// Averages the enlarged picture of the particles, which holds square roots, down in linear light, and lays it over the
+// plot.
 
 struct Placement {
     // First pixel of the tile in the plot.
@@ -24,7 +25,8 @@ fn fragment_composite(@builtin(position) position: vec4f) -> @location(0) vec4f 
     var sum = vec4f(0.0);
     for (var row = 0; row < placement.samples; row++) {
         for (var column = 0; column < placement.samples; column++) {
-            sum += textureLoad(enlarged, corner + vec2i(column, row), 0);
+            let stored = textureLoad(enlarged, corner + vec2i(column, row), 0);
+            sum += vec4f(stored.rgb * stored.rgb, stored.a);
         }
     }
     return sum / f32(placement.samples * placement.samples);

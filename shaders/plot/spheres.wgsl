@@ -9,7 +9,8 @@ struct Camera {
     toward: vec4f,
     // Where the centre of the box lands, then the size of the target, both in pixels of the target.
     centre_and_size: vec4f,
-    // Colour of the paper that distance fades into (linear), and how much of it the farthest point takes.
+    // Colour of the paper that distance fades into (square roots of linear light), and how much of it the farthest
+    // point takes.
     fog: vec4f,
     // Radius in units of length, radius in pixels, strength of the lighting, darkness of the rim.
     look: vec4f,
@@ -71,15 +72,20 @@ fn fragment_sphere(in: Varying) -> Surface {
     let light = normalize(vec3f(-0.45, 0.65, 0.75));
     let half_way = normalize(light + vec3f(0.0, 0.0, 1.0));
     let diffuse = 0.42 + 0.66 * max(dot(normal, light), 0.0);
-    let gloss = 0.16 * pow(max(dot(normal, half_way), 0.0), 32.0);
+    // To the 32nd power.
+    let facing = max(dot(normal, half_way), 0.0);
+    let facing_2 = facing * facing;
+    let facing_4 = facing_2 * facing_2;
+    let facing_8 = facing_4 * facing_4;
+    let facing_16 = facing_8 * facing_8;
+    let gloss = 0.16 * facing_16 * facing_16;
     let lit = in.colour * diffuse + gloss;
     let rim = 1.0 - camera.look.w * smoothstep(0.62, 0.95, squared);
     let colour = mix(in.colour, lit, camera.look.z) * rim;
 
     var out: Surface;
-    // Mixed in nearly perceptual steps: in linear light a little white would drown a dark colour.
-    let faded = mix(sqrt(colour), sqrt(camera.fog.rgb), camera.fog.a * farness);
-    out.colour = vec4f(faded * faded, 1.0);
+    // Mixed and stored in nearly perceptual steps: in linear light a little white would drown a dark colour.
+    out.colour = vec4f(mix(sqrt(colour), camera.fog.rgb, camera.fog.a * farness), 1.0);
     out.depth = farness;
     return out;
 }

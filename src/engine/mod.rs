@@ -164,11 +164,7 @@ impl<'a> Engine<'a> {
         }
         let textures = plan.textures.iter().map(|&planned| Ok((planned.name, Texels::new(gpu, planned)?)));
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
-        let stages = plan
-            .kernels
-            .iter()
-            .map(|kernel| pipeline::stage(gpu, &plan, kernel, &buffers, &textures))
-            .collect::<Result<Vec<_>, _>>()?;
+        let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
         let pending_rows = vec![0; plan.samplers.len()];
         let mut engine = Self {
             gpu,

@@ -1,6 +1,11 @@
 //! One kernel ready to run: pipeline, bound buffers, size.
 
 use std::collections::HashMap;
+use std::iter;
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use super::texels::Texels;
 use crate::gpu::{self, Gpu, GpuError};
@@ -36,7 +41,30 @@ impl Stage {
 /// The buffer that holds the workgroups of kernels whose number depends on the step.
 pub(super) const DEMANDS: &str = "demands";
 
-pub(super) fn stage(
+/// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.
+pub(super) fn stages(
+    gpu: &Gpu,
+    plan: &Plan,
+    buffers: &HashMap<&'static str, wgpu::Buffer>,
+    textures: &HashMap<&'static str, Texels>,
+) -> Result<Vec<Stage>, GpuError> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(plan.kernels.len());
+    let next = AtomicUsize::new(0);
+    let make_share = || {
+        let numbers = iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        let kernels = numbers.map_while(|number| Some((number, plan.kernels.get(number)?)));
+        kernels.map(|(number, kernel)| (number, stage(gpu, plan, kernel, buffers, textures))).collect::<Vec<_>>()
+    };
+    let mut made = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(make_share)).collect();
+        let shares = workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        shares.flatten().collect::<Vec<_>>()
+    });
+    made.sort_by_key(|(number, _)| *number);
+    made.into_iter().map(|(_, stage)| stage).collect()
+}
+
+fn stage(
     gpu: &Gpu,
     plan: &Plan,
     kernel: &Kernel,

@@ -2,7 +2,7 @@
 
 use super::field::FieldScene;
 use super::palette::linear;
-use super::renderer::{colour_attachment, module, pipeline};
+use super::renderer::{Target, colour_attachment, module, pipeline};
 use bytemuck::{Pod, Zeroable};
 
 /// The uniform of `field.wgsl`.
@@ -22,7 +22,7 @@ const SHADER: &str = include_str!("../../shaders/plot/field.wgsl");
 
 pub(super) fn field_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = module(device, "plot/field.wgsl", SHADER);
-    pipeline(device, "plot: field", &module, ["vertex_field", "fragment_field"], None, false, None)
+    pipeline(device, "plot: field", &module, ["vertex_field", "fragment_field"], None, Target::Picture)
 }
 
 /// Draws the image of a field into a picture; `clip` is its part inside the picture: left, top, width, height.

@@ -182,7 +182,7 @@ pub(super) fn lay_out(
         fog: if flat { 0.0 } else { 0.4 },
         paper: inks.paper,
         // More samples where they cost little.
-        samples: if fragments < 4e6 { 4 } else { 2 },
+        samples: if fragments < 4e6 { 3 } else { 2 },
         particles,
     };
     Ok((canvas, scene))

@@ -12,14 +12,16 @@ use super::particles::{self, ParticleInstance, ParticlePicture, SphereScene};
 use crate::scene::{PlotStyle, Snapshot, Theme};
 use bytemuck::{Pod, Zeroable};
 use image::RgbaImage;
-use std::sync::mpsc;
+use std::sync::{OnceLock, mpsc};
 use std::time::Duration;
 
 /// Written through an sRGB view, so that blending happens in linear light.
 const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Of enlarged particles: square roots of linear light, nearly as fine as sRGB and cheaper to write.
+const ENLARGED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Side of the texture that particles are drawn into, larger than life; a big picture takes several turns.
-const TILE_SIDE: u32 = 4096;
+const TILE_SIDE: u32 = 2048;
 /// Instances in one vertex buffer: 16 and 48 bytes each, far below the smallest permitted buffer limit.
 const INSTANCES_PER_BUFFER: usize = 1 << 21;
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -50,15 +52,15 @@ struct Camera {
     look: [f32; 4],
 }
 
-/// Draws pictures with one device; its pipelines are made once.
+/// Draws pictures with one device; its pipelines are made once, when a picture first needs them.
 #[derive(Debug)]
 pub struct Plotter {
     device: wgpu::Device,
     queue: wgpu::Queue,
     shapes: wgpu::RenderPipeline,
-    spheres: wgpu::RenderPipeline,
-    composite: wgpu::RenderPipeline,
-    field: wgpu::RenderPipeline,
+    spheres: OnceLock<wgpu::RenderPipeline>,
+    composite: OnceLock<wgpu::RenderPipeline>,
+    field: OnceLock<wgpu::RenderPipeline>,
 }
 
 /// What lies between the shapes of the background and those of the foreground.
@@ -86,17 +88,35 @@ fn checked<T>(device: &wgpu::Device, stage: &'static str, work: impl FnOnce() ->
     }
 }
 
+/// A pipeline, made when it is first asked for.
+fn once<'a>(
+    pipeline: &'a OnceLock<wgpu::RenderPipeline>,
+    device: &wgpu::Device,
+    stage: &'static str,
+    make: impl FnOnce(&wgpu::Device) -> wgpu::RenderPipeline,
+) -> Result<&'a wgpu::RenderPipeline, PlotError> {
+    if let Some(pipeline) = pipeline.get() {
+        return Ok(pipeline);
+    }
+    let made = checked(device, stage, || make(device))?;
+    Ok(pipeline.get_or_init(|| made))
+}
+
 impl Plotter {
-    /// Makes the pipelines.
+    /// Makes the pipeline that every picture needs.
     ///
     /// # Errors
     /// [`PlotError::Device`] if the adapter refuses a shader or a pipeline, [`PlotError::OutOfMemory`].
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PlotError> {
         let shapes = checked(device, "pipeline of the shapes", || shapes_pipeline(device))?;
-        let spheres = checked(device, "pipeline of the particles", || spheres_pipeline(device))?;
-        let composite = checked(device, "pipeline of the overlay", || composite_pipeline(device))?;
-        let field = checked(device, "pipeline of the fields", || field_pipeline(device))?;
-        Ok(Self { device: device.clone(), queue: queue.clone(), shapes, spheres, composite, field })
+        Ok(Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            shapes,
+            spheres: OnceLock::new(),
+            composite: OnceLock::new(),
+            field: OnceLock::new(),
+        })
     }
 
     /// Draws a chart into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
@@ -197,10 +217,14 @@ impl Plotter {
         match content {
             Content::Nothing => {}
             Content::Particles(scene) => {
-                checked(&self.device, "particles", || self.spheres_passes(canvas, scene, &view))?;
+                let spheres = once(&self.spheres, &self.device, "pipeline of the particles", spheres_pipeline)?;
+                let composite = once(&self.composite, &self.device, "pipeline of the overlay", composite_pipeline)?;
+                let pipelines = [spheres, composite];
+                checked(&self.device, "particles", || self.spheres_passes(pipelines, canvas, scene, &view))?;
             }
             Content::Field(scene) => {
-                checked(&self.device, "field", || self.field_pass(canvas, scene, &view))?;
+                let field = once(&self.field, &self.device, "pipeline of the fields", field_pipeline)?;
+                checked(&self.device, "field", || self.field_pass(field, canvas, scene, &view))?;
             }
         }
         checked(&self.device, "foreground", || self.shapes_pass(canvas, over, &view, &atlas, None))?;
@@ -294,17 +318,29 @@ impl Plotter {
         self.queue.submit([encoder.finish()]);
     }
 
-    fn field_pass(&self, canvas: &Canvas, scene: &FieldScene, view: &wgpu::TextureView) {
+    fn field_pass(
+        &self,
+        pipeline: &wgpu::RenderPipeline,
+        canvas: &Canvas,
+        scene: &FieldScene,
+        view: &wgpu::TextureView,
+    ) {
         let [left, top, width, height] = scene.area.map(f64::from);
         let area = Area { left, top, right: left + width, bottom: top + height };
         // In a picture too small for its type the image may stand out of it.
         if let Some(clip) = scissor(Some(area), canvas) {
-            draw_field(&self.device, &self.queue, &self.field, scene, clip, view);
+            draw_field(&self.device, &self.queue, pipeline, scene, clip, view);
         }
     }
 
     /// Draws the particles enlarged, tile by tile, and lays each tile over the picture.
-    fn spheres_passes(&self, canvas: &Canvas, scene: &SphereScene, view: &wgpu::TextureView) {
+    fn spheres_passes(
+        &self,
+        [spheres, composite]: [&wgpu::RenderPipeline; 2],
+        canvas: &Canvas,
+        scene: &SphereScene,
+        view: &wgpu::TextureView,
+    ) {
         if scene.particles.is_empty() {
             return;
         }
@@ -329,7 +365,7 @@ impl Plotter {
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
-        let colour = texture("plot: particles", COLOUR_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
+        let colour = texture("plot: particles", ENLARGED_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
         let depth = texture("plot: depth of particles", DEPTH_FORMAT, wgpu::TextureUsages::empty());
         let buffers: Vec<_> = scene
             .particles
@@ -344,10 +380,10 @@ impl Plotter {
                 let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];
                 let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 let camera = camera(scene, [tile_left, tile_top], [texture_size.width, texture_size.height]);
-                self.enlarged_pass(&mut encoder, &camera, &buffers, &colour, &depth);
+                self.enlarged_pass(spheres, &mut encoder, &camera, &buffers, [&colour, &depth]);
                 let placement =
                     Placement { origin: [tile_left as i32, tile_top as i32], samples: samples as i32, padding: 0 };
-                self.composite_pass(&mut encoder, &placement, tile_size, &colour, view);
+                self.composite_pass(composite, &mut encoder, &placement, tile_size, [&colour, view]);
                 self.queue.submit([encoder.finish()]);
             }
         }
@@ -355,15 +391,15 @@ impl Plotter {
 
     fn enlarged_pass(
         &self,
+        pipeline: &wgpu::RenderPipeline,
         encoder: &mut wgpu::CommandEncoder,
         camera: &Camera,
         buffers: &[(wgpu::Buffer, u32)],
-        colour: &wgpu::TextureView,
-        depth: &wgpu::TextureView,
+        [colour, depth]: [&wgpu::TextureView; 2],
     ) {
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("plot: camera"),
-            layout: &self.spheres.get_bind_group_layout(0),
+            layout: &pipeline.get_bind_group_layout(0),
             entries: &[wgpu::BindGroupEntry {
                 binding: 0,
                 resource: self.uniform("plot: camera", camera).as_entire_binding(),
@@ -379,7 +415,7 @@ impl Plotter {
             }),
             ..Default::default()
         });
-        pass.set_pipeline(&self.spheres);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         for (buffer, count) in buffers {
             pass.set_vertex_buffer(0, buffer.slice(..));
@@ -389,15 +425,15 @@ impl Plotter {
 
     fn composite_pass(
         &self,
+        pipeline: &wgpu::RenderPipeline,
         encoder: &mut wgpu::CommandEncoder,
         placement: &Placement,
         size: [u32; 2],
-        enlarged: &wgpu::TextureView,
-        view: &wgpu::TextureView,
+        [enlarged, view]: [&wgpu::TextureView; 2],
     ) {
         let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("plot: overlay"),
-            layout: &self.composite.get_bind_group_layout(0),
+            layout: &pipeline.get_bind_group_layout(0),
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
@@ -412,7 +448,7 @@ impl Plotter {
             ..Default::default()
         });
         let [x, y] = placement.origin.map(|pixel| pixel as f32);
-        pass.set_pipeline(&self.composite);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.set_viewport(x, y, size[0] as f32, size[1] as f32, 0.0, 1.0);
         pass.draw(0..4, 0..1);
@@ -500,6 +536,7 @@ fn camera(scene: &SphereScene, tile: [u32; 2], target: [u32; 2]) -> Camera {
     let samples = scene.samples as f32;
     let with = |vector: [f64; 3], last: f64| [vector[0] as f32, vector[1] as f32, vector[2] as f32, last as f32];
     let scale = scene.pixels_per_length * f64::from(scene.samples);
+    let fog = |channel: usize| linear(scene.paper[channel]).sqrt();
     Camera {
         right: with(scene.right, scale),
         up: with(scene.up, 0.0),
@@ -510,9 +547,18 @@ fn camera(scene: &SphereScene, tile: [u32; 2], target: [u32; 2]) -> Camera {
             target[0] as f32,
             target[1] as f32,
         ],
-        fog: [linear(scene.paper[0]), linear(scene.paper[1]), linear(scene.paper[2]), scene.fog as f32],
+        fog: [fog(0), fog(1), fog(2), scene.fog as f32],
         look: [scene.radius as f32, (scene.radius * scale) as f32, scene.lighting as f32, scene.rim as f32],
     }
+}
+
+/// What a pipeline paints.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Target {
+    /// Laid over what the picture holds.
+    Picture,
+    /// The texture of enlarged particles, where the nearest stays.
+    Enlarged,
 }
 
 pub(super) fn pipeline(
@@ -521,9 +567,12 @@ pub(super) fn pipeline(
     module: &wgpu::ShaderModule,
     entry_points: [&str; 2],
     instance: Option<wgpu::VertexBufferLayout<'_>>,
-    depth: bool,
-    blend: Option<wgpu::BlendState>,
+    target: Target,
 ) -> wgpu::RenderPipeline {
+    let (format, blend) = match target {
+        Target::Enlarged => (ENLARGED_FORMAT, None),
+        Target::Picture => (COLOUR_FORMAT, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
+    };
     let buffers: Vec<_> = instance.into_iter().map(Some).collect();
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
@@ -535,7 +584,7 @@ pub(super) fn pipeline(
             buffers: &buffers,
         },
         primitive: wgpu::PrimitiveState { topology: wgpu::PrimitiveTopology::TriangleStrip, ..Default::default() },
-        depth_stencil: depth.then(|| wgpu::DepthStencilState {
+        depth_stencil: (target == Target::Enlarged).then(|| wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
@@ -547,11 +596,7 @@ pub(super) fn pipeline(
             module,
             entry_point: Some(entry_points[1]),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: COLOUR_FORMAT,
-                blend,
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
+            targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
         }),
         multiview_mask: None,
         cache: None,
@@ -574,8 +619,7 @@ fn shapes_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
             0 => Float32x4, 1 => Float32x4, 2 => Float32, 3 => Uint32, 4 => Unorm8x4
         ],
     };
-    let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-    pipeline(device, "plot: shapes", &module, ["vertex_shape", "fragment_shape"], Some(instance), false, blend)
+    pipeline(device, "plot: shapes", &module, ["vertex_shape", "fragment_shape"], Some(instance), Target::Picture)
 }
 
 fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
@@ -585,11 +629,10 @@ fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
         step_mode: wgpu::VertexStepMode::Instance,
         attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4],
     };
-    pipeline(device, "plot: particles", &module, ["vertex_sphere", "fragment_sphere"], Some(instance), true, None)
+    pipeline(device, "plot: particles", &module, ["vertex_sphere", "fragment_sphere"], Some(instance), Target::Enlarged)
 }
 
 fn composite_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = module(device, "plot/composite.wgsl", include_str!("../../shaders/plot/composite.wgsl"));
-    let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-    pipeline(device, "plot: overlay", &module, ["vertex_composite", "fragment_composite"], None, false, blend)
+    pipeline(device, "plot: overlay", &module, ["vertex_composite", "fragment_composite"], None, Target::Picture)
 }

@@ -20,7 +20,7 @@ use crate::scene::{self, Scene, SnapshotColor};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use image::{
-    ExtendedColorType, ImageEncoder, RgbaImage,
+    DynamicImage, ExtendedColorType, ImageEncoder, RgbaImage,
     codecs::png::{CompressionType, FilterType, PngEncoder},
 };
 use std::io;
@@ -352,9 +352,11 @@ fn copied(table: &Table) -> EnergyTable {
 /// Writes a picture, which appears complete or not at all.
 pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
     let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
+    // Pictures are opaque. Level 4 takes a third of the time of the default and a twentieth more space.
+    let image = DynamicImage::from(image).into_rgb8();
     directory.write(name, |writer| {
-        PngEncoder::new_with_quality(writer, CompressionType::Default, FilterType::Adaptive)
-            .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgba8)
+        PngEncoder::new_with_quality(writer, CompressionType::Level(4), FilterType::Adaptive)
+            .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgb8)
             .map_err(io::Error::other)
     })?;
     Ok(())
