@@ -74,8 +74,8 @@ fn what_cannot_be_read_hides_no_other_mistake() {
     let pairs = r#"interactions.0.pairs=[{"between":["water","wine"],"repulsion":4}]"#;
     let wine =
         "interactions[0].pairs[0].between[1]: found \"wine\"; accepted: a species of some particle group: water, oil";
-    let late = "time.equilibration: found 1000; accepted: at most 100, the number of steps: change it too where `time.steps` is \
-                changed";
+    let late = "time.equilibration: found 1000; accepted: at most 100, the number of steps; `--set time.equilibration=0` \
+                leaves it out";
     let theme = "output.plot.theme: found the text \"drk\"; did you mean `dark`? accepted: \"light\", \"dark\"";
     assert_eq!(problems(&["output.plot.theme=drk", "time.equilibration=1000", pairs]), [theme, wine, late]);
     let found = problems(&["integrator.type=groot-waren", "particles.0.count=many", "seed=-1", pairs]);
@@ -357,13 +357,18 @@ fn the_program_refuses_with_exit_code_two() {
 }
 
 #[test]
-fn files_that_are_not_text() {
+fn files_that_are_not_text_or_have_no_end() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("picture.json");
     std::fs::write(&path, b"{\n\xff\xfe}").unwrap();
     let output = mesoscope(&["check", path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("picture.json:2:1: this is not UTF-8 text"), "{}", text(&output.stderr));
+    #[cfg(unix)]
+    {
+        let output = mesoscope(&["check", "/dev/zero"]);
+        assert!(text(&output.stderr).contains("/dev/zero: it is longer than 512 MiB"), "{}", text(&output.stderr));
+    }
 }
 
 #[test]

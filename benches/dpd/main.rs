@@ -36,7 +36,7 @@ const LARGE: usize = 500_000;
 #[derive(Debug, Parser)]
 struct Settings {
     /// Short and rough, without the largest box
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["edges", "rounds", "seconds"])]
     quick: bool,
     /// Edges of the boxes
     #[arg(long, value_delimiter = ',', default_values_t = [10.0, 20.0, 40.0, 69.34])]

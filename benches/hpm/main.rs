@@ -46,7 +46,7 @@ const NODE_BYTES: f64 = 16.0;
 #[derive(Debug, Parser)]
 struct Settings {
     /// Short and rough, without the largest mesh
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["rounds", "seconds"])]
     quick: bool,
     /// Meshes, each MESH or MESH:PARTICLES with the square of a whole number; 16 particles a cell if left out [default:
     /// 64, 256 and 1024, the last with 4 particles a cell on software adapters and 16 on others with the memory]

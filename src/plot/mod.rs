@@ -62,6 +62,7 @@ pub use presets::{
     radial_distribution_chart, shallow_water_chart,
 };
 pub use renderer::Plotter;
+pub(crate) use ticks::grouped;
 pub use voronoi_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 
 use crate::scene::{PlotStyle, Snapshot, Theme};

@@ -184,8 +184,8 @@ pub(super) fn superscript(exponent: i32) -> String {
         .collect()
 }
 
-/// A whole number with thin gaps between groups of three digits.
-pub(super) fn grouped(value: u64) -> String {
+/// A whole number with its digits in groups of three if they are more than four.
+pub(crate) fn grouped(value: u64) -> String {
     let digits = value.to_string();
     if digits.len() < 5 {
         return digits;

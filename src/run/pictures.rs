@@ -13,7 +13,7 @@ use crate::plot::{
     Axis, CellPicture, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter,
     Series, ShownValues, autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart,
     chain_profile_chart, chain_pulse_chart, circulation_chart, correlation_chart, energetic_cells_chart,
-    energies_chart, histogram_chart, neighbours_chart, radial_distribution_chart, shallow_water_chart,
+    energies_chart, grouped, histogram_chart, neighbours_chart, radial_distribution_chart, shallow_water_chart,
     shear_wave_chart,
 };
 use crate::scene::{self, Scene, SnapshotColor};
@@ -107,13 +107,16 @@ impl<'a> Pictures<'a> {
             let mut chart = shallow_water_chart(&self.scene.title, table, set);
             chart.subtitle = format!(
                 "{} particles, mesh {} × {}, time step {}",
-                water.carriers, water.mesh[0], water.mesh[1], model.time_step
+                grouped(water.carriers),
+                water.mesh[0],
+                water.mesh[1],
+                model.time_step
             );
             return self.chart(files::ENERGIES_PLOT, &chart);
         }
         if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
             let mut chart = energetic_cells_chart(&self.scene.title, table, model.particle_count());
-            chart.subtitle = format!("{} cells, time step {}", model.particle_count(), model.time_step);
+            chart.subtitle = format!("{} cells, time step {}", grouped(model.particle_count()), model.time_step);
             return self.chart(files::ENERGIES_PLOT, &chart);
         }
         let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);

@@ -1,6 +1,8 @@
 //! From a file or a built-in name to a checked scene.
 
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use serde_json::Value;
@@ -38,7 +40,7 @@ pub fn read(source: &str) -> Result<(String, String), SceneError> {
     let path = Path::new(source);
     // A directory of a scene's name is the likely place of its last run, not a scene.
     if path.exists() && !path.is_dir() {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
+        let bytes = bytes(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
         let text = String::from_utf8(bytes).map_err(|error| not_text(source, &error))?;
         return Ok((source.to_owned(), text));
     }
@@ -46,6 +48,19 @@ pub fn read(source: &str) -> Result<(String, String), SceneError> {
         Some(scene) => Ok((scene.name.to_owned(), scene.text.to_owned())),
         None => Err(unknown_builtin(source)),
     }
+}
+
+/// The longest text taken for a scene: more than ten million listed particles.
+const LONGEST_TEXT: u64 = 512 << 20;
+
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LONGEST_TEXT + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LONGEST_TEXT {
+        let message = format!("it is longer than {} MiB, which no scene is", LONGEST_TEXT >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Ok(bytes)
 }
 
 /// The error for a name that is neither a file nor a built-in scene.

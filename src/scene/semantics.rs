@@ -207,7 +207,7 @@ fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
     let time = &scene.time;
     if time.equilibration > time.steps {
         let accepted =
-            format!("at most {}, the number of steps: change it too where `time.steps` is changed", time.steps);
+            format!("at most {}, the number of steps; `--set time.equilibration=0` leaves it out", time.steps);
         problems.push(Problem::new("time.equilibration", format!("found {}", time.equilibration), accepted));
     }
     check_windows(scene, problems);
