@@ -47,60 +47,64 @@ fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] 
     })
 }
 
-/// One scene a combination of everything that chooses a module, with every way to visit pairs and to scan.
+/// Plans of everything that chooses a module.
 fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
     PLANS.get_or_init(|| {
-        let mut choices: Vec<Vec<Vec<&str>>> = vec![INTEGRATORS.iter().map(|integrator| vec![*integrator]).collect()];
-        choices.push(vec![vec![], vec!["space.box=[9,7]"]]);
-        choices.push(vec![
-            vec![],
-            vec![
-                r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
-                r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
-            ],
-        ]);
-        choices.push(vec![vec![], vec!["interactions.0.weight_exponent=0.5"]]);
-        choices.push(vec![vec![], vec!["interactions.0.repulsion=0", "interactions.0.pairs=[]"]]);
-        choices.push(vec![
-            vec![],
-            vec![r#"noise={"distribution":"gaussian"}"#],
-            vec![r#"noise={"generator":"threefry2x32-20"}"#],
-            vec![r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
-            vec!["temperature=0"],
-            vec!["interactions.0.friction=0"],
-            vec!["interactions=[]"],
-        ]);
-        choices.push(vec![vec![], SAMPLERS.to_vec()]);
-        let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
-        for choice in choices {
-            combinations = combinations
-                .iter()
-                .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more.as_slice()].concat()))
-                .collect();
-        }
-        let mut plans = Vec::new();
-        for changes in combinations {
-            let free = changes.contains(&"interactions=[]");
-            // Without an interaction there is nothing inside it to change.
-            let changes: Vec<&str> =
-                changes.into_iter().filter(|change| !free || !change.starts_with("interactions.")).collect();
-            let scene = fluid(&changes);
-            for traversal in [Traversal::Rows, Traversal::Clusters] {
-                for many_level_scan in [false, true] {
-                    let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
-                    let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
-                    plans.extend(plans_of(&name, &scene, options));
-                }
+        let kinds = [fluid_plans, water_plans, coupled_plans, noise_plans, bond_plans, voronoi_plans];
+        thread::scope(|scope| {
+            let kinds = kinds.map(|plans| scope.spawn(plans));
+            kinds.into_iter().flat_map(|plans| plans.join().unwrap()).collect()
+        })
+    })
+}
+
+/// One scene a combination of what pairs may have, with every way to visit them and to scan.
+fn fluid_plans() -> Vec<(String, Plan)> {
+    let mut choices: Vec<Vec<Vec<&str>>> = vec![INTEGRATORS.iter().map(|integrator| vec![*integrator]).collect()];
+    choices.push(vec![vec![], vec!["space.box=[9,7]"]]);
+    choices.push(vec![
+        vec![],
+        vec![
+            r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+            r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
+        ],
+    ]);
+    choices.push(vec![vec![], vec!["interactions.0.weight_exponent=0.5"]]);
+    choices.push(vec![vec![], vec!["interactions.0.repulsion=0", "interactions.0.pairs=[]"]]);
+    choices.push(vec![
+        vec![],
+        vec![r#"noise={"distribution":"gaussian"}"#],
+        vec![r#"noise={"generator":"threefry2x32-20"}"#],
+        vec![r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
+        vec!["temperature=0"],
+        vec!["interactions.0.friction=0"],
+        vec!["interactions=[]"],
+    ]);
+    choices.push(vec![vec![], SAMPLERS.to_vec()]);
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        combinations = combinations
+            .iter()
+            .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more.as_slice()].concat()))
+            .collect();
+    }
+    let mut plans = Vec::new();
+    for changes in combinations {
+        let free = changes.contains(&"interactions=[]");
+        // Without an interaction there is nothing inside it to change.
+        let changes: Vec<&str> =
+            changes.into_iter().filter(|change| !free || !change.starts_with("interactions.")).collect();
+        let scene = fluid(&changes);
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            for many_level_scan in [false, true] {
+                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
+                plans.extend(plans_of(&name, &scene, options));
             }
         }
-        plans.extend(water_plans());
-        plans.extend(coupled_plans());
-        plans.extend(noise_plans());
-        plans.extend(bond_plans());
-        plans.extend(voronoi_plans());
-        plans
-    })
+    }
+    plans
 }
 
 /// The same of couplings that add their impulses up.
