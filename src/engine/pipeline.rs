@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::texels::Texels;
-use crate::gpu::{self, Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError};
 use crate::plan::{Kernel, Plan, folded};
 
 /// A kernel ready to be recorded.
@@ -71,16 +71,10 @@ fn stage(
     buffers: &HashMap<&'static str, wgpu::Buffer>,
     textures: &HashMap<&'static str, Texels>,
 ) -> Result<Stage, GpuError> {
-    let linked = gpu::link(kernel.name, &kernel.modules)?;
     // What a kernel sets for itself goes before what holds for all.
     let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
-    let constants: Vec<(&str, f64)> = kernel
-        .constants
-        .iter()
-        .chain(plan.constants.iter().filter(|(name, _)| !own(name)))
-        .filter(|(name, _)| linked.overrides.iter().any(|known| known == name))
-        .copied()
-        .collect();
+    let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
+    let (pipeline, linked) = gpu.compile(kernel.name, &kernel.modules, constants.copied())?;
     let names: Vec<&str> = linked
         .bindings
         .iter()
@@ -104,23 +98,7 @@ fn stage(
     };
     let changes = names.iter().any(|name| plan.buffer_at(name, true) != *name);
     let (even, odd) = (entries(false)?, if changes { Some(entries(true)?) } else { None });
-    let (pipeline, bindings, odd_bindings) = gpu.scoped(&format!("making kernel `{}`", kernel.name), 0, || {
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(kernel.name),
-            source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(linked.module)),
-        });
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(kernel.name),
-            layout: None,
-            module: &module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                // Every kernel writes workgroup memory before it reads it.
-                zero_initialize_workgroup_memory: false,
-            },
-            cache: None,
-        });
+    let (bindings, odd_bindings) = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
         let layout = pipeline.get_bind_group_layout(0);
         let bind = |entries: &[wgpu::BindGroupEntry<'_>]| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -129,8 +107,7 @@ fn stage(
                 entries,
             })
         };
-        let odd = odd.as_deref().map(bind);
-        (pipeline, bind(&even), odd)
+        (bind(&even), odd.as_deref().map(bind))
     })?;
     let size = match (kernel.demand, buffers.get(DEMANDS)) {
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use super::adapter::{self, AdapterChoice, AdapterDescription};
+use super::compiled::Compiled;
 use super::error::GpuError;
 
 /// What a plan needs beyond the limits every WebGPU adapter has.
@@ -29,6 +30,7 @@ pub struct Gpu {
     description: AdapterDescription,
     subgroup_size: Option<u32>,
     serial_memory: bool,
+    pub(super) compiled: Compiled,
     trouble: Arc<Mutex<Option<String>>>,
 }
 
@@ -121,6 +123,7 @@ impl Gpu {
             subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
                 .then_some(info.subgroup_min_size),
             serial_memory,
+            compiled: Compiled::default(),
             trouble,
         })
     }

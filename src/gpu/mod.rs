@@ -1,6 +1,7 @@
 //! The graphics adapter: choosing one, opening it with the limits a plan needs, and linking shaders.
 
 mod adapter;
+mod compiled;
 mod device;
 mod error;
 mod shader;

@@ -1,0 +1,109 @@
+//! Kernels that a device has compiled, kept for the engines after the first: a sweep, a restart and a scan over seeds
+//! find theirs ready.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Arc, Mutex};
+
+use super::device::Gpu;
+use super::error::GpuError;
+use super::shader::{LinkedShader, link};
+
+/// As many as some ten engines have. The next one drops all, which engines that use them keep.
+const MOST_KEPT: usize = 256;
+
+/// Values by what they were made from.
+struct Kept<K, V>(Mutex<HashMap<K, V>>);
+
+impl<K: Eq + Hash, V: Clone> Kept<K, V> {
+    /// The value that is kept, or the one that `make` makes, which is kept if it is not an error. Two threads that ask for
+    /// the same at once both make it.
+    fn get_or_make(&self, key: K, make: impl FnOnce() -> Result<V, GpuError>) -> Result<V, GpuError> {
+        if let Some(kept) = self.0.lock().ok().and_then(|kept| kept.get(&key).cloned()) {
+            return Ok(kept);
+        }
+        let made = make()?;
+        if let Ok(mut kept) = self.0.lock() {
+            if kept.len() >= MOST_KEPT {
+                kept.clear();
+            }
+            kept.insert(key, made.clone());
+        }
+        Ok(made)
+    }
+}
+
+impl<K, V> Default for Kept<K, V> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+/// Modules, and the bits of the constants that they use.
+type Ingredients = (Vec<&'static str>, Vec<(&'static str, u64)>);
+
+/// What a device has compiled.
+#[derive(Default)]
+pub(super) struct Compiled {
+    linked: Kept<Vec<&'static str>, Arc<LinkedShader>>,
+    pipelines: Kept<Ingredients, wgpu::ComputePipeline>,
+}
+
+impl Gpu {
+    /// The pipeline of a kernel that is linked from some modules, with those of the constants that they use, and what it
+    /// was linked to.
+    ///
+    /// # Errors
+    /// [`GpuError`] if the modules do not fit together or the device refuses them.
+    pub(crate) fn compile(
+        &self,
+        kernel: &'static str,
+        modules: &[&'static str],
+        constants: impl Iterator<Item = (&'static str, f64)>,
+    ) -> Result<(wgpu::ComputePipeline, Arc<LinkedShader>), GpuError> {
+        let linked = self.compiled.linked.get_or_make(modules.to_vec(), || Ok(Arc::new(link(kernel, modules)?)))?;
+        let used = constants.filter(|(name, _)| linked.overrides.iter().any(|known| known == name));
+        let constants: Vec<(&'static str, f64)> = used.collect();
+        let bits = constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
+        let pipeline = self.compiled.pipelines.get_or_make((modules.to_vec(), bits), || {
+            self.scoped(&format!("making kernel `{kernel}`"), 0, || {
+                let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(kernel),
+                    source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module.clone())),
+                });
+                self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(kernel),
+                    layout: None,
+                    module: &module,
+                    entry_point: Some("main"),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: &constants,
+                        // Every kernel writes workgroup memory before it reads it.
+                        zero_initialize_workgroup_memory: false,
+                    },
+                    cache: None,
+                })
+            })
+        })?;
+        Ok((pipeline, linked))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_made_once_and_errors_each_time() {
+        let kept = Kept::<usize, usize>::default();
+        let failure = || Err(GpuError::NoSuchAdapter { wanted: String::new(), available: String::new() });
+        assert!(kept.get_or_make(3, failure).is_err());
+        assert_eq!(kept.get_or_make(3, || Ok(9)).ok(), Some(9));
+        assert_eq!(kept.get_or_make(3, failure).ok(), Some(9));
+        for key in 0..3 * MOST_KEPT {
+            assert_eq!(kept.get_or_make(key, || Ok(key * key)).ok(), Some(key * key));
+            assert!(kept.0.lock().unwrap().len() <= MOST_KEPT);
+        }
+    }
+}
