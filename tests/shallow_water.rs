@@ -634,7 +634,8 @@ fn the_limit_of_stability_by_bisection() {
     let mut wrong = Vec::new();
     for_every_bath(|changes| {
         for (implementation, set_up) in IMPLEMENTATIONS.into_iter().enumerate() {
-            let [mut lower, mut upper] = [0.25, 4.0].map(|share| step_of_share(changes, share));
+            // Not far beyond: steps in which a fast rotation turns more than a circle can be stable again.
+            let [mut lower, mut upper] = [0.25, STABLE_SHARES[1]].map(|share| step_of_share(changes, share));
             let ends = [lower, upper].map(|step| is_stable(set_up, changes, step));
             assert_eq!(ends, [true, false], "{changes:?}: the limit is between {lower} and {upper}");
             while upper / lower > 1.02 {
@@ -645,7 +646,7 @@ fn the_limit_of_stability_by_bisection() {
             let share = predicted_share(changes, limit);
             let line = format!("{implementation}: {changes:?}: stable up to dt = {limit:.4}, p = {share:.3}");
             println!("{line}");
-            if !(STABLE_SHARES[0]..STABLE_SHARES[1]).contains(&share) {
+            if share < STABLE_SHARES[0] {
                 wrong.push(line);
             }
         }
