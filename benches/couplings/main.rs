@@ -54,6 +54,7 @@ fn variant(name: &'static str, changes: &[&str]) -> Variant {
 }
 
 fn main() -> Result<(), Failure> {
+    mesoscope::gpu::prepare_environment();
     let settings = Settings::parse();
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;

@@ -67,6 +67,7 @@ struct Settings {
 }
 
 fn main() -> Result<(), Failure> {
+    mesoscope::gpu::prepare_environment();
     let begun = Instant::now();
     let mut settings = Settings::parse();
     if settings.quick {

@@ -55,6 +55,7 @@ struct Settings {
 }
 
 fn main() -> Result<(), Failure> {
+    mesoscope::gpu::prepare_environment();
     let settings = Settings::parse();
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;

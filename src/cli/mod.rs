@@ -3,7 +3,6 @@
 mod adapter_argument;
 mod adapters;
 mod check;
-mod environment;
 mod failure;
 mod plot;
 mod print;
@@ -21,6 +20,8 @@ use std::io::Write as _;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use mesoscope::gpu::prepare_environment;
 
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
@@ -64,7 +65,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let command = Arguments::parse().command;
     if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
-        environment::quieten_drivers();
+        prepare_environment();
     }
     let result = match command {
         Command::Run(arguments) => run::execute(&arguments),

@@ -3,12 +3,14 @@
 mod adapter;
 mod compiled;
 mod device;
+mod environment;
 mod error;
 mod shader;
 mod shader_library;
 
 pub use adapter::{AdapterChoice, AdapterDescription, list_adapters};
 pub use device::{Gpu, Requirements};
+pub use environment::prepare_environment;
 pub use error::GpuError;
 pub use shader::{Binding, LinkedShader, link, link_texts};
 pub use shader_library::{module_names, module_text};
