@@ -32,6 +32,8 @@
 //! assert_eq!(engine.reported()?.total_momentum(), [0; 3]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! A program that may come to run on the software adapter begins with [`gpu::prepare_environment`].
 
 pub mod engine;
 pub mod gpu;
