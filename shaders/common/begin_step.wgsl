@@ -6,4 +6,5 @@ fn begin_step() {
     control.key = threefry2x32(step, control.seed_key);
     control.closing = select(1, 0, all(step == vec2<u32>(0u)));
     control.elapsed += 1u;
+    show_clock();
 }

@@ -1,11 +1,12 @@
-// One bit for each of the eight candidates that the lanes hold.
-fn eight_hits(probe: Probe, candidate: Probe) -> u32 {
-    return select(0u, 1u, probe_hits(probe, shuffled(candidate, 0u)))
-        | select(0u, 2u, probe_hits(probe, shuffled(candidate, 1u)))
-        | select(0u, 4u, probe_hits(probe, shuffled(candidate, 2u)))
-        | select(0u, 8u, probe_hits(probe, shuffled(candidate, 3u)))
-        | select(0u, 16u, probe_hits(probe, shuffled(candidate, 4u)))
-        | select(0u, 32u, probe_hits(probe, shuffled(candidate, 5u)))
-        | select(0u, 64u, probe_hits(probe, shuffled(candidate, 6u)))
-        | select(0u, 128u, probe_hits(probe, shuffled(candidate, 7u)));
+// One bit for each of the eight candidates that the lanes hold. Lanes exchange theirs in pairs: the adapter does that in
+// one instruction, where handing one candidate to all takes two.
+fn eight_hits(probe: Probe, lane: u32, candidate: Probe) -> u32 {
+    return select(0u, 1u << lane, probe_hits(probe, candidate))
+        | hit_across(probe, lane ^ 1u, candidate) | hit_across(probe, lane ^ 2u, candidate)
+        | hit_across(probe, lane ^ 3u, candidate) | hit_across(probe, lane ^ 4u, candidate)
+        | hit_across(probe, lane ^ 5u, candidate) | hit_across(probe, lane ^ 6u, candidate)
+        | hit_across(probe, lane ^ 7u, candidate);
+}
+fn hit_across(probe: Probe, lane: u32, candidate: Probe) -> u32 {
+    return select(0u, 1u << lane, probe_hits(probe, shuffled(candidate, lane)));
 }

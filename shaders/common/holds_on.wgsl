@@ -53,15 +53,15 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
 // Both half steps around this step: they end at it and begin with it.
 fn advance_hold(id: u32) -> Held {
     // Stored momenta of step 0 are full-step ones, and its process begins with it.
-    let crossed = u32(1 + control.closing);
+    let crossed = u32(1 + clock_closing());
     let whole = Steps(round(HOLD_IMPULSE * force_of(holds[id].force)));
     let halves = holds[id].halves;
-    var held = Held(control.closing * whole, whole);
+    var held = Held(clock_closing() * whole, whole);
     var left = halves - crossed;
     // Most forces outlast a step.
     for (var pending = halves < crossed; pending; pending = false) {
         var hold = holds[id];
-        for (var closing = control.closing; closing != 0; closing = 0) { held.closing = cross_half_step(id, &hold); }
+        for (var closing = clock_closing(); closing != 0; closing = 0) { held.closing = cross_half_step(id, &hold); }
         held.opening = cross_half_step(id, &hold);
         holds[id] = hold;
         left = hold.halves;

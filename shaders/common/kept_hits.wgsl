@@ -1,5 +1,4 @@
 // The hits that an earlier pass kept, in the same words. A particle's words are read before it is stored over them.
-fn prepare_hits(row: u32, me: Particle) {}
 fn kept_word(slot: u32, word: u32) -> u32 {
     if (word < 4u) { return particles[slot].position[word]; }
     return bitcast<u32>(particles[slot].momentum[word & 3u]);

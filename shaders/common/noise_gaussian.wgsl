@@ -2,7 +2,7 @@
 fn centred_uniform(word: u32) -> f32 { return (f32(bitcast<i32>(word) >> 8u) + 0.5) * 5.9604645e-8; } // 2^-24
 // Read once an invocation: a buffer that is also written cannot be cached by the compiler.
 var<private> noise_key: vec2<u32>;
-fn prepare_noise() { noise_key = control.key; }
+fn prepare_noise() { noise_key = clock_key(); }
 
 fn pair_noise(id: u32, other: u32) -> f32 {
     let words = pair_words(noise_key, vec2<u32>(min(id, other), max(id, other)));

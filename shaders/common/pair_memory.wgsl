@@ -11,12 +11,12 @@ override BATH_IMPULSE: f32; // impulse of half a step per bath
 
 fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
     let memory = pair_memory(place);
-    let missed = control.step.x - memory.y - 1u;
+    let missed = clock_step().x - memory.y - 1u;
     let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, PERSISTENCE < 0.0 && (missed & 1u) == 1u);
     let exponent = -2.0 * DECAY * (f32(missed) + 1.0);
     let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
     let spread = select(sqrt(lost), SPREAD, missed == 0u);
-    return kept * bitcast<f32>(memory.x) + f32(control.closing) * c.friction * coupling(contact.w)
+    return kept * bitcast<f32>(memory.x) + f32(clock_closing()) * c.friction * coupling(contact.w)
         + c.noise * spread * bath_noise(me.position.w, other.position.w);
 }
 fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {

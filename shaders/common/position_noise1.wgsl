@@ -4,7 +4,7 @@ override PARTICLE_STREAM_Y: u32;
 var<private> position_key: vec2<u32>;
 
 fn prepare_position_noise() {
-    position_key = threefry2x32(control.step, vec2<u32>(PARTICLE_STREAM_X, PARTICLE_STREAM_Y));
+    position_key = threefry2x32(clock_step(), vec2<u32>(PARTICLE_STREAM_X, PARTICLE_STREAM_Y));
 }
 fn deviate(id: u32, axis: u32) -> f32 { return gaussian_of(pair_words(position_key, vec2<u32>(id, axis))); }
 fn position_noise(id: u32, species: i32) -> Vector {

@@ -2,24 +2,25 @@
 // The candidates of a cluster, nine (three, one) stretches seen as one: the own row first.
 struct Stretches {
     own: u32,
-    ends: array<u32, 8>,
+    ends: array<i32, 8>, // signed, which the adapter compares in one instruction
     shifts: array<u32, 8>,
     total: u32,
 }
 
 fn resolve(s: Stretches, candidate: u32) -> u32 {
+    let number = i32(candidate);
     var shift = s.own;
     if (neighbour_rows() > 1u) {
-        shift = select(shift, s.shifts[0], candidate >= s.ends[0]);
-        shift = select(shift, s.shifts[1], candidate >= s.ends[1]);
+        shift = select(shift, s.shifts[0], number >= s.ends[0]);
+        shift = select(shift, s.shifts[1], number >= s.ends[1]);
     }
     if (neighbour_rows() > 3u) {
-        shift = select(shift, s.shifts[2], candidate >= s.ends[2]);
-        shift = select(shift, s.shifts[3], candidate >= s.ends[3]);
-        shift = select(shift, s.shifts[4], candidate >= s.ends[4]);
-        shift = select(shift, s.shifts[5], candidate >= s.ends[5]);
-        shift = select(shift, s.shifts[6], candidate >= s.ends[6]);
-        shift = select(shift, s.shifts[7], candidate >= s.ends[7]);
+        shift = select(shift, s.shifts[2], number >= s.ends[2]);
+        shift = select(shift, s.shifts[3], number >= s.ends[3]);
+        shift = select(shift, s.shifts[4], number >= s.ends[4]);
+        shift = select(shift, s.shifts[5], number >= s.ends[5]);
+        shift = select(shift, s.shifts[6], number >= s.ends[6]);
+        shift = select(shift, s.shifts[7], number >= s.ends[7]);
     }
     return shift + candidate;
 }
@@ -28,23 +29,23 @@ fn resolve(s: Stretches, candidate: u32) -> u32 {
 fn stretches_of(own: u32, own_length: u32, begin: u32, length: u32) -> Stretches {
     var s: Stretches;
     s.own = own;
-    s.ends[0] = own_length;
-    s.ends[1] = s.ends[0] + subgroupShuffle(length, 0u);
-    s.ends[2] = s.ends[1] + subgroupShuffle(length, 1u);
-    s.ends[3] = s.ends[2] + subgroupShuffle(length, 2u);
-    s.ends[4] = s.ends[3] + subgroupShuffle(length, 3u);
-    s.ends[5] = s.ends[4] + subgroupShuffle(length, 4u);
-    s.ends[6] = s.ends[5] + subgroupShuffle(length, 5u);
-    s.ends[7] = s.ends[6] + subgroupShuffle(length, 6u);
-    s.total = s.ends[7] + subgroupShuffle(length, 7u);
-    s.shifts[0] = subgroupShuffle(begin, 0u) - s.ends[0];
-    s.shifts[1] = subgroupShuffle(begin, 1u) - s.ends[1];
-    s.shifts[2] = subgroupShuffle(begin, 2u) - s.ends[2];
-    s.shifts[3] = subgroupShuffle(begin, 3u) - s.ends[3];
-    s.shifts[4] = subgroupShuffle(begin, 4u) - s.ends[4];
-    s.shifts[5] = subgroupShuffle(begin, 5u) - s.ends[5];
-    s.shifts[6] = subgroupShuffle(begin, 6u) - s.ends[6];
-    s.shifts[7] = subgroupShuffle(begin, 7u) - s.ends[7];
+    s.ends[0] = i32(own_length);
+    s.ends[1] = s.ends[0] + subgroupShuffle(i32(length), 0u);
+    s.ends[2] = s.ends[1] + subgroupShuffle(i32(length), 1u);
+    s.ends[3] = s.ends[2] + subgroupShuffle(i32(length), 2u);
+    s.ends[4] = s.ends[3] + subgroupShuffle(i32(length), 3u);
+    s.ends[5] = s.ends[4] + subgroupShuffle(i32(length), 4u);
+    s.ends[6] = s.ends[5] + subgroupShuffle(i32(length), 5u);
+    s.ends[7] = s.ends[6] + subgroupShuffle(i32(length), 6u);
+    s.total = u32(s.ends[7] + subgroupShuffle(i32(length), 7u));
+    s.shifts[0] = subgroupShuffle(begin, 0u) - u32(s.ends[0]);
+    s.shifts[1] = subgroupShuffle(begin, 1u) - u32(s.ends[1]);
+    s.shifts[2] = subgroupShuffle(begin, 2u) - u32(s.ends[2]);
+    s.shifts[3] = subgroupShuffle(begin, 3u) - u32(s.ends[3]);
+    s.shifts[4] = subgroupShuffle(begin, 4u) - u32(s.ends[4]);
+    s.shifts[5] = subgroupShuffle(begin, 5u) - u32(s.ends[5]);
+    s.shifts[6] = subgroupShuffle(begin, 6u) - u32(s.ends[6]);
+    s.shifts[7] = subgroupShuffle(begin, 7u) - u32(s.ends[7]);
     return s;
 }
 

@@ -11,7 +11,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    let key = threefry2x32(control.step, vec2<u32>(START_STREAM_X, START_STREAM_Y));
+    let key = threefry2x32(clock_step(), vec2<u32>(START_STREAM_X, START_STREAM_Y));
     let me = particle_at(slot);
     let before = came_from[slot];
     let known = neighbour_word(before);
@@ -31,7 +31,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             let ids = vec2<u32>(min(me.position.w, other.position.w), max(me.position.w, other.position.w));
             let c = coefficients_of(species_of(me), species_of(other));
             let start = PERSISTENCE * c.noise * gaussian_of(pair_words(key, ids));
-            memory = vec2<u32>(bitcast<u32>(start), control.step.x - 1u);
+            memory = vec2<u32>(bitcast<u32>(start), clock_step().x - 1u);
         }
         put_next_pair_memory(entry * PARTICLES + slot, memory);
     }

@@ -13,37 +13,41 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let row_first = row_begin(row);
     let row_last = row_end(row);
     var masks: array<u32, WORDS>;
-    var bases: array<u32, WORDS>;
     for (var first = row_first + (group - row * SEGMENTS) * 8u; first < row_last; first += 8u * SEGMENTS) {
         let index = min(first + lane, row_last - 1u);
         let me = particle_at(index);
         let s = cluster_stretches(row, lane, column_of(fraction_of(me.position)));
-        prepare_hits(row, me);
+        prepare_hits(row, me, lane, s);
         var sums = pass_begin(me);
         for (var tile = 0u; tile < s.total; tile += 32u * WORDS) {
             let tile_end = min(s.total, tile + 32u * WORDS);
-            var filled = 0u;
-            for (var base = tile; base < tile_end; base += 32u) {
-                let mask = hits_of_cluster(row, index, lane, s, base, tile_end);
-                masks[filled] = mask;
-                bases[filled] = base;
-                filled += select(0u, 1u, mask != 0u);
+            var filled = 0u; // one bit a word with hits
+            for (var word = 0u; tile + 32u * word < tile_end; word++) {
+                let mask = hits_of_cluster(row, index, lane, s, tile + 32u * word, tile_end);
+                masks[word] = mask;
+                filled |= select(0u, 1u << word, mask != 0u);
             }
-            var word = 0u;
-            var mask = masks[0];
-            var word_base = bases[0];
-            while (word < filled) {
-                let other = resolve(s, word_base + firstTrailingBit(mask));
+            var word = lowest_bit(filled);
+            var mask = masks[word];
+            while (filled != 0u) {
+                let other = resolve(s, tile + 32u * word + lowest_bit(mask));
                 mask &= mask - 1u;
                 pass_pair(&sums, me, other);
                 if (mask == 0u) {
-                    word += 1u;
-                    mask = masks[word & 31u];
-                    word_base = bases[word & 31u];
+                    filled &= filled - 1u;
+                    word = lowest_bit(filled);
+                    mask = masks[word];
                 }
             }
         }
         if (first + lane < row_last) { pass_end(row, index, me, sums); }
     }
     pass_finish(group, lane);
+}
+
+// The number of the lowest bit that is set, read off the exponent of that bit as a float, which is exact: these adapters
+// count bits in software. Any number below 32 where none is set.
+fn lowest_bit(word: u32) -> u32 {
+    let exponent = bitcast<u32>(f32(bitcast<i32>(word & (~word + 1u)))) >> 23u;
+    return (exponent + 1u) & 31u;
 }

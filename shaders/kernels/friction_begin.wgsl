@@ -1,7 +1,7 @@
 // Begins to solve for the velocities after friction.
 @compute @workgroup_size(1)
 fn main() {
-    solver.key = control.key;
+    solver.key = clock_key();
     solver.iterations = 0u;
     solver.running = 1u;
     solver.residual = 0.0;

@@ -15,7 +15,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var s = node_bath[node];
     let mass = node_masses[node];
     // At step 0 the variable is that of the beginning.
-    if (control.closing == 1) {
+    if (clock_closing() == 1) {
         prepare_noise();
         let change = f32(bitcast<i32>(mass - previous_masses[node]));
         s = BATH_PERSISTENCE * s + BATH_RESPONSE * change + mesh_noise(node);

@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let kick = steps_of(kicks[slot]) + Steps(round(impulse));
     kicks[slot] = vec4<i32>(0);
     let opening = select(kick + held.opening, Steps(0), is_fixed(species));
-    var momentum = steps_of(me.momentum) + control.closing * (kick + held.closing) + opening;
+    var momentum = steps_of(me.momentum) + clock_closing() * (kick + held.closing) + opening;
     momentum = select(momentum, Steps(0), is_fixed(species));
     let travelled = abs(Vector(momentum)) * drift_of(species);
     raise(select(FAILURE_IMPULSE, 0u, largest(abs(impulse)) < IMPULSE_LIMIT)

@@ -22,7 +22,7 @@ fn observe(slot: u32) {
     note_position_bath(species, bath);
     let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + closing_of_hold(id);
     kicks[slot] = vec4<i32>(0);
-    var momentum = steps_of(me.momentum) + control.closing * kick;
+    var momentum = steps_of(me.momentum) + clock_closing() * kick;
     momentum = select(momentum, Steps(0), is_fixed(species));
     begin_force();
     add_force(momentum_word(kick, 0));

@@ -12,7 +12,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let x = place_along(tracer.position.x, CELLS_X);
     let y = place_along(tracer.position.y, CELLS_Y);
     let kick = half_kick(surface_in_cell(x.cell, y.cell), x.offset, y.offset);
-    if (CLOSES == 1u && control.closing == 1) { tracer.velocity = closed(tracer.velocity, kick); }
+    if (CLOSES == 1u && clock_closing() == 1) { tracer.velocity = closed(tracer.velocity, kick); }
     tracers[index] = opened(tracer, kick);
     raise(failures_of_motion);
 }

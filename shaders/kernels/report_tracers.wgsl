@@ -6,7 +6,7 @@ override TRACERS: u32;
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
-    if (index >= TRACERS || control.closing == 0) { return; }
+    if (index >= TRACERS || clock_closing() == 0) { return; }
     let tracer = tracers[index];
     let x = place_along(tracer.position.x, CELLS_X);
     let y = place_along(tracer.position.y, CELLS_Y);

@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         for (var k = 0u; k < bin.count; k++) {
             let index = place_in(bin, k);
             var particle = stored(index);
-            if (control.closing == 1) {
+            if (clock_closing() == 1) {
                 let x = place_along(particle.position.x, CELLS_X).offset;
                 let y = place_along(particle.position.y, CELLS_Y).offset;
                 particle.velocity = closed(particle.velocity, half_kick(polynomial, x, y));

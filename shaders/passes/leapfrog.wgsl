@@ -11,13 +11,14 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let contact = contact_of(separation(me.position, other.position));
     let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
-    let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
+    let impulse = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
         + random_impulse(c, root, me, other);
-    (*sums).kick += select(Steps(0), Steps(round(magnitude * contact.direction)), contact.inside);
-    (*sums).strain += select(0.0, abs(magnitude), contact.inside);
+    let magnitude = select(0.0, impulse, contact.inside);
+    (*sums).kick += Steps(round(magnitude * contact.direction));
+    (*sums).strain += abs(magnitude);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let full_step = steps_of(me.momentum) + control.closing * sums.kick;
+    let full_step = steps_of(me.momentum) + clock_closing() * sums.kick;
     store_advanced(row, index, me, full_step + sums.kick, sums.kick, sums.strain);
 }
 fn pass_finish(group: u32, lane: u32) {}

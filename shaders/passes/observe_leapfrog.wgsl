@@ -23,7 +23,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let momentum = steps_of(me.momentum) + control.closing * sums.kick;
+    let momentum = steps_of(me.momentum) + clock_closing() * sums.kick;
     observe_motion(species_of(me), momentum, sums.pairs.virial);
     observe_configuration(sums.pairs);
     add_force(momentum_word(sums.kick, 0));

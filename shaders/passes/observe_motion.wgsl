@@ -14,7 +14,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let root = root_weight(contact.w);
     let push = repulsion_impulse(c, contact.w);
     // Before the first step there is no relaxation to report.
-    let pull = f32(control.closing) * relaxation_impulse(c, contact, root, me, other);
+    let pull = f32(clock_closing()) * relaxation_impulse(c, contact, root, me, other);
     let relaxation = Steps(round(pull * contact.direction));
     (*sums).impulse += relaxation;
     // The whole step: two half kicks and the relaxation between them.

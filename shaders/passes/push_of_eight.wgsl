@@ -13,7 +13,7 @@ fn visit_cell(cell: u32) {
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
     raise_at(select(FAILURE_DEPTH, 0u, depth_in_cell(cell, nodes) > LEAST_DEPTH), cell);
     let polynomial = surface_of(nodes);
-    let closes = CLOSES == 1u && control.closing == 1;
+    let closes = CLOSES == 1u && clock_closing() == 1;
     let bin = opened_bin(cell);
     let eight = opened_eight(bin);
     for (var first = 0u; first < eight.count; first += 8u) {

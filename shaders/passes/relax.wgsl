@@ -10,14 +10,14 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let contact = contact_of(separation(me.position, other.position));
     let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
-    let push = repulsion_impulse(c, contact.w);
-    let pull = relaxation_impulse(c, contact, root, me, other);
-    (*sums).kick += select(Steps(0), Steps(round(push * contact.direction)), contact.inside);
-    (*sums).impulse += select(Steps(0), Steps(round(pull * contact.direction)), contact.inside);
-    (*sums).strain += select(0.0, abs(push) + abs(pull), contact.inside);
+    let push = select(0.0, repulsion_impulse(c, contact.w), contact.inside);
+    let pull = select(0.0, relaxation_impulse(c, contact, root, me, other), contact.inside);
+    (*sums).kick += Steps(round(push * contact.direction));
+    (*sums).impulse += Steps(round(pull * contact.direction));
+    (*sums).strain += abs(push) + abs(pull);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let relaxed = steps_of(me.momentum) + control.closing * sums.impulse;
+    let relaxed = steps_of(me.momentum) + clock_closing() * sums.impulse;
     store_advanced(row, index, me, relaxed + sums.kick, sums.kick, sums.strain);
 }
 fn pass_finish(group: u32, lane: u32) {}

@@ -60,6 +60,8 @@ library![
     "common/chebyshev",
     "common/chebyshev_of_masses",
     "common/chebyshev_of_smoothed",
+    "common/clock",
+    "common/clock_texels",
     "common/coefficients_single",
     "common/coefficients_table",
     "common/collect_bins",

@@ -112,7 +112,14 @@ fn space(units: &Units, predicted: bool) -> Vec<&'static str> {
         vec!["common/space2", "common/grid2", "common/probe2"]
     };
     modules.push(if predicted { "common/particle_predicted" } else { "common/particle" });
-    modules.extend(["common/cells", "common/cells_buffer", "common/ranks", "common/control", "common/dispatch"]);
+    modules.extend([
+        "common/cells",
+        "common/cells_buffer",
+        "common/ranks",
+        "common/control",
+        "common/clock",
+        "common/dispatch",
+    ]);
     modules
 }
 

@@ -82,6 +82,7 @@ impl Plan {
         for array in &arrays {
             self.come_to_texture(array);
         }
+        self.show_clock();
         for kernel in &mut self.kernels {
             for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
                 for module in kernel.modules.iter_mut().filter(|module| **module == usual) {
@@ -89,6 +90,16 @@ impl Plan {
                 }
             }
         }
+    }
+
+    /// Has kernels read the clock from a texel, which they all do, each word lane by lane.
+    fn show_clock(&mut self) {
+        for module in
+            self.kernels.iter_mut().flat_map(|kernel| &mut kernel.modules).filter(|module| **module == "common/clock")
+        {
+            *module = "common/clock_texels";
+        }
+        self.add_texture("clock", "step and key of its random words, for kernels to read", 4, 1);
     }
 
     /// Holds a buffer in a texture if a kernel comes to it by its module.

@@ -234,13 +234,13 @@ impl Builder<'_> {
     }
 
     /// Modules of the mesh and of the particles on it.
-    fn mesh(&self) -> [&'static str; 5] {
+    fn mesh(&self) -> [&'static str; 6] {
         let spline = match self.water.spline_order {
             1 => "common/spline1",
             2 => "common/spline2",
             _ => "common/spline3",
         };
-        ["common/mesh", spline, "common/water", "common/control", "common/dispatch"]
+        ["common/mesh", spline, "common/water", "common/control", "common/clock", "common/dispatch"]
     }
 
     fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {

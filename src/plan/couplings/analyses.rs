@@ -13,7 +13,7 @@ impl Builder<'_> {
             self.radial_distribution(asked);
         }
         // What is reported has no predicted momentum.
-        let space = vec![self.dimensions(), "common/particle", "common/control", "common/dispatch"];
+        let space = vec![self.dimensions(), "common/particle", "common/control", "common/clock", "common/dispatch"];
         let reported = Reported {
             model: self.model,
             equilibration: self.equilibration,

@@ -42,7 +42,7 @@ impl Builder<'_> {
         if self.model.pair_force.is_none() {
             let tick = self.plan.add_kernel(Kernel::new(
                 "tick",
-                [&["common/control", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),
+                [&["common/control", "common/clock", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),
                 1,
             ));
             self.plan.sort = vec![tick];
@@ -56,7 +56,7 @@ impl Builder<'_> {
         self.list_constants();
         let begin = self.plan.add_kernel(Kernel::new(
             "begin",
-            [&["common/control", "common/dispatch"], &clock[..], &["kernels/begin"]].concat(),
+            [&["common/control", "common/clock", "common/dispatch"], &clock[..], &["kernels/begin"]].concat(),
             1,
         ));
         let stock = self.kernel("take_stock", &["common/anchors_on", self.slots(), "kernels/take_stock"], groups);

@@ -16,7 +16,7 @@ impl Builder<'_> {
     pub(super) fn solve_friction(&mut self) -> Vec<usize> {
         let groups = self.particles.div_ceil(LANES).max(1);
         let iterations = if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
-        let begin = vec!["common/control", "common/solver", iterations, "kernels/friction_begin"];
+        let begin = vec!["common/control", "common/clock", "common/solver", iterations, "kernels/friction_begin"];
         let begin = self.plan.add_kernel(Kernel::new("friction_begin", begin, 1));
         let mut setup =
             vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];

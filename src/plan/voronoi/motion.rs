@@ -32,7 +32,14 @@ enum Drift {
 impl Builder<'_> {
     /// The kernels of a step, and those that go before its report.
     pub(super) fn steps(&mut self, output: &Output) {
-        let tick = vec!["common/control", "common/dispatch", "common/begin_step", "common/threefry", "kernels/tick"];
+        let tick = vec![
+            "common/control",
+            "common/clock",
+            "common/dispatch",
+            "common/begin_step",
+            "common/threefry",
+            "kernels/tick",
+        ];
         self.plan.sort = vec![self.plan.add_kernel(Kernel::new("tick", tick, 1))];
         let geometry = self.geometry();
         if self.is_explicit() {
