@@ -92,7 +92,7 @@ impl Plan {
         }
     }
 
-    /// Has kernels read the clock from a texel, which they all do, each word lane by lane.
+    /// Has kernels read the clock, which every lane does, from a texel.
     fn show_clock(&mut self) {
         for module in
             self.kernels.iter_mut().flat_map(|kernel| &mut kernel.modules).filter(|module| **module == "common/clock")
