@@ -4,7 +4,7 @@ fn begin_step() {
     control.step = step;
     control.next = vec2<u32>(step.x + 1u, step.y + select(0u, 1u, step.x == 0xffffffffu));
     control.key = threefry2x32(step, control.seed_key);
-    control.closing = select(1, 0, all(step == vec2<u32>(0u)));
+    control.closing = closing_of(step);
     control.elapsed += 1u;
     show_clock();
 }

@@ -3,5 +3,5 @@
 
 fn clock_step() -> vec2<u32> { return textureLoad(clock, vec2<u32>(0u)).xy; }
 fn clock_key() -> vec2<u32> { return textureLoad(clock, vec2<u32>(0u)).zw; }
-fn clock_closing() -> i32 { return select(1, 0, all(clock_step() == vec2<u32>(0u))); }
+fn clock_closing() -> i32 { return closing_of(clock_step()); }
 fn show_clock() { textureStore(clock, vec2<u32>(0u), vec4<u32>(control.step, control.key)); }

@@ -15,6 +15,8 @@ struct Control {
 }
 @group(0) @binding(0) var<storage, read_write> control: Control;
 
+fn closing_of(step: vec2<u32>) -> i32 { return select(1, 0, all(step == vec2<u32>(0u))); }
+
 const FAILURE_IMPULSE: u32 = 1u;   // the impulses on a particle left the range of integers, or were not numbers
 const FAILURE_MOMENTUM: u32 = 2u;  // a momentum came near the end of its range
 const FAILURE_DISPLACEMENT: u32 = 4u; // a particle moved further than the cutoff in one step
