@@ -1,4 +1,4 @@
-// Particles that have moved stay where they are until the next step sorts them; those that go to another cell are counted there.
+// Particles that have moved stay where they lie; those that go to another cell are counted there.
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>; // particles in each cell
 
 fn begin_moving(cell: u32) {}

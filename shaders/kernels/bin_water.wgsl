@@ -7,5 +7,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    atomicAdd(&counts[cell_of(copied_position(copied(index)))], 1u);
+    atomicAdd(&counts[cell_of(stored_position(index))], 1u);
 }

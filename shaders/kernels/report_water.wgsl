@@ -28,7 +28,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
                 let y = place_along(particle.position.y, CELLS_Y).offset;
                 particle.velocity = closed(particle.velocity, half_kick(polynomial, x, y));
             }
-            store_reported(index, particle);
+            store(index, particle);
             let v = vec2<f32>(particle.velocity);
             let mass = f32(particle.mass);
             kinetic = sum64_add(kinetic, sum64_of_f32(mass * (KINETIC * dot(v, v))));

@@ -6,7 +6,7 @@ use mesoscope::gpu::{self, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
-use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
+use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
 use mesoscope::run::{self, RunError};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
@@ -49,9 +49,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let plan = planned(hardware);
     let mut text = overview(&scene, &model, &plan, &adapter);
+    let tidying = format!("Every {TIDYING} steps: put them in order in memory too");
     let stages = [
         ("Once, before the first step", &plan.prepare),
         ("Every step: order the particles by cell", &plan.sort),
+        (tidying.as_str(), &plan.tidy),
         ("Every step: before anything is measured", &plan.before_report),
         ("Every step without a measurement", &plan.advance),
         ("Every step with a measurement: measure", &plan.report),

@@ -13,7 +13,7 @@ pub use timing::{StageClock, StageTime};
 use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::{Gpu, GpuError};
-use crate::plan::{Contents, Hardware, Layout, Misfit, Plan};
+use crate::plan::{Contents, Hardware, Layout, Misfit, Plan, TIDYING};
 use crate::state::State;
 use pipeline::Stage;
 use readback::Readback;
@@ -362,8 +362,7 @@ impl<'a> Engine<'a> {
     }
 
     fn read(&self, name: &str) -> Result<Vec<u8>, EngineError> {
-        let current = self.plan.buffer_at(name, self.is_odd());
-        let bytes = match (self.buffers.get(current), self.textures.get(current)) {
+        let bytes = match (self.buffers.get(name), self.textures.get(name)) {
             (Some(buffer), _) => readback::read(self.gpu, buffer.size(), |encoder, staging| {
                 encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
             }),
@@ -399,21 +398,20 @@ impl<'a> Engine<'a> {
     }
 
     fn dispatch(&self, kernel: usize, pass: &mut wgpu::ComputePass<'_>) {
-        self.stages[kernel].dispatch(pass, self.is_odd());
+        self.stages[kernel].dispatch(pass);
     }
 
-    /// Whether an odd number of steps was made since the upload, after which buffers may have changed places.
-    fn is_odd(&self) -> bool {
-        !(self.step - self.first_step).is_multiple_of(2)
+    /// Whether what lies in memory is put in order at the current step.
+    fn tidies(&self) -> bool {
+        !self.plan.tidy.is_empty() && (self.step - self.first_step).is_multiple_of(TIDYING)
     }
 
     /// Sorts, if that is still to be done, and takes whatever samples are due.
     fn record_sample(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         if self.phase == Phase::Advanced {
-            for kernels in [&self.plan.sort, &self.plan.before_report] {
-                for &kernel in kernels {
-                    self.dispatch(kernel, pass);
-                }
+            let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
+            for &kernel in self.plan.sort.iter().chain(tidy).chain(&self.plan.before_report) {
+                self.dispatch(kernel, pass);
             }
             self.phase = Phase::Sorted { reported: false };
         } else {

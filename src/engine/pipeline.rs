@@ -15,8 +15,6 @@ use crate::plan::{Kernel, Plan, folded};
 pub(super) struct Stage {
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
-    /// Those of odd steps, if buffers change places.
-    odd_bindings: Option<wgpu::BindGroup>,
     size: Size,
 }
 
@@ -27,10 +25,9 @@ enum Size {
 }
 
 impl Stage {
-    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, odd: bool) {
-        let bindings = self.odd_bindings.as_ref().filter(|_| odd).unwrap_or(&self.bindings);
+    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, bindings, &[]);
+        pass.set_bind_group(0, &self.bindings, &[]);
         match &self.size {
             Size::Fixed([width, height]) => pass.dispatch_workgroups(*width, *height, 1),
             Size::Demanded(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
@@ -75,43 +72,28 @@ fn stage(
     let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
     let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
     let (pipeline, linked) = gpu.compile(kernel.name, &kernel.modules, constants.copied())?;
-    let names: Vec<&str> = linked
-        .bindings
-        .iter()
-        .map(|binding| {
-            let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
-            renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer)
+    let bound = linked.bindings.iter().map(|binding| {
+        let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
+        let name = renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer);
+        let buffer = buffers.get(name).map(wgpu::Buffer::as_entire_binding);
+        let resource = buffer.or_else(|| textures.get(name).map(Texels::binding));
+        let resource = resource.ok_or_else(|| GpuError::Refused {
+            doing: format!("binding the buffers of kernel `{}`", kernel.name),
+            reason: format!("the plan has no buffer and no texture `{name}`"),
+        })?;
+        Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
+    });
+    let entries = bound.collect::<Result<Vec<_>, GpuError>>()?;
+    let bindings = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(kernel.name),
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &entries,
         })
-        .collect();
-    let entries = |odd: bool| {
-        let bound = linked.bindings.iter().zip(&names).map(|(binding, name)| {
-            let name = plan.buffer_at(name, odd);
-            let buffer = buffers.get(name).map(wgpu::Buffer::as_entire_binding);
-            let resource = buffer.or_else(|| textures.get(name).map(Texels::binding));
-            let resource = resource.ok_or_else(|| GpuError::Refused {
-                doing: format!("binding the buffers of kernel `{}`", kernel.name),
-                reason: format!("the plan has no buffer and no texture `{name}`"),
-            })?;
-            Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
-        });
-        bound.collect::<Result<Vec<_>, GpuError>>()
-    };
-    let changes = names.iter().any(|name| plan.buffer_at(name, true) != *name);
-    let (even, odd) = (entries(false)?, if changes { Some(entries(true)?) } else { None });
-    let (bindings, odd_bindings) = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
-        let layout = pipeline.get_bind_group_layout(0);
-        let bind = |entries: &[wgpu::BindGroupEntry<'_>]| {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(kernel.name),
-                layout: &layout,
-                entries,
-            })
-        };
-        (bind(&even), odd.as_deref().map(bind))
     })?;
     let size = match (kernel.demand, buffers.get(DEMANDS)) {
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed(folded(kernel.workgroups)),
     };
-    Ok(Stage { pipeline, bindings, odd_bindings, size })
+    Ok(Stage { pipeline, bindings, size })
 }

@@ -34,8 +34,8 @@ impl Engine<'_> {
         }
     }
 
-    /// Advances by `steps` and times each kernel by itself, in the order of a step. Steps that take a sample are done
-    /// but not timed; if all do, or `steps` is 0, nothing is returned.
+    /// Advances by `steps` and times each kernel by itself, in the order of a step. Steps that take a sample or
+    /// tidy are done but not timed; if all do, or `steps` is 0, nothing is returned.
     ///
     /// Results of the steps are those of [`Self::advance`], to the bit. The sum over the kernels leaves out what it
     /// costs to hand a batch to the device, and with [`StageClock::Submissions`] it is only as sharp as an empty
@@ -72,7 +72,8 @@ impl Engine<'_> {
         let kernels = [self.plan.sort.as_slice(), &self.plan.before_report, &self.plan.advance].concat();
         let mut times = vec![Vec::new(); kernels.len()];
         for _ in 0..steps {
-            if self.step == u64::MAX || self.plan.samplers.iter().any(|sampler| sampler.due(self.step)) {
+            if self.step == u64::MAX || self.tidies() || self.plan.samplers.iter().any(|sampler| sampler.due(self.step))
+            {
                 self.advance(1, 1)?;
                 continue;
             }

@@ -162,10 +162,14 @@ pub enum Traversal {
     Alone,
 }
 
+/// Steps after which what lies in memory is put in order anew: seldom enough to cost next to nothing, and often enough that what lies
+/// side by side is found side by side.
+pub const TIDYING: u64 = 32;
+
 /// How the particles of shallow water are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
-    /// In order of cells, sorted every step: for any crowd.
+    /// Found in order of cells, sorted every step: for any crowd.
     Sorted,
     /// In a bin of fixed capacity for every cell, without a sort: faster on small meshes, as long as none is full.
     Bins,
@@ -283,6 +287,9 @@ pub struct Plan {
     pub prepare: Vec<usize>,
     /// Kernels that begin a step and order the particles.
     pub sort: Vec<usize>,
+    /// Kernels that put what was ordered into that order in memory too, every [`TIDYING`] steps: what lies side by side is loaded
+    /// faster, and results are the same.
+    pub tidy: Vec<usize>,
     /// Kernels between the ordering and the report.
     pub before_report: Vec<usize>,
     /// Kernels that report: sums of observables, and particles in order of id.
@@ -296,9 +303,6 @@ pub struct Plan {
     /// At most so many storage buffers are bound by one kernel, before any is held in a texture; eight, which every adapter has,
     /// at the least.
     pub storage_buffers: u32,
-    /// Pairs of buffers or textures that change places after every step: the first holds the state as uploaded, the second that one step
-    /// on.
-    pub swapped: Vec<[&'static str; 2]>,
     /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
     pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.
@@ -350,13 +354,13 @@ impl Plan {
             textures: Vec::new(),
             prepare: Vec::new(),
             sort: Vec::new(),
+            tidy: Vec::new(),
             before_report: Vec::new(),
             report: Vec::new(),
             advance: Vec::new(),
             finish_report: Vec::new(),
             samplers: Vec::new(),
             storage_buffers: 8,
-            swapped: Vec::new(),
             reported: None,
             operations_per_particle: 0.0,
         }
@@ -386,17 +390,6 @@ impl Plan {
 
     fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
-    }
-
-    /// The buffer or texture that stands for one of a name, `odd` if the number of steps since the upload is.
-    #[must_use]
-    pub fn buffer_at<'a>(&self, name: &'a str, odd: bool) -> &'a str {
-        let partner = self.swapped.iter().find_map(|[one, other]| match name {
-            _ if name == *one => Some(*other),
-            _ if name == *other => Some(*one),
-            _ => None,
-        });
-        partner.filter(|_| odd).unwrap_or(name)
     }
 
     /// Bytes of all buffers and textures.

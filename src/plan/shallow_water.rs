@@ -253,12 +253,12 @@ impl Builder<'_> {
             return;
         }
         let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
-        let copies: &[&str] = if self.texels {
-            &["common/texels", "common/water_copies_texels"]
+        let (order, tidied) = if self.texels {
+            ("common/order_texels", &["common/texels", "common/order_texels", "common/water_tidied_texels"][..])
         } else {
-            &["common/storage", "common/stored_water", "common/water_copies"]
+            ("common/order", &["common/storage", "common/stored_water", "common/order", "common/water_tidied"][..])
         };
-        let bin = self.kernel("bin", &[copies, &["kernels/bin_water"]].concat(), particle_groups);
+        let bin = self.kernel("bin", &[&self.in_place()[..], &["kernels/bin_water"]].concat(), particle_groups);
         self.plan.prepare.push(bin);
         let (cells, row_scan) = if self.water.mesh[0].is_multiple_of(2) {
             (&["common/storage", "common/mesh_cells_paired"][..], "common/row_scan_paired")
@@ -277,13 +277,18 @@ impl Builder<'_> {
             let kernel = self.plan.add_kernel(kernel);
             self.plan.sort.push(kernel);
         }
-        let entry = if self.eights { "kernels/scatter_water_of_eight" } else { "kernels/scatter_water" };
-        let scatter = self.kernel("scatter", &[copies, &[entry]].concat(), particle_groups);
-        self.plan.sort.push(scatter);
-        self.plan.swapped.push(["particles", "sorted"]);
+        let entry = if self.eights { "kernels/order_water_of_eight" } else { "kernels/order_water" };
+        let order = self.kernel("order", &[&self.in_place()[..], &[order, entry]].concat(), particle_groups);
+        self.plan.sort.push(order);
+        let tidy = self.kernel("tidy", &[tidied, &["kernels/tidy_water"]].concat(), particle_groups);
+        let keep = self.kernel("keep_tidied", &[tidied, &["kernels/keep_tidied_water"]].concat(), particle_groups);
+        let back = [("particles", "tidied"), ("tidied", "particles")];
+        self.plan.kernels[keep].renamed.extend(back);
         if self.texels {
-            self.plan.swapped.push(["particle_masses", "sorted_masses"]);
+            let back = [("particle_masses", "tidied_masses"), ("tidied_masses", "particle_masses")];
+            self.plan.kernels[keep].renamed.extend(back);
         }
+        self.plan.tidy = vec![tidy, keep];
     }
 
     /// From particles to the surface that drives them.
@@ -338,16 +343,32 @@ impl Builder<'_> {
         self.plan.before_report.push(bath);
     }
 
-    /// Modules of the stored particles.
+    /// Modules of the stored particles, whose cells are known.
     fn stored(&self) -> Vec<&'static str> {
-        let (buffer, textures, store) = match self.storage {
-            Storage::Sorted => ("common/water_sorted", "common/water_sorted_texels", "common/store_sorted"),
-            Storage::Bins => ("common/water_bins", "common/water_bins_texels", "common/store_bins"),
-        };
+        match (self.storage, self.texels) {
+            (Storage::Sorted, true) => [self.in_place(), vec!["common/order_texels", "common/store_sorted"]].concat(),
+            (Storage::Sorted, false) => [self.in_place(), vec!["common/order", "common/store_sorted"]].concat(),
+            (Storage::Bins, true) => {
+                vec![
+                    "common/storage",
+                    "common/texels",
+                    "common/stored_water_texels",
+                    "common/water_bins_texels",
+                    "common/store_bins",
+                ]
+            }
+            (Storage::Bins, false) => {
+                vec!["common/storage", "common/stored_water", "common/water_bins", "common/store_bins"]
+            }
+        }
+    }
+
+    /// Modules of particles that stay where they lie.
+    fn in_place(&self) -> Vec<&'static str> {
         if self.texels {
-            vec!["common/storage", "common/texels", "common/stored_water_texels", textures, store]
+            vec!["common/storage", "common/texels", "common/stored_water_texels", "common/water_in_place_texels"]
         } else {
-            vec!["common/storage", "common/stored_water", buffer, store]
+            vec!["common/storage", "common/stored_water", "common/water_in_place"]
         }
     }
 
@@ -371,10 +392,9 @@ impl Builder<'_> {
     fn motion(&mut self, output: &Output) {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
         let moving = self.moving(false);
-        let (store_moved, store_reported) = match self.storage {
-            Storage::Sorted if self.texels => ("common/move_sorted", "common/report_sorted_texels"),
-            Storage::Sorted => ("common/move_sorted", "common/report_sorted"),
-            Storage::Bins => ("common/move_bins", "common/report_bins"),
+        let store_moved = match self.storage {
+            Storage::Sorted => "common/move_sorted",
+            Storage::Bins => "common/move_bins",
         };
         let with = |last: &[&'static str]| [&moving[..], &self.stored()[..], last].concat();
         let push = match (self.eights, self.storage) {
@@ -383,7 +403,7 @@ impl Builder<'_> {
             (true, Storage::Bins) => &["common/eight_bins", "passes/push_of_eight"],
         };
         let push_modules = [&self.moving(self.eights)[..], &self.stored()[..], &[store_moved], push].concat();
-        let report = with(&[store_reported, "common/sum64", "common/reduce", "kernels/report_water"]);
+        let report = with(&["common/sum64", "common/reduce", "kernels/report_water"]);
         let push = self.cell_kernel("push", &push_modules);
         let push_on = self.cell_kernel("push_from_report", &push_modules);
         let report = self.kernel("report", &report, groups);
@@ -451,9 +471,14 @@ impl Builder<'_> {
         self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
         match self.storage {
             Storage::Sorted => {
-                let purposes = ["particles in the order of the step before", "particles in order of cells"];
-                self.add_water(["particles", "particle_masses"], purposes[0], particles);
-                self.add_water(["sorted", "sorted_masses"], purposes[1], particles);
+                self.add_water(["particles", "particle_masses"], "particles", particles);
+                self.add_water(["tidied", "tidied_masses"], "particles in order of cells, for a moment", particles);
+                let purpose = "where the particles lie in order of cells";
+                if self.texels {
+                    self.plan.add_texture("order", purpose, 1, particles);
+                } else {
+                    self.plan.add_buffer("order", purpose, 4 * particles);
+                }
                 self.plan.add_buffer("counts", "particles in each cell", 4 * nodes);
                 self.plan.add_buffer("cells", "where each cell begins, and ends", 4 * (nodes + 1 + rows));
             }

@@ -1,10 +1,11 @@
-// Puts every particle into its cell of the mesh, in any order: what is made of them are sums of integers. The lanes of a subgroup
-// of eight with the same cell, which most have, take their places with one addition: software adapters add lane by lane.
+// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers. The
+// lanes of a subgroup of eight with the same cell, which most have, take their numbers with one addition: software adapters add
+// lane by lane.
 override PARTICLES: u32;
 @group(0) @binding(3) var<storage, read_write> cells: array<atomic<u32>>; // where each cell begins, then where it ends
 const NO_CELL: u32 = 0xffffffffu;
 
-fn taken_place(cell: u32, lane: u32) -> u32 {
+fn taken_number(cell: u32, lane: u32) -> u32 {
     var first_lane = lane;
     var before = 0u; // lanes with the same cell
     var together = 1u;
@@ -15,9 +16,9 @@ fn taken_place(cell: u32, lane: u32) -> u32 {
         before += select(0u, 1u, same && other < lane);
         together += select(0u, 1u, same);
     }
-    var place = 0u;
-    if (first_lane == lane && cell != NO_CELL) { place = atomicAdd(&cells[cell], together); }
-    return subgroupShuffle(place, first_lane) + before;
+    var number = 0u;
+    if (first_lane == lane && cell != NO_CELL) { number = atomicAdd(&cells[cell], together); }
+    return subgroupShuffle(number, first_lane) + before;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -26,7 +27,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     // All lanes stay to the end, as all are asked for their cells.
     let inside = index < PARTICLES;
-    let particle = copied(min(index, max(PARTICLES, 1u) - 1u));
-    let place = taken_place(select(NO_CELL, cell_of(copied_position(particle)), inside), lane_of_eight);
-    if (inside) { put_copy(place, particle); }
+    let cell = cell_of(stored_position(min(index, max(PARTICLES, 1u) - 1u)));
+    let number = taken_number(select(NO_CELL, cell, inside), lane_of_eight);
+    if (inside) { set_order(number, index); }
 }

@@ -1,4 +1,4 @@
-// Puts every particle into its cell of the mesh, in any order: what is made of them are sums of integers.
+// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers.
 override PARTICLES: u32;
 @group(0) @binding(3) var<storage, read_write> cells: array<atomic<u32>>; // where each cell begins, then where it ends
 
@@ -7,6 +7,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    let particle = copied(index);
-    put_copy(atomicAdd(&cells[cell_of(copied_position(particle))], 1u), particle);
+    set_order(atomicAdd(&cells[cell_of(stored_position(index))], 1u), index);
 }

@@ -1,0 +1,10 @@
+// Copies the particles in the order of cells.
+override PARTICLES: u32;
+
+@compute @workgroup_size(WORKGROUP)
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
+    let number = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+    if (number >= PARTICLES) { return; }
+    copy_particle(in_order(number), number);
+}
