@@ -129,6 +129,15 @@ pub fn words(generator: crate::scene::Generator, key: [u32; 2], counters: [u32; 
 /// In a small box two cells may share several faces, each with another image of the other. `image` is the code of the
 /// face's image as the cell `smaller` sees it, [`crate::tessellation::Face::image_code`]; `part` tells the draws of one
 /// face from each other. There are at most 2²⁸ cells.
+///
+/// ```
+/// use mesoscope::noise::face_counters;
+///
+/// // Cells 3 and 8 of a small box touch twice: over the boundary the face has noise of its own, and each draw too.
+/// let [across, inside] = [1, 0].map(|image| face_counters(3, 8, image, 0));
+/// assert_ne!(across, inside);
+/// assert_ne!(inside, face_counters(3, 8, 0, 1));
+/// ```
 #[must_use]
 pub fn face_counters(smaller: u32, larger: u32, image: u32, part: u32) -> [u32; 2] {
     [smaller | image << 28, larger | part << 28]

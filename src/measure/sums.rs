@@ -6,6 +6,27 @@ use crate::model::{Model, ShallowWater, Voronoi};
 use crate::plan::Plan;
 
 /// The observables of one sample of the first sampler of a plan.
+///
+/// ```
+/// use mesoscope::engine::Engine;
+/// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+/// use mesoscope::plan::{Hardware, Options, plan};
+/// use mesoscope::{measure::observables_of, model::Model, scene};
+///
+/// let small = ["space.box=[3,3,3]", r#"output={"energies":{"every":10}}"#].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let model = Model::new(&scene);
+/// let start = scene::placement::initial_state(&scene, &model);
+/// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+/// let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+/// let mut engine = Engine::new(&gpu, plan, &start)?;
+/// engine.advance(20, 20)?;
+/// let samples = engine.finish()?;
+/// let observed: Vec<_> = samples.iter().map(|sample| observables_of(sample, engine.plan(), &model)).collect();
+/// assert_eq!(observed.iter().map(|row| row.step).collect::<Vec<_>>(), [0, 10, 20]);
+/// assert!(observed[0].kinetic_temperature() > 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observables {
     let sum = |index: usize| sample.sums.get(index).map_or(f64::NAN, |sum| *sum as f64);

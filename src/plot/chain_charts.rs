@@ -47,6 +47,15 @@ fn compared(table: &EnergyTable, quantity: &str) -> Vec<Series> {
 /// A pulse on its way: displacements of clusters at some reduced times, above each other.
 ///
 /// The columns are `tau`, `cluster`, `micro`, `dpd` and `frictionless`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, chain_profile_chart};
+///
+/// let columns = ["tau", "cluster", "micro", "dpd", "frictionless"].map(str::to_owned).to_vec();
+/// let chart = chain_profile_chart("A chain", "", &EnergyTable { columns, rows: vec![vec![0.0, 0.0, 1.0, 1.0, 1.0], vec![2.0, 0.0, 0.5, 0.5, 0.6]] });
+/// // A panel for each time, with a line for each chain.
+/// assert_eq!((chart.panels.len(), chart.panels[0].series.len()), (2, 3));
+/// ```
 #[must_use]
 pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let mut chart = Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: Vec::new() };
@@ -74,6 +83,15 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
 ///
 /// The columns are `tau` and, for each of `micro`, `dpd` and `frictionless`, `…_peak`, `…_variance`, `…_energy` and the same
 /// with `…_exact_` in between.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, chain_pulse_chart};
+///
+/// let columns = ["tau", "micro_peak", "micro_variance", "micro_energy"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 1.0, 4.0, 1.0], vec![2.0, 0.5, 4.1, 0.99]];
+/// let chart = chain_pulse_chart("A chain", "", &EnergyTable { columns, rows });
+/// assert_eq!(chart.panels.len(), 3, "peak, variance and energy");
+/// ```
 #[must_use]
 pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let panel = |quantity: &str, label: &str| {
@@ -98,6 +116,16 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Ch
 ///
 /// The columns are `tau`, `limit`, and for each of `micro`, `dpd` and `frictionless` its own, `…_correlation`, with
 /// `…_correlation_error` and `…_exact_correlation`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, chain_correlation_chart};
+///
+/// let columns = ["tau", "limit", "dpd_correlation"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 1.0, 1.0], vec![0.5, 0.5, 0.48]];
+/// let chart = chain_correlation_chart("A chain", "", &EnergyTable { columns, rows });
+/// let limit = chart.panels[0].series.last().map(|series| series.points.as_slice());
+/// assert_eq!(limit, Some(&[[0.0, 1.0], [0.5, 0.5]][..]));
+/// ```
 #[must_use]
 pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let mut panel = Panel::new(REDUCED_TIME, "Momentum autocorrelation C_{PP}(τ)");
@@ -111,6 +139,16 @@ pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable)
 ///
 /// The columns are `time` and, for each number n of beads in a cluster, `running_friction_n`; `plateau_n` for the line that is
 /// fitted to the largest.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, chain_memory_chart};
+///
+/// let columns = ["time", "running_friction_10", "running_friction_20"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 0.0, 0.0], vec![1.0, 0.4, 0.45]];
+/// let chart = chain_memory_chart("A chain", "", &EnergyTable { columns, rows });
+/// // On a logarithmic axis there is no place for time 0.
+/// assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.45]]);
+/// ```
 #[must_use]
 pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let label = "Running integral (n/2) ∫ K as a friction γ*";
@@ -137,6 +175,15 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> C
 ///
 /// The columns are `tau`, and for each of `micro`, `dpd` and `frictionless` `…_momentum_variance`,
 /// `…_separation_variance` and `…_exact_separation_variance`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, chain_equilibrium_chart};
+///
+/// let columns = ["tau", "dpd_momentum_variance", "dpd_separation_variance"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 1.01, 0.99], vec![1.0, 0.99, 1.02]];
+/// let chart = chain_equilibrium_chart("A chain", "", &EnergyTable { columns, rows });
+/// assert_eq!(chart.panels[0].references[0].value, 1.0);
+/// ```
 #[must_use]
 pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let lines = |quantity: &str| {

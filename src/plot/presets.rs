@@ -88,6 +88,16 @@ pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, tem
 ///
 /// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, and with a bath `bath_energy`,
 /// `extended_energy` and `temperature`, of which `temperature` is the set kT.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, shallow_water_chart};
+///
+/// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
+/// let chart = shallow_water_chart("A vortex", &EnergyTable { columns, rows }, None);
+/// let change = &chart.panels[1].series[0].points;
+/// assert!((change[1][1] - 1e-3).abs() < 1e-12);
+/// ```
 #[must_use]
 pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option<f64>) -> Chart {
     let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
@@ -120,6 +130,15 @@ pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option
 }
 
 /// Changes of the circulations of material loops over time, relative to their first values unless one of these is 0.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, circulation_chart};
+///
+/// let columns = ["time", "loop_0"].map(str::to_owned).to_vec();
+/// let chart = circulation_chart("A loop", &EnergyTable { columns, rows: vec![vec![0.0, 2.0], vec![1.0, 2.002]] });
+/// let change = &chart.panels[0].series[0].points;
+/// assert!((change[1][1] - 1e-3).abs() < 1e-12);
+/// ```
 #[must_use]
 pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
     let loops: Vec<(&String, Vec<[f64; 2]>)> = table
@@ -197,6 +216,16 @@ pub fn correlation_chart(title: &str, lags: &[f64], displacement: &[f64], autoco
 
 /// A normalised autocorrelation of a `quantity` over the lag, with its errors and the curve fitted to it, of which an
 /// empty list leaves the curve out.
+///
+/// ```
+/// use mesoscope::plot::autocorrelation_chart;
+///
+/// let (lags, values, errors) = ([0.0, 0.1, 0.2], [1.0, 0.62, 0.35], [0.0, 0.02, 0.02]);
+/// let fit = lags.map(|lag: f64| (-5.0 * lag).exp());
+/// let chart = autocorrelation_chart("A fluid", "velocity", &lags, &values, &errors, &fit);
+/// assert_eq!(chart.panels[0].y.label, "Normalised velocity autocorrelation");
+/// assert_eq!(chart.panels[0].series.len(), 2);
+/// ```
 #[must_use]
 pub fn autocorrelation_chart(
     title: &str,
@@ -231,6 +260,15 @@ const MOST_MARKERS: usize = 60;
 
 /// A histogram as a probability density of a `quantity`, in steps from `edges[k]` to `edges[k + 1]`, with a density to
 /// compare it with, given by name as points.
+///
+/// ```
+/// use mesoscope::plot::histogram_chart;
+///
+/// let gaussian: Vec<[f64; 2]> =
+///     [-1.0, 0.0, 1.0].map(|v: f64| [v, (-v * v / 2.0).exp() / std::f64::consts::TAU.sqrt()]).to_vec();
+/// let chart = histogram_chart("A gas", "velocity", &[-1.0, 0.0, 1.0], &[0.34, 0.35], ("Maxwell", &gaussian));
+/// assert_eq!(chart.panels[0].series[0].points[..2], [[-1.0, 0.34], [0.0, 0.34]]);
+/// ```
 #[must_use]
 pub fn histogram_chart(
     title: &str,

@@ -7,6 +7,17 @@ use super::presets::EnergyTable;
 /// been added to the energies of a cell since the first row.
 ///
 /// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, energetic_cells_chart};
+///
+/// let columns = ["time", "temperature", "internal_temperature", "kinetic_energy", "internal_energy", "total_energy"];
+/// let rows = vec![vec![0.0, 1.0, 1.0, 100.0, 500.0, 650.0], vec![0.1, 1.1, 0.98, 110.0, 490.0, 650.0]];
+/// let table = EnergyTable { columns: columns.map(str::to_owned).to_vec(), rows };
+/// let chart = energetic_cells_chart("Hot and cold", &table, 100);
+/// // What each cell has gained.
+/// assert_eq!(chart.panels[1].series[0].points[1], [0.1, 1.1 - 1.0]);
+/// ```
 #[must_use]
 pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64) -> Chart {
     let time = "Time (time units)";
@@ -30,6 +41,15 @@ pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u
 /// tessellation has.
 ///
 /// The columns are `neighbours`, `fraction`, `fraction_error` and `random_points`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, neighbours_chart};
+///
+/// let columns = ["neighbours", "fraction", "fraction_error", "random_points"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![5.0, 0.26, 0.01, 0.26], vec![6.0, 0.29, 0.01, 0.30]];
+/// let chart = neighbours_chart("Cells", &EnergyTable { columns, rows });
+/// assert_eq!(chart.panels.len(), 1);
+/// ```
 #[must_use]
 pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
     let index = |name: &str| table.columns.iter().position(|column| column == name);
@@ -71,6 +91,16 @@ pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
 /// logarithmic one.
 ///
 /// The columns are `time`, `amplitude` and `fit`.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, shear_wave_chart};
+///
+/// let columns = ["time", "amplitude", "fit"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.0, 0.5, 0.5], vec![1.0, -0.02, 0.01]];
+/// let chart = shear_wave_chart("A wave", "", &EnergyTable { columns, rows });
+/// // A logarithmic axis shows the magnitude.
+/// assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.02]);
+/// ```
 #[must_use]
 pub fn shear_wave_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
     let [amplitude, fit] = ["amplitude", "fit"].map(|column| table.points(column, 1.0).unwrap_or_default());

@@ -34,6 +34,15 @@ pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
 
 /// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
 ///
+/// ```
+/// use mesoscope::scene;
+///
+/// let (name, text) = scene::read("dpd-fluid")?;
+/// assert_eq!(name, "dpd-fluid");
+/// assert!(text.starts_with('{'));
+/// # Ok::<(), scene::SceneError>(())
+/// ```
+///
 /// # Errors
 /// No such scene, a file that cannot be read or is not text.
 pub fn read(source: &str) -> Result<(String, String), SceneError> {
@@ -64,6 +73,11 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// The error for a name that is neither a file nor a built-in scene.
+///
+/// ```
+/// let error = mesoscope::scene::unknown_builtin("dpd-fluit");
+/// assert!(error.to_string().contains("dpd-fluid"));
+/// ```
 #[must_use]
 pub fn unknown_builtin(name: &str) -> SceneError {
     let names = builtin().iter().map(|scene| scene.name);
