@@ -295,7 +295,7 @@ fn fourier_solves_are_those_of_double_precision() {
     }
 }
 
-/// Long lines take three passes of a radix.
+/// Long lines take two passes of a large radix, or three.
 #[test]
 fn fourier_solves_of_large_meshes_are_those_of_double_precision() {
     for mesh in [[1024, 1024], [512, 4096], [2048, 512]] {

@@ -1,4 +1,4 @@
-// Butterflies of thirty-two legs: 8 of 4, and 4 of 8. For whole lines alone, between whose passes there is nothing to turn.
+// Butterflies of thirty-two legs: 8 of 4, and 4 of 8.
 const RADIX = 32u;
 alias Legs = array<vec2<f32>, 32>;
 // Powers of exp(-2πi/32).
@@ -83,6 +83,74 @@ fn scattered(site: Site, v: Legs) {
     store_pair(site, 15u, vec4<f32>(v[15], v[31]));
 }
 
+// Leg j by the j-th power of a root of unity.
+fn turned(v: Legs, step: u32) -> Legs {
+    let w1 = roots[step];
+    let w2 = roots[2u * step];
+    let w3 = times(w2, w1);
+    let w4 = roots[4u * step];
+    let w5 = times(w4, w1);
+    let w6 = times(w4, w2);
+    let w7 = times(w4, w3);
+    let w8 = roots[8u * step];
+    let w9 = times(w8, w1);
+    let w10 = times(w8, w2);
+    let w11 = times(w8, w3);
+    let w12 = times(w8, w4);
+    let w13 = times(w8, w5);
+    let w14 = times(w8, w6);
+    let w15 = times(w8, w7);
+    let w16 = roots[16u * step];
+    let w17 = times(w16, w1);
+    let w18 = times(w16, w2);
+    let w19 = times(w16, w3);
+    let w20 = times(w16, w4);
+    let w21 = times(w16, w5);
+    let w22 = times(w16, w6);
+    let w23 = times(w16, w7);
+    let w24 = times(w16, w8);
+    let w25 = times(w16, w9);
+    let w26 = times(w16, w10);
+    let w27 = times(w16, w11);
+    let w28 = times(w16, w12);
+    let w29 = times(w16, w13);
+    let w30 = times(w16, w14);
+    let w31 = times(w16, w15);
+    return Legs(
+        v[0],
+        times(v[1], w1),
+        times(v[2], w2),
+        times(v[3], w3),
+        times(v[4], w4),
+        times(v[5], w5),
+        times(v[6], w6),
+        times(v[7], w7),
+        times(v[8], w8),
+        times(v[9], w9),
+        times(v[10], w10),
+        times(v[11], w11),
+        times(v[12], w12),
+        times(v[13], w13),
+        times(v[14], w14),
+        times(v[15], w15),
+        times(v[16], w16),
+        times(v[17], w17),
+        times(v[18], w18),
+        times(v[19], w19),
+        times(v[20], w20),
+        times(v[21], w21),
+        times(v[22], w22),
+        times(v[23], w23),
+        times(v[24], w24),
+        times(v[25], w25),
+        times(v[26], w26),
+        times(v[27], w27),
+        times(v[28], w28),
+        times(v[29], w29),
+        times(v[30], w30),
+        times(v[31], w31),
+    );
+}
 fn weighed(v: Legs, site: Site) -> Legs {
     return Legs(
         v[0].yx * symbol(site, 0u),
