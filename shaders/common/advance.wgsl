@@ -4,14 +4,15 @@ override DISPLACEMENT_LIMIT: f32;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
 const STRAIN_LIMIT: f32 = 1073741824.0;
+var<private> failures_of_particles: u32; // raised once, when all particles of an invocation are done
 
 // `strain` is the sum of the magnitudes of all impulses on the particle: it tells, where the wrapped sum cannot, that
 // the sum has left the range of integers, and it carries what is not a number.
 fn check_particle(momentum: Steps, species: i32, strain: f32) {
     let travelled = abs(Vector(momentum)) * drift_of(species);
-    raise(select(FAILURE_IMPULSE, 0u, strain < STRAIN_LIMIT)
+    failures_of_particles |= select(FAILURE_IMPULSE, 0u, strain < STRAIN_LIMIT)
         | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
-        | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT));
+        | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT);
 }
 
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {

@@ -24,4 +24,3 @@ fn nodes_of(column: u32, row: u32) -> Square {
     let beyond = select(subgroupShuffle(own, (lane + 2u) & 7u), subgroupShuffle(beside, (lane + 3u) & 3u), lane > 5u);
     return Square(before, own, after, beyond);
 }
-fn end_strip(column: u32, row: u32) {}

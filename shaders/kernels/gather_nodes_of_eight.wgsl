@@ -36,10 +36,12 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let eight = (column / 8u + select(eights - 1u, 1u, place == 0u)) % eights;
         gather_column(2u * (CELLS_X * CELLS_Y / STRIP + 3u * eight + place), 3u * eights, strip);
     }
-    for (var k = 0u; k < STRIP; k++) {
-        let node = (strip * STRIP + k) * CELLS_X + column;
+    var crowded = 0xffffffffu; // the first node with too much
+    for (var k = STRIP; k > 0u; k--) {
+        let node = (strip * STRIP + k - 1u) * CELLS_X + column;
         // A cell has too much, or the sum has gone round.
-        raise_at(select(0u, FAILURE_CROWDING, least[k] < LEAST_MASS), node);
-        node_masses[node] = u32(gathered[k]);
+        crowded = select(crowded, node, least[k - 1u] < LEAST_MASS);
+        node_masses[node] = u32(gathered[k - 1u]);
     }
+    raise_at(select(FAILURE_CROWDING, 0u, crowded == 0xffffffffu), crowded);
 }

@@ -3,6 +3,9 @@
 override CLOSES: u32; // 1 from before the closing kick
 override LEAST_DEPTH: f32; // less its mean
 
+const NO_CELL: u32 = 0xffffffffu;
+var<private> dry_cell: u32 = NO_CELL; // the first without a depth
+
 fn of_lane(polynomial: Square, lane: u32) -> Square {
     return Square(subgroupShuffle(polynomial[0], lane), subgroupShuffle(polynomial[1], lane),
         subgroupShuffle(polynomial[2], lane), subgroupShuffle(polynomial[3], lane));
@@ -11,7 +14,7 @@ fn of_lane(polynomial: Square, lane: u32) -> Square {
 fn visit_cell(cell: u32) {
     let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
-    raise_at(select(FAILURE_DEPTH, 0u, depth_in_cell(cell, nodes) > LEAST_DEPTH), cell);
+    dry_cell = select(min(dry_cell, cell), dry_cell, depth_in_cell(cell, nodes) > LEAST_DEPTH);
     let polynomial = surface_of(nodes);
     let closes = CLOSES == 1u && clock_closing() == 1;
     let bin = opened_bin(cell);
@@ -27,5 +30,8 @@ fn visit_cell(cell: u32) {
         store_moved_of_eight(eight, bin, cell, owner, first, index, opened(particle, kick));
     }
     end_moving_eight(eight, bin, cell);
-    raise(failures_of_motion);
+}
+// Once a strip: software adapters pay for every place in the program that raises, even if nothing fails.
+fn end_strip(column: u32, row: u32) {
+    raise_at(failures_of_motion | select(FAILURE_DEPTH, 0u, dry_cell == NO_CELL), dry_cell);
 }
