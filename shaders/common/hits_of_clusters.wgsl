@@ -13,10 +13,13 @@ fn candidate_of_lane(s: Stretches, candidate: u32) -> Probe {
 }
 fn hits_of_cluster(row: u32, index: u32, lane: u32, s: Stretches, base: u32, end: u32) -> u32 {
     var mask = 0u;
-    for (var part = 0u; part < 32u && base + part < end; part += 8u) {
+    var part = 0u;
+    loop {
         let next = candidate_of_lane(s, base + part + 8u + lane);
         mask |= eight_hits(hits_probe, lane, hits_next) << part;
         hits_next = next;
+        part += 8u;
+        if (part >= 32u || base + part >= end) { break; }
     }
     let left = end - base;
     mask &= select(0xffffffffu, (1u << (left & 31u)) - 1u, left < 32u);
