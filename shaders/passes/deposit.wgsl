@@ -13,10 +13,15 @@ fn visit_cell(cell: u32) {
     var total = 0.0;
     let bin = opened_bin(cell);
     collect(cell, bin);
-    for (var k = 0u; k < bin.count; k++) {
-        let particle = stored(place_in(bin, k));
-        total += f32(particle.mass);
-        add_particle(&moments, particle);
+    var k = 0u;
+    loop { // left at its end: see kernels/clusters
+        if (k < bin.count) {
+            let particle = stored(place_in(bin, k));
+            total += f32(particle.mass);
+            add_particle(&moments, particle);
+        }
+        k++;
+        if (k >= bin.count) { break; }
     }
     moments = without_rounding(moments, i32(bin.count));
     spread(cell, node_weights(moments), moments[0].x, total > MOST);

@@ -19,15 +19,20 @@ fn visit_cell(cell: u32) {
     let closes = CLOSES == 1u && clock_closing() == 1;
     let bin = opened_bin(cell);
     let eight = opened_eight(bin);
-    for (var first = 0u; first < eight.count; first += 8u) {
-        let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
-        var particle = stored(index);
-        let x = place_along(particle.position.x, CELLS_X);
-        let y = place_along(particle.position.y, CELLS_Y).offset;
-        let owner = x.cell & 7u;
-        let kick = half_kick(of_lane(polynomial, owner), x.offset, y);
-        if (closes) { particle.velocity = closed(particle.velocity, kick); }
-        store_moved_of_eight(eight, bin, cell, owner, first, index, opened(particle, kick));
+    var first = 0u;
+    loop { // left at its end: see kernels/clusters
+        if (first < eight.count) {
+            let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
+            var particle = stored(index);
+            let x = place_along(particle.position.x, CELLS_X);
+            let y = place_along(particle.position.y, CELLS_Y).offset;
+            let owner = x.cell & 7u;
+            let kick = half_kick(of_lane(polynomial, owner), x.offset, y);
+            if (closes) { particle.velocity = closed(particle.velocity, kick); }
+            store_moved_of_eight(eight, bin, cell, owner, first, index, opened(particle, kick));
+        }
+        first += 8u;
+        if (first >= eight.count) { break; }
     }
     end_moving_eight(eight, bin, cell);
 }
