@@ -695,7 +695,10 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
                     if ["bin", "scatter", "diffusion", "viscosity"].contains(&kernel.name) {
                         assert!(groups * 64 >= count, "`{}` leaves particles out: {count} in {lengths}", kernel.name);
                     }
-                    if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
+                    // Workgroups are parts of rows, or share them all.
+                    if let Some(&(_, sharers)) = kernel.constants.iter().find(|(name, _)| *name == "SHARES") {
+                        assert_eq!(groups as f64, sharers, "`{}`: {count} in {lengths}", kernel.name);
+                    } else if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
                         assert_eq!(
                             groups % (u64::from(plan.cells[1]) * u64::from(plan.cells[2])),
                             0,

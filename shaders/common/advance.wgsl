@@ -1,6 +1,5 @@
 // The end of a step for one particle: drift, and count it into its next cell.
 override DISPLACEMENT_LIMIT: f32;
-@group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
 const STRAIN_LIMIT: f32 = 1073741824.0;

@@ -1,5 +1,4 @@
 // The work of one row in the prefix sum over cells.
-@group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>;
 
 // Particles in the row's cells with its frame (x) and without (y).
 fn row_totals(row: u32) -> vec2<u32> {

@@ -1,7 +1,7 @@
 // An exclusive prefix sum over the lanes of a workgroup, of two sums at once.
 var<workgroup> scan_lanes: array<vec2<u32>, SCAN_LANES>;
 
-fn workgroup_scan(lane: u32, value: vec2<u32>) -> vec2<u32> {
+fn scan_of_lanes(lane: u32, value: vec2<u32>) -> vec2<u32> {
     scan_lanes[lane] = value;
     workgroupBarrier();
     for (var stride = 1u; stride < SCAN_LANES; stride <<= 1u) {

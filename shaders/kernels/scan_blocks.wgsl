@@ -8,7 +8,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let row = block * SCAN_LANES + lane;
     var own = vec2<u32>(0u);
     if (row < rows()) { own = row_totals(row); }
-    let before = workgroup_scan(lane, own);
+    let before = scan_of_lanes(lane, own);
     if (row < rows()) { row_sums[row] = before; }
     if (lane == SCAN_LANES - 1u && block * SCAN_LANES < rows()) { row_sums[rows() + block] = before + own; }
 }

@@ -10,7 +10,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     var own = vec2<u32>(0u);
     for (var block = first; block < end; block++) { own += row_sums[rows() + block]; }
     if (lane == 0u) { begin_step(); }
-    var before = workgroup_scan(lane, own);
+    var before = scan_of_lanes(lane, own);
     for (var block = first; block < end; block++) {
         let total = row_sums[rows() + block];
         row_sums[rows() + block] = before;

@@ -21,4 +21,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let full_step = steps_of(me.momentum) + clock_closing() * sums.kick;
     store_advanced(row, index, me, full_step + sums.kick, sums.kick, sums.strain);
 }
-fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }
+fn pass_finish(group: u32, lane: u32) {
+    raise(failures_of_particles);
+    end_step(lane);
+}

@@ -20,4 +20,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let relaxed = steps_of(me.momentum) + clock_closing() * sums.impulse;
     store_advanced(row, index, me, relaxed + sums.kick, sums.kick, sums.strain);
 }
-fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }
+fn pass_finish(group: u32, lane: u32) {
+    raise(failures_of_particles);
+    end_step(lane);
+}

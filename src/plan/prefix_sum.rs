@@ -9,8 +9,8 @@ const SINGLE_SCAN_CELLS: u64 = 1 << 14;
 pub(super) struct PrefixSum<'a> {
     /// Modules of every kernel, those that know rows and cells among them.
     pub modules: Vec<&'static str>,
-    /// The module that sums up a row.
-    pub row_scan: &'static str,
+    /// Modules that sum up a row.
+    pub row_scan: &'static [&'static str],
     /// Modules that begin the step, or `common/same_step` where it has begun.
     pub clock: &'a [&'static str],
     /// Rows of cells.
@@ -25,24 +25,21 @@ impl PrefixSum<'_> {
         let kernel = |name, more: &[&[&'static str]], workgroups| {
             Kernel::new(name, [&self.modules[..], &more.concat()].concat(), workgroups)
         };
-        let sums = [self.row_scan, "common/scan_wide", "common/workgroup_scan"];
+        let lanes = &["common/scan_wide", "common/workgroup_scan"];
         if !needs_levels(self.cells, options) {
-            return vec![kernel("scan", &[&sums, self.clock, &["kernels/scan"]], 1)];
+            let all_rows = &["common/scan_all_rows", "kernels/scan"];
+            return vec![kernel("scan", &[self.row_scan, lanes, self.clock, all_rows], 1)];
         }
         vec![
-            kernel("scan_blocks", &[&sums, &["kernels/scan_blocks"]], self.rows.div_ceil(256)),
-            kernel(
-                "scan_tops",
-                &[&["common/scan_wide", "common/workgroup_scan"], self.clock, &["kernels/scan_tops"]],
-                1,
-            ),
-            kernel("scan_rows", &[&[self.row_scan, "kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
+            kernel("scan_blocks", &[self.row_scan, lanes, &["kernels/scan_blocks"]], self.rows.div_ceil(256)),
+            kernel("scan_tops", &[lanes, self.clock, &["kernels/scan_tops"]], 1),
+            kernel("scan_rows", &[self.row_scan, &["kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
         ]
     }
 }
 
 /// Whether so many cells are summed in several levels.
-fn needs_levels(cells: u64, options: Options) -> bool {
+pub(super) fn needs_levels(cells: u64, options: Options) -> bool {
     cells > SINGLE_SCAN_CELLS || options.many_level_scan
 }
 

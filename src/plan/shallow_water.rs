@@ -261,9 +261,9 @@ impl Builder<'_> {
         let bin = self.kernel("bin", &[&self.in_place()[..], &["kernels/bin_water"]].concat(), particle_groups);
         self.plan.prepare.push(bin);
         let (cells, row_scan) = if self.water.mesh[0].is_multiple_of(2) {
-            (&["common/storage", "common/mesh_cells_paired"][..], "common/row_scan_paired")
+            (&["common/storage", "common/mesh_cells_paired"][..], &["common/row_scan_paired"][..])
         } else {
-            (&["common/mesh_cells"][..], "common/row_scan")
+            (&["common/mesh_cells"][..], &["common/counts", "common/row_scan"][..])
         };
         let sum = PrefixSum {
             modules: [&self.mesh()[..], cells].concat(),

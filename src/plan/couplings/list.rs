@@ -104,7 +104,13 @@ impl Builder<'_> {
         let groups = self.groups(self.particles);
         let modules = [&self.space()[..], &[self.cells(), "common/cells_plain", "common/cells_buffer"]].concat();
         let (rows, cells) = (self.grid.rows(), self.grid.count());
-        let sum = PrefixSum { modules, row_scan: "common/row_scan", clock: &["common/same_step"], rows, cells };
+        let sum = PrefixSum {
+            modules,
+            row_scan: &["common/counts", "common/row_scan"],
+            clock: &["common/same_step"],
+            rows,
+            cells,
+        };
         let mut kernels = vec![self.kernel("bin", &[self.cells(), "common/ranks", "kernels/bin"], groups)];
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
         kernels

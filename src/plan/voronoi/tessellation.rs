@@ -80,7 +80,13 @@ impl Builder<'_> {
     fn scan(&mut self, kernels: &mut Vec<usize>) {
         let modules = [&SPACE[..], &["common/grid2", "common/cells_plain", "common/cells_buffer"]].concat();
         let (rows, cells) = (self.grid.rows(), self.grid.count());
-        let sum = PrefixSum { modules, row_scan: "common/row_scan", clock: &["common/same_step"], rows, cells };
+        let sum = PrefixSum {
+            modules,
+            row_scan: &["common/counts", "common/row_scan"],
+            clock: &["common/same_step"],
+            rows,
+            cells,
+        };
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel_once(kernel)));
     }
 

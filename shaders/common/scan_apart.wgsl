@@ -1,0 +1,2 @@
+// A kernel of its own begins the next step.
+fn end_step(lane: u32) {}
