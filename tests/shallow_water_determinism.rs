@@ -9,7 +9,7 @@ use std::collections::HashSet;
 use mesoscope::engine::{EngineError, Sample};
 use mesoscope::model::Model;
 use mesoscope::output::checkpoint;
-use mesoscope::plan::{Options, Storage, Traversal};
+use mesoscope::plan::{Options, Storage, TIDYING, Traversal};
 use mesoscope::reference::ShallowWaterReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -135,6 +135,31 @@ fn the_storage_order_does_not_matter() {
             let shuffled = bytes::shuffled(&scene, options, STEPS, BATCH, &mut random);
             assert!(expected == shuffled, "{storage:?}: {:?}", scene.interactions);
         }
+    }
+}
+
+#[test]
+fn sorted_water_is_put_in_order_of_cells_now_and_then() {
+    let scene = sampled(&[]);
+    let (model, state) = start(&scene);
+    let [columns, rows] = model.shallow_water.as_ref().unwrap().mesh.map(u64::from);
+    // Words of a particle, of which the first two are its position: in textures, and in a buffer.
+    for (serial_memory, words) in [(true, 4), (false, 6)] {
+        let options =
+            Options { storage: Some(Storage::Sorted), serial_memory: Some(serial_memory), ..Options::default() };
+        let mut engine = engine(&scene, &state, options);
+        let mut in_order = |steps: u64| {
+            engine.advance(steps, BATCH).unwrap();
+            engine.reported().unwrap();
+            let particles = engine.words("particles").unwrap();
+            let cells: Vec<u64> = (particles.chunks_exact(words).take(state.len()))
+                .map(|word| (u64::from(word[1]) * rows >> 32) * columns + (u64::from(word[0]) * columns >> 32))
+                .collect();
+            assert_eq!(cells.len(), state.len());
+            cells.is_sorted()
+        };
+        let tidied = [TIDYING - 1, 1, TIDYING - 1, 1].map(&mut in_order);
+        assert_eq!(tidied, [false, true, false, true], "serial memory: {serial_memory}");
     }
 }
 

@@ -90,7 +90,9 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
 /// let columns = ["tau", "micro_peak", "micro_variance", "micro_energy"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 1.0, 4.0, 1.0], vec![2.0, 0.5, 4.1, 0.99]];
 /// let chart = chain_pulse_chart("A chain", "", &EnergyTable { columns, rows });
-/// assert_eq!(chart.panels.len(), 3, "peak, variance and energy");
+/// let points = |panel: usize| chart.panels[panel].series[0].points.clone();
+/// assert_eq!(points(0), [[0.0, 1.0], [2.0, 0.5]], "the peak");
+/// assert_eq!(points(1), [[0.0, 4.0], [2.0, 4.1]], "the variance");
 /// ```
 #[must_use]
 pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
