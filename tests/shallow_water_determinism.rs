@@ -153,7 +153,7 @@ fn sorted_water_is_put_in_order_of_cells_now_and_then() {
             engine.reported().unwrap();
             let particles = engine.words("particles").unwrap();
             let cells: Vec<u64> = (particles.chunks_exact(words).take(state.len()))
-                .map(|word| (u64::from(word[1]) * rows >> 32) * columns + (u64::from(word[0]) * columns >> 32))
+                .map(|word| ((u64::from(word[1]) * rows) >> 32) * columns + ((u64::from(word[0]) * columns) >> 32))
                 .collect();
             assert_eq!(cells.len(), state.len());
             cells.is_sorted()

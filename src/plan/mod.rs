@@ -283,9 +283,9 @@ pub struct Plan {
     pub buffers: Vec<Buffer>,
     /// All textures: arrays that are loaded lane by lane where that is dear.
     pub textures: Vec<Texture>,
-    /// Kernels run once after an upload.
+    /// Kernels run once after an upload, which also begin the first step where steps end with the beginning of the next.
     pub prepare: Vec<usize>,
-    /// Kernels that begin a step and order the particles.
+    /// Kernels that begin a step, unless the end of the one before has, and order the particles.
     pub sort: Vec<usize>,
     /// Kernels that put what was ordered into that order in memory too, every [`TIDYING`] steps: what lies side by side is loaded
     /// faster, and results are the same.
