@@ -22,6 +22,21 @@ fn mesoscope(directory: &std::path::Path, arguments: &[&str]) {
 }
 
 #[test]
+fn the_scene_of_the_program_is_correct() {
+    let programs = blocks("rust,no_run");
+    let loads: Vec<&str> = programs.iter().flat_map(|program| program.split("scene::load(").skip(1)).collect();
+    assert!(!loads.is_empty());
+    for load in loads {
+        let call = load.split_once(")?").unwrap().0;
+        let mut texts = call.split('"').skip(1).step_by(2);
+        let (name, changes) = (texts.next().unwrap(), texts.map(str::to_owned).collect::<Vec<_>>());
+        if let Err(error) = mesoscope::scene::load(name, &changes) {
+            panic!("scene::load({call}): {error}");
+        }
+    }
+}
+
+#[test]
 fn the_commands_run() {
     let directory = tempfile::tempdir().unwrap();
     let commands: Vec<String> =

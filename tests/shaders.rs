@@ -410,6 +410,26 @@ fn every_module_is_embedded_and_can_be_asked_for() {
 }
 
 #[test]
+fn the_shaders_of_pictures_are_valid() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders/plot");
+    let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(!files.is_empty());
+    let complaints: Vec<String> = (files.into_iter())
+        .filter_map(|file| {
+            let text = std::fs::read_to_string(&file).unwrap();
+            let module = naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text));
+            let valid = module.and_then(|module| {
+                naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+                    .validate(&module)
+                    .map_err(|error| error.emit_to_string(&text))
+            });
+            valid.err().map(|error| format!("{}: {error}", file.display()))
+        })
+        .collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+#[test]
 fn every_constant_without_default_has_a_value_that_fits() {
     let mut complaints = BTreeMap::new();
     for (scene, plan) in plans() {

@@ -6,7 +6,7 @@ mod support;
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::measure::{Observables, observables_of};
 use mesoscope::model::{Model, ShallowWater};
-use mesoscope::plan::{Options, Storage};
+use mesoscope::plan::{Options, Storage, Traversal};
 use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -576,6 +576,25 @@ fn a_crowd_in_one_cell_is_refused_by_bins_and_right_when_sorted() {
     bins.upload(&spread).unwrap();
     bins.advance(2, 1).unwrap();
     bins.finish().unwrap();
+}
+
+#[test]
+fn more_particles_in_a_cell_than_an_adapter_makes_turns_are_all_seen_or_the_run_ends() {
+    let scene = water(&["interactions.0.mesh=[8,8]", "particles.0.count=70000", "time.step=1e-7", EVERY_STEP]);
+    let state = crowd(&scene, [3 << 29, 5 << 29]);
+    for traversal in [in_eights().traversal, Some(Traversal::Rows)] {
+        let mut device = engine(&scene, &state, Options { traversal, ..stored(Storage::Sorted) });
+        match device.advance(2, 2).and_then(|()| device.finish()) {
+            Ok(_) => {
+                let nodes = device.words("node_masses").unwrap();
+                let total: u64 = nodes[..64].iter().map(|mass| u64::from(*mass)).sum();
+                assert_eq!(total, shallow_water(&scene).total_mass());
+            }
+            Err(error) => {
+                assert!(matches!(error, EngineError::GaveUp { step: 0, .. }), "{traversal:?}: {error}");
+            }
+        }
+    }
 }
 
 #[test]

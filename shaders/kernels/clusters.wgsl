@@ -63,6 +63,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         part++;
         if (part >= last_part) { break; }
     }
+    report_turns(workgroups.x >> 16u);
     pass_finish(group, lane);
 }
 

@@ -19,4 +19,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     visit_cell((row + 2u) * CELLS_X + column);
     visit_cell((row + 3u) * CELLS_X + column);
     end_strip(column, row);
+    report_turns(workgroups.x >> 16u);
 }

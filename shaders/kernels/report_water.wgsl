@@ -41,6 +41,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let s = surface_at(cell) - depths[cell];
         bath = sum64_of_f32(BATH_SQUARE * s * s);
     }
+    report_turns(workgroups.x >> 16u);
     reduce_quantity(group, lane, 0u, kinetic);
     reduce_quantity(group, lane, 1u, momentum_x);
     reduce_quantity(group, lane, 2u, momentum_y);

@@ -105,8 +105,9 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     };
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
+    let dimensions = super::dimensions(lengths.len());
     let mut rows = vec![
-        ("particles", format!("{particles} in {} dimensions, box {}", lengths.len(), lengths.join(" × "))),
+        ("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
     ];
     if let (Some(water), [Interaction::ShallowWater(asked)]) = (&model.shallow_water, scene.interactions.as_slice()) {

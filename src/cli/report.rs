@@ -88,13 +88,13 @@ impl Reporter {
             Event::Started { adapter, first_step, last_step } => {
                 let particles = Model::new(&self.scene).particle_count();
                 let noun = if particles == 1 { "particle" } else { "particles" };
-                let dimension = self.scene.space.lengths.len();
+                let dimensions = super::dimensions(self.scene.space.lengths.len());
                 let (name, driver) = (&adapter.name, &adapter.driver);
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
                 let title = &self.scene.title;
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
-                    "{title}: {} {noun} in {dimension} dimensions{begin}, on {name} ({driver})\n",
+                    "{title}: {} {noun} in {dimensions}{begin}, on {name} ({driver})\n",
                     grouped(particles)
                 ));
                 self.first_step = first_step;

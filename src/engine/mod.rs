@@ -12,7 +12,7 @@ pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
 
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::{Contents, Hardware, Layout, Misfit, Plan, TIDYING};
 use crate::state::State;
 use pipeline::Stage;
@@ -242,7 +242,7 @@ impl<'a> Engine<'a> {
         }
         self.species.clone_from(&state.species);
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self.gpu.encoder("upload");
         if let Some(counts) = self.buffers.get("counts") {
             encoder.clear_buffer(counts, 0, None);
         }
@@ -274,9 +274,9 @@ impl<'a> Engine<'a> {
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));
-            let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder = self.gpu.encoder("batch");
             {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                let mut pass = compute_pass(&mut encoder, "batch");
                 let mut done = 0;
                 while done < now && self.room_for_samples() {
                     self.record_sample(&mut pass);
@@ -302,9 +302,9 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self.gpu.encoder("samples at the end");
         if !matches!(self.phase, Phase::Sorted { reported: true }) {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass = compute_pass(&mut encoder, "samples at the end");
             self.record_sample(&mut pass);
         }
         self.submit(encoder)?;
@@ -334,9 +334,9 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn reported(&mut self) -> Result<State, EngineError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self.gpu.encoder("report");
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass = compute_pass(&mut encoder, "report");
             self.record_sample(&mut pass);
             self.record_report(&mut pass);
         }
@@ -391,7 +391,7 @@ impl<'a> Engine<'a> {
     }
 
     fn record(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let mut pass = compute_pass(encoder, "preparation");
         for &kernel in kernels {
             self.dispatch(kernel, &mut pass);
         }
@@ -504,7 +504,9 @@ impl<'a> Engine<'a> {
             }
             _ => match self.plan.layout {
                 Layout::Particles { .. } | Layout::Coupled { .. } => {
-                    "a momentum is more than 64 times its natural scale".to_owned()
+                    "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much \
+                     closer together than their temperature lets them come"
+                        .to_owned()
                 }
                 Layout::Cells { .. } => "a momentum is more than 1024 times its natural scale".to_owned(),
                 Layout::Water { .. } => {
@@ -519,8 +521,8 @@ impl<'a> Engine<'a> {
                 }
             },
         };
-        // The depth at the start is no matter of the step.
-        let from_the_start = control.failures & 32 != 0 && step == 0;
+        // Where masses lie at the start is no matter of the step.
+        let from_the_start = control.failures & (16 | 32) != 0 && step == 0;
         let suggested_step = (!from_the_start).then(|| crate::engine::error::round_down(self.plan.suggested_step));
         Err(EngineError::Unstable { step, quantity, suggested_step })
     }

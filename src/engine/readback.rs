@@ -117,7 +117,7 @@ pub(super) fn read(
             mapped_at_creation: false,
         })
     })?;
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = gpu.encoder("readback");
     copy(&mut encoder, &staging);
     let (sender, arrival) = mpsc::channel();
     encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {

@@ -31,7 +31,8 @@ impl Texels {
                 view_formats: &[],
             })
         })?;
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { label: Some(planned.name), ..Default::default() });
         Ok(Self { planned, texture, view })
     }
 

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::{Engine, EngineError, Phase, readback};
-use crate::gpu::GpuError;
+use crate::gpu::{GpuError, compute_pass};
 
 /// Time spent in one kernel of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +116,7 @@ impl Engine<'_> {
             });
             (queries, ticks)
         })?;
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self.gpu.encoder("timed step");
         for (place, &kernel) in (0..).zip(kernels) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some(self.plan.kernels[kernel].name),
@@ -148,16 +148,16 @@ impl Engine<'_> {
             times.push((self.time_alone(Some(kernel))? - empty).max(0.0));
         }
         // The readback of an ordinary submission finds out whether the step failed.
-        let encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let encoder = self.gpu.encoder("after a timed step");
         self.submit(encoder)?;
         self.wait_all()?;
         Ok(times)
     }
 
     fn time_alone(&self, kernel: Option<usize>) -> Result<f64, EngineError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = self.gpu.encoder("kernel alone");
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass = compute_pass(&mut encoder, "kernel alone");
             if let Some(kernel) = kernel {
                 self.dispatch(kernel, &mut pass);
             }

@@ -34,7 +34,17 @@ pub struct Gpu {
     trouble: Arc<Mutex<Option<String>>>,
 }
 
+/// A compute pass with a name.
+pub(crate) fn compute_pass<'a>(encoder: &'a mut wgpu::CommandEncoder, label: &str) -> wgpu::ComputePass<'a> {
+    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: None })
+}
+
 impl Gpu {
+    /// A command encoder with a name.
+    pub(crate) fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
+    }
+
     /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it.
     ///
     /// ```

@@ -331,6 +331,8 @@ library![
     "common/turn_off",
     "common/turning_consistent",
     "common/turning_paper",
+    "common/turns_counted",
+    "common/turns_endless",
     "common/twist",
     "common/water",
     "common/water_bins",

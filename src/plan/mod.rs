@@ -144,6 +144,11 @@ impl Options {
         self.serial_memory.unwrap_or(hardware.serial_memory)
     }
 
+    /// The module that notices where the adapter leaves loops before their end, as software adapters may.
+    fn turns(&self, hardware: Hardware) -> &'static str {
+        if self.suits_serial_memory(hardware) { "common/turns_counted" } else { "common/turns_endless" }
+    }
+
     /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
     #[must_use]
     pub fn workgroup(&self) -> u64 {

@@ -18,6 +18,9 @@ const OBSERVABLES: u64 = 9;
 /// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
 const SCAN_AT_END_CELLS: u64 = 1 << 11;
 
+/// Turns of all loops together that a workgroup is given on average: software adapters leave loops after 65 535 of them.
+const TURNS: u64 = 1 << 14;
+
 /// Makes the plan of a model.
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let particles = model.particle_count();
@@ -39,6 +42,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
         options,
         equilibration,
         texels: false,
+        turns: options.turns(hardware),
         scans_at_end: traversal == Traversal::Clusters
             && options.suits_serial_memory(hardware)
             && grid.count() <= SCAN_AT_END_CELLS
@@ -110,6 +114,8 @@ struct Builder<'a> {
     equilibration: u64,
     /// Whether sorted particles are texels.
     texels: bool,
+    /// The module that notices where loops are left before their end.
+    turns: &'static str,
     /// Whether a step ends with the prefix sum over cells for the next one.
     scans_at_end: bool,
     /// The kernels of that sum on their own.
@@ -371,7 +377,7 @@ impl Builder<'_> {
                     }
                     _ => &["common/hits_of_clusters", "common/eight_hits", "common/shuffle2"],
                 });
-                modules.extend(["common/stretches", "kernels/clusters"]);
+                modules.extend(["common/stretches", self.turns, "kernels/clusters"]);
                 8
             }
         };
@@ -383,11 +389,16 @@ impl Builder<'_> {
         let enough = if clusters { 64 } else { 8192 };
         let rounds = (self.particles / rows).div_ceil(lanes).max(1);
         let segments = u64::from(self.options.segments.unwrap_or(0));
-        let segments = if segments > 0 { segments } else { rounds.min((enough / rows).max(1)) };
+        // Turns of loops: of a cluster about half of its candidates, and once more as many pairs.
+        let crowd = (self.particles / self.grid.count()).max(1);
+        let turns = (self.particles / lanes * 3_u64.pow(self.grid.dimension as u32)).saturating_mul(crowd);
+        let least = turns.div_ceil(TURNS);
+        let segments = if segments > 0 { segments } else { rounds.min((enough.max(least) / rows).max(1)) };
         let mut constants = vec![("SEGMENTS", segments as f64)];
         let mut groups = rows * segments;
         if clusters {
-            groups = groups.min((self.particles / 256).clamp(32, 1024).next_multiple_of(32));
+            let wanted = (self.particles / 256).clamp(32, 1024).max(least);
+            groups = groups.min(wanted.next_multiple_of(32));
             constants.push(("SHARES", groups as f64));
         }
         self.plan.add_kernel(Kernel::new(name, modules, groups).with(constants))

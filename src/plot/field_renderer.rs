@@ -67,7 +67,7 @@ pub(super) fn draw_field(
             wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&table) },
         ],
     });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: field") });
     {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("plot: field"),
@@ -105,7 +105,7 @@ fn texture(
     // Both formats hold four bytes a texel.
     let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
     queue.write_texture(texture.as_image_copy(), bytes, layout, size);
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some("plot: field"), ..Default::default() })
 }
 
 #[cfg(test)]

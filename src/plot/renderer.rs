@@ -203,7 +203,7 @@ impl Plotter {
                 view_formats: &[],
             })
         })?;
-        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        let view = target.create_view(&labelled("plot: picture"));
         let atlas = self.atlas(canvas)?;
         let paper = canvas.paper;
         let clear = wgpu::Color {
@@ -262,9 +262,7 @@ impl Plotter {
                     },
                     wgpu::BindGroupEntry {
                         binding: 1,
-                        resource: wgpu::BindingResource::TextureView(
-                            &texture.create_view(&wgpu::TextureViewDescriptor::default()),
-                        ),
+                        resource: wgpu::BindingResource::TextureView(&texture.create_view(&labelled("plot: glyphs"))),
                     },
                 ],
             })
@@ -294,7 +292,8 @@ impl Plotter {
         atlas: &wgpu::BindGroup,
         clear: Option<wgpu::Color>,
     ) {
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("plot: shapes"),
@@ -363,7 +362,7 @@ impl Plotter {
                 usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
                 view_formats: &[],
             });
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
+            texture.create_view(&labelled(label))
         };
         let colour = texture("plot: particles", ENLARGED_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
         let depth = texture("plot: depth of particles", DEPTH_FORMAT, wgpu::TextureUsages::empty());
@@ -378,7 +377,8 @@ impl Plotter {
         for tile_top in (top..top + height).step_by(tile as usize) {
             for tile_left in (left..left + width).step_by(tile as usize) {
                 let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];
-                let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                let mut encoder =
+                    self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
                 let camera = camera(scene, [tile_left, tile_top], [texture_size.width, texture_size.height]);
                 self.enlarged_pass(spheres, &mut encoder, &camera, &buffers, [&colour, &depth]);
                 let placement =
@@ -474,7 +474,8 @@ impl Plotter {
             let bytes = u64::from(padded_row) * u64::from(rows);
             let (sender, receiver) = mpsc::channel();
             let submission = checked(&self.device, "copy of the picture", || {
-                let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                let mut encoder =
+                    self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
                 let mut source = texture.as_image_copy();
                 source.origin.y = top;
                 let layout =
@@ -635,4 +636,9 @@ fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
 fn composite_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = module(device, "plot/composite.wgsl", include_str!("../../shaders/plot/composite.wgsl"));
     pipeline(device, "plot: overlay", &module, ["vertex_composite", "fragment_composite"], None, Target::Picture)
+}
+
+/// A view of all of a texture, with a name.
+fn labelled(label: &str) -> wgpu::TextureViewDescriptor<'_> {
+    wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() }
 }

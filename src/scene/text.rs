@@ -29,7 +29,9 @@ fn syntax(name: &str, text: &str, error: &serde_json::Error) -> SceneError {
     if text.trim().is_empty() {
         "the file is empty; a scene is a JSON object".clone_into(&mut message);
     } else if let Some(hint) = hint(text, line, column, &said) {
-        message = format!("{message}; {hint}");
+        message = format!("not valid JSON: {message}; {hint}");
+    } else {
+        message = format!("not valid JSON: {message}");
     }
     SceneError::Syntax { name: name.to_owned(), line, column, message }
 }

@@ -438,7 +438,7 @@ pub enum SmoothingSolver {
         symbol: LaplacianSymbol,
     },
     /// By a Chebyshev polynomial of the five-point Laplacian, started from zero and so positive at any length. For any
-    /// mesh. Cheaper and rougher with a larger tolerance.
+    /// mesh. The rougher its tolerance, the cheaper; `fft` was cheaper still on all meshes that it takes.
     Chebyshev {
         /// Bound on the relative error of every Fourier mode of (1 - Λ²∇²)⁻¹.
         #[serde(default = "millionth")]
