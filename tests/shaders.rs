@@ -662,15 +662,14 @@ fn host_structs_lie_as_in_the_shaders() {
                     assert_eq!(offset(shader, "StoredWater", member), expected, "StoredWater.{member}");
                 }
             }
-            if declared("PairCoefficients") {
+            if shader.bindings.iter().any(|binding| binding.name == "coefficients") {
                 tables += 1;
-                let members = [("repulsion", 0), ("friction", 4), ("noise", 8), ("inverse_mass", 12), ("", 16)];
-                for (member, expected) in members {
-                    assert_eq!(offset(shader, "PairCoefficients", member), expected, "PairCoefficients.{member}");
-                }
                 // Coupled scenes add a row for the species by themselves.
-                let rows = if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
-                assert_eq!(bytes("coefficients"), Some(rows * 2 * 16));
+                let entries = 2 * if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
+                match texels("coefficients") {
+                    None => assert_eq!(bytes("coefficients"), Some(16 * entries)),
+                    Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),
+                }
             }
             if declared("Hold") {
                 let members = [

@@ -15,17 +15,20 @@ pub const INTEGRATORS: [&str; 2] = ["groot-warren", "splitting"];
 /// Steps of 0.04 from random positions to the fluid: over two units of time, several times what its structure needs.
 const EQUILIBRATION: u64 = 60;
 
-/// The shipped scene with another box, integrator and time step, and nothing measured on the way.
-pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Scene, Failure> {
-    let changes = [
+/// What makes of the shipped scene one with another box, integrator and time step, and nothing measured on the way.
+pub fn changes(edge: f64, integrator: &str, time_step: f64) -> Vec<String> {
+    vec![
         format!("space.box=[{edge},{edge},{edge}]"),
         format!(r#"integrator={{"type":"{integrator}"}}"#),
         format!("time.step={time_step}"),
         "time.steps=1000000000".to_owned(),
         "time.equilibration=0".to_owned(),
         r#"output={"energies":{"every":1000000000}}"#.to_owned(),
-    ];
-    Ok(scene::load("dpd-fluid", &changes)?)
+    ]
+}
+
+pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Scene, Failure> {
+    Ok(scene::load("dpd-fluid", &changes(edge, integrator, time_step))?)
 }
 
 pub fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {

@@ -1,10 +1,11 @@
-//! What a particle-step of the DPD fluid costs: beside LAMMPS, by stage, in small runs, and by integrator.
+//! What a particle-step of the DPD fluid costs: beside LAMMPS, by stage, in small runs, by integrator, and computed otherwise.
 //!
 //! `cargo bench --bench dpd` prints tables in Markdown and takes some minutes; `cargo bench --bench dpd -- --quick` is a
 //! look that proves nothing. All that is compared is measured in turns within one run, and ratios are taken round by
 //! round, so that a machine that slows down for a while slows both sides. LAMMPS is left out where it is not
 //! installed (see `lammps.rs`). The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
 
+mod alternatives;
 mod fluid;
 mod lammps;
 #[path = "../common/machine.rs"]
@@ -31,6 +32,8 @@ type Failure = Box<dyn std::error::Error>;
 const TIME_STEPS: [f64; 2] = [0.01, 0.04];
 /// From here on a run of LAMMPS takes seconds: fewer rounds, and the skin found for the size before.
 const LARGE: usize = 500_000;
+/// The largest fluid below is the one that is computed otherwise.
+const MANY: usize = 100_000;
 
 /// Cost of the DPD fluid.
 #[derive(Debug, Parser)]
@@ -80,6 +83,9 @@ fn main() -> Result<(), Failure> {
     by_stage(&gpu, &fluids, &settings)?;
     by_size(&gpu, &fluids, &settings)?;
     by_batch(&gpu, &fluids, &settings)?;
+    if let Some(fluid) = fluids.iter().rfind(|fluid| fluid.particles() < MANY) {
+        alternatives::compare(&gpu, fluid, &INTEGRATORS, &settings)?;
+    }
     start_up(&gpu)?;
     println!();
     others("after");
@@ -186,7 +192,7 @@ fn price_of_accuracy(prices: &[Price]) {
 
 fn by_stage(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
     println!("\n### Where the time of a step goes");
-    for fluid in fluids.iter().filter(|fluid| fluid.particles() < LARGE) {
+    for fluid in fluids {
         for integrator in INTEGRATORS {
             let mut run = fluid.run(gpu, integrator, 0.04)?;
             let particles = fluid.particles();

@@ -1,7 +1,7 @@
 //! The same flow computed otherwise: storage, splines, solvers, and particles that crowd.
 
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{Hardware, Options, Storage};
+use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 
 use crate::flow::{Flow, Start};
 use crate::statistics::{grouped, ratios, spread};
@@ -11,21 +11,39 @@ use crate::{Failure, Settings};
 struct Alternative {
     name: &'static str,
     changes: &'static [&'static str],
-    storage: Option<Storage>,
+    options: fn() -> Options,
     start: Start,
 }
 
 const fn scene(name: &'static str, changes: &'static [&'static str]) -> Alternative {
-    Alternative { name, changes, storage: None, start: Start::Even }
+    Alternative { name, changes, options: Options::default, start: Start::Even }
 }
 
-const fn stored(name: &'static str, storage: Option<Storage>, start: Start) -> Alternative {
-    Alternative { name, changes: &[], storage, start }
+const fn planned(name: &'static str, options: fn() -> Options, start: Start) -> Alternative {
+    Alternative { name, changes: &[], options, start }
 }
 
-const ALTERNATIVES: [Alternative; 12] = [
-    stored("storage: sorted", Some(Storage::Sorted), Start::Even),
-    stored("storage: bins", Some(Storage::Bins), Start::Even),
+fn sorted() -> Options {
+    Options { storage: Some(Storage::Sorted), ..Options::default() }
+}
+
+fn bins() -> Options {
+    Options { storage: Some(Storage::Bins), ..Options::default() }
+}
+
+fn cell_by_cell() -> Options {
+    Options { traversal: Some(Traversal::Rows), ..Options::default() }
+}
+
+fn buffers() -> Options {
+    Options { serial_memory: Some(false), ..Options::default() }
+}
+
+const ALTERNATIVES: [Alternative; 14] = [
+    planned("storage: sorted", sorted, Start::Even),
+    planned("storage: bins", bins, Start::Even),
+    planned("cell by cell, without subgroups of eight", cell_by_cell, Start::Even),
+    planned("buffers where software adapters have textures", buffers, Start::Even),
     scene("splines of order 1", &["interactions[0].spline_order=1"]),
     scene("splines of order 2", &["interactions[0].spline_order=2"]),
     scene("spectral symbol", &[r#"interactions[0].smoothing.solver={"type":"fft","symbol":"spectral"}"#]),
@@ -34,22 +52,16 @@ const ALTERNATIVES: [Alternative; 12] = [
     scene("`chebyshev` to 1e-3", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#]),
     scene("`chebyshev` to 1e-6", &[r#"interactions[0].smoothing.solver={"type":"chebyshev","tolerance":1e-6}"#]),
     scene("no smoothing", &["interactions[0].smoothing.length=0"]),
-    stored("half of all particles in 1/16 of the cells, sorted", Some(Storage::Sorted), Start::Clustered),
-    stored("half of all particles in 1/16 of the cells, bins", Some(Storage::Bins), Start::Clustered),
+    planned("half of all particles in 1/16 of the cells, sorted", sorted, Start::Clustered),
+    planned("half of all particles in 1/16 of the cells, bins", bins, Start::Clustered),
 ];
-
-impl Alternative {
-    fn options(&self) -> Options {
-        Options { storage: self.storage, ..Options::default() }
-    }
-}
 
 /// Bytes of the largest buffer in any alternative for a size.
 pub fn largest_buffer(size: crate::flow::Size) -> Result<u64, Failure> {
     let mut largest = 0;
     for alternative in &ALTERNATIVES {
         largest = largest.max(
-            crate::flow::plan_of(size, alternative.changes, Hardware::default(), alternative.options())?
+            crate::flow::plan_of(size, alternative.changes, Hardware::default(), (alternative.options)())?
                 .largest_buffer(),
         );
     }
@@ -94,7 +106,7 @@ fn turns(
     default: &mut Run,
     settings: &Settings,
 ) -> Result<[Vec<f64>; 2], Failure> {
-    let mut run = flow.run(gpu, alternative.changes, alternative.options(), alternative.start)?;
+    let mut run = flow.run(gpu, alternative.changes, (alternative.options)(), alternative.start)?;
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..settings.rounds.min(5) {
         times[0].push(flow.milliseconds(run.rate(0.5 * settings.seconds)?));

@@ -1,43 +1,10 @@
-// Several species: a table of pairs of species, in integer momentum units.
+// Several species: a table of pairs of species (row: this particle's), in integer momentum units; with each pair the inverse mass
+// of the column's species.
 override SPECIES: u32;
 
-// One entry a pair of species (row: this particle's), then one entry a species.
-struct PairCoefficients { repulsion: f32, friction: f32, noise: f32, inverse_mass: f32 } // mass of the column's species
 struct Coefficients { repulsion: f32, friction: f32, noise: f32 }
-@group(0) @binding(7) var<storage, read> coefficients: array<PairCoefficients>;
-override DRIFT: f32;   // displacement in a step per unit of momentum at unit mass
-override KINETIC: f32; // energy per square of a unit of momentum at unit mass
 
-fn inverse_mass_of(species: i32) -> f32 { return coefficients[u32(species)].inverse_mass; }
 fn coefficients_of(a: i32, b: i32) -> Coefficients {
-    let entry = coefficients[u32(a) * SPECIES + u32(b)];
-    return Coefficients(entry.repulsion, entry.friction, entry.noise);
-}
-fn drift_of(species: i32) -> f32 { return DRIFT * inverse_mass_of(species); }
-fn kinetic_of(species: i32) -> f32 { return KINETIC * inverse_mass_of(species); }
-
-// Rate of a pair among others; the same from either end to the last bit.
-// Rates are kept per mass of their particle, so that they mean the same in every unit of mass.
-fn rate_scale_of(species: i32) -> f32 { return inverse_mass_of(species); }
-fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
-    let a = inverse_mass_of(species_of(me));
-    let b = inverse_mass_of(species_of(other));
-    // In the order of the ids, so that both ends round alike even where products and sums are contracted.
-    let in_order = me.position.w < other.position.w;
-    let first = select(vec2<f32>(theirs, b), vec2<f32>(mine, a), in_order);
-    let second = select(vec2<f32>(mine, a), vec2<f32>(theirs, b), in_order);
-    let among = first.x * first.y + second.x * second.y;
-    return own * (a + b) + among / (a + b) * (1.0 / f32(DIMENSION));
-}
-// The difference of two velocities. Both ends evaluate it in the order of their ids, so that it is odd under exchange
-// to the last bit even where the compiler contracts products and sums.
-fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
-    let in_order = me.position.w < other.position.w;
-    let first = Vector(select(theirs, mine, in_order));
-    let second = Vector(select(mine, theirs, in_order));
-    let mine_inverse = inverse_mass_of(species_of(me));
-    let theirs_inverse = inverse_mass_of(species_of(other));
-    let difference = first * select(theirs_inverse, mine_inverse, in_order)
-        - second * select(mine_inverse, theirs_inverse, in_order);
-    return select(-difference, difference, in_order);
+    let entry = coefficient_entry(u32(a) * SPECIES + u32(b));
+    return Coefficients(entry.x, entry.y, entry.z);
 }

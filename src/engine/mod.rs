@@ -162,7 +162,7 @@ impl<'a> Engine<'a> {
             })?;
             buffers.insert(buffer.name, made);
         }
-        let textures = plan.textures.iter().map(|&planned| Ok((planned.name, Texels::new(gpu, planned)?)));
+        let textures = plan.textures.iter().map(|planned| Ok((planned.name, Texels::new(gpu, planned)?)));
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
         let pending_rows = vec![0; plan.samplers.len()];

@@ -1,7 +1,7 @@
 //! Arrays of texels: textures that are loaded, stored to, filled and read back as buffers are.
 
 use crate::gpu::{Gpu, GpuError};
-use crate::plan::Texture;
+use crate::plan::{Contents, Texture};
 
 /// A texture of a plan on the device.
 pub(super) struct Texels {
@@ -11,7 +11,7 @@ pub(super) struct Texels {
 }
 
 impl Texels {
-    pub(super) fn new(gpu: &Gpu, planned: Texture) -> Result<Self, GpuError> {
+    pub(super) fn new(gpu: &Gpu, planned: &Texture) -> Result<Self, GpuError> {
         let doing = format!("creating texture `{}`", planned.name);
         let texture = gpu.scoped(&doing, planned.bytes(), || {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -33,7 +33,11 @@ impl Texels {
         })?;
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(planned.name), ..Default::default() });
-        Ok(Self { planned, texture, view })
+        let texels = Self { planned: planned.clone(), texture, view };
+        if let Contents::Bytes(bytes) = &planned.contents {
+            texels.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(bytes));
+        }
+        Ok(texels)
     }
 
     pub(super) fn binding(&self) -> wgpu::BindingResource<'_> {
@@ -63,14 +67,14 @@ impl Texels {
         }
         let origin = wgpu::Origin3d { y: first, ..wgpu::Origin3d::ZERO };
         let destination = wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() };
-        let size = wgpu::Extent3d { height, ..extent(self.planned) };
+        let size = wgpu::Extent3d { height, ..extent(&self.planned) };
         gpu.queue.write_texture(destination, bytemuck::cast_slice(words), self.rows(), size);
     }
 
     /// Records a copy of all of it to the beginning of a buffer.
     pub(super) fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) {
         let destination = wgpu::TexelCopyBufferInfo { buffer, layout: self.rows() };
-        encoder.copy_texture_to_buffer(self.texture.as_image_copy(), destination, extent(self.planned));
+        encoder.copy_texture_to_buffer(self.texture.as_image_copy(), destination, extent(&self.planned));
     }
 
     fn rows(&self) -> wgpu::TexelCopyBufferLayout {
@@ -82,7 +86,7 @@ impl Texels {
     }
 }
 
-fn extent(planned: Texture) -> wgpu::Extent3d {
+fn extent(planned: &Texture) -> wgpu::Extent3d {
     let [width, height] = planned.size;
     wgpu::Extent3d { width, height, depth_or_array_layers: 1 }
 }

@@ -11,6 +11,7 @@ mod recording;
 mod serial_memory;
 mod shallow_water;
 pub mod smoothing;
+mod species;
 mod texture;
 mod voronoi;
 

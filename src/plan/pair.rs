@@ -4,6 +4,7 @@ use super::analyses::{self, Reported};
 use super::layout::PARTICLE;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::recording::record_histogram;
+use super::species::Species;
 use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Texture, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
@@ -40,6 +41,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
         particles,
         traversal,
         options,
+        species: Species::of(model),
         equilibration,
         texels: false,
         turns: options.turns(hardware),
@@ -111,6 +113,7 @@ struct Builder<'a> {
     particles: u64,
     traversal: Traversal,
     options: Options,
+    species: Species,
     equilibration: u64,
     /// Whether sorted particles are texels.
     texels: bool,
@@ -182,18 +185,16 @@ impl Builder<'_> {
         if let Integrator::GrootWarren { lambda } = self.model.integrator {
             constants.push(("PREDICTION", 2.0 * lambda - 1.0));
         }
-        // One species: coefficients are constants, and the friction acts on differences of momentum. Several: they are
-        // a table, and the friction acts on differences of velocity.
-        let mass = if self.single() { self.model.species.first().map_or(1.0, |species| species.mass) } else { 1.0 };
+        let mass = self.species.mass();
         constants.extend([
             ("DRIFT", self.model.time_step * units.momentum / mass),
             ("KINETIC", units.momentum * units.momentum / (2.0 * mass * energy)),
             ("INVERSE_MASS", 1.0 / mass),
             ("FRICTION_PER_LENGTH", mass / (self.model.time_step * units.momentum)),
         ]);
-        if self.single() {
+        if !self.species.have_table() {
             let [repulsion, friction, noise] = self.impulses(0, 0);
-            constants.extend([("REPULSION", repulsion), ("FRICTION", friction / mass), ("NOISE", noise)]);
+            constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
         }
         self.plan.constants = constants;
     }
@@ -203,11 +204,8 @@ impl Builder<'_> {
         matches!(self.plan.layout, Layout::Particles { predicted: true, .. })
     }
 
-    fn single(&self) -> bool {
-        self.model.species.len() <= 1
-    }
-
-    /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity, noise.
+    /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity (where all have one mass,
+    /// momentum), noise.
     fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
         if self.model.species.is_empty() {
             return [0.0; 3];
@@ -216,7 +214,7 @@ impl Builder<'_> {
         let unit = self.model.units.momentum;
         let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
         let amplitude = (2.0 * friction * self.force.temperature / self.model.time_step).sqrt();
-        [repulsion * half / unit, friction * half, amplitude * half / unit]
+        [repulsion * half / unit, friction * half / self.species.mass(), amplitude * half / unit]
     }
 
     fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
@@ -312,10 +310,11 @@ impl Builder<'_> {
         let probes = if self.texels { "common/probes_of_positions" } else { "common/probes" };
         let mut modules = vec![probes, "common/contact"];
         modules.extend(self.sorted());
-        modules.extend(if self.single() {
-            ["common/coefficients_single", "common/other_species_single"]
+        modules.extend(self.species.coefficients());
+        modules.push(if self.species.have_table() {
+            "common/other_species_table"
         } else {
-            ["common/coefficients_table", "common/other_species_table"]
+            "common/other_species_single"
         });
         modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
@@ -448,10 +447,9 @@ impl Builder<'_> {
         self.plan.kernels[relax_to_report].constants.push(("HALVES", 1.0));
         let motion = self.observation("report_motion", &[forces, momenta, "passes/observe_motion"]);
         let configuration = self.observation("report_configuration", &["passes/observe_configuration"]);
-        let coefficients = self.coefficients();
         let rest = self.kernel(
             "drift_rest",
-            &["common/drift_halves", coefficients, "kernels/drift_rest"],
+            &[self.species.masses(), &["common/drift_halves", "kernels/drift_rest"]].concat(),
             self.particles.div_ceil(self.workgroup_size()),
         );
         for kernel in [find, motion, configuration, rest] {
@@ -497,7 +495,7 @@ impl Builder<'_> {
             equilibration: self.equilibration,
             workgroup: self.workgroup_size(),
             space: space(&self.model.units, self.predicted()),
-            masses: vec![self.coefficients(), "common/mass_of_species"],
+            masses: [self.species.masses(), &["common/mass_of_species"]].concat(),
             particles: "particles",
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some("reported_momenta"),
@@ -505,11 +503,6 @@ impl Builder<'_> {
             force_unit: self.plan.force_unit,
         };
         analyses::add(&mut self.plan, &reported, output);
-    }
-
-    /// The module of coefficients.
-    fn coefficients(&self) -> &'static str {
-        if self.single() { "common/coefficients_single" } else { "common/coefficients_table" }
     }
 
     /// The module that keeps the momenta of a split step's report, or does not.
@@ -610,7 +603,7 @@ impl Builder<'_> {
         if self.scans_at_end {
             self.plan.add_buffer("workgroups_done", "workgroups that have ended the step", 4);
         }
-        if !self.single() {
+        if self.species.have_table() {
             let count = self.model.species.len();
             let mut table: Vec<f32> = Vec::with_capacity(4 * count * count);
             for a in 0..count {

@@ -24,8 +24,10 @@ pub fn check_precision(scene: &Scene, plan: &Plan) -> Result<(), SceneError> {
     let constants = plan.constants.iter().chain(plan.kernels.iter().flat_map(|kernel| &kernel.constants));
     let mut lost = constants.filter(|(_, value)| !fits(*value)).map(|(name, value)| ((*name).to_owned(), *value));
     let coefficients = || {
-        let table = plan.buffers.iter().find(|buffer| buffer.name == "coefficients")?;
-        let Contents::Bytes(bytes) = &table.contents else { return None };
+        let buffers = plan.buffers.iter().map(|buffer| (buffer.name, &buffer.contents));
+        let textures = plan.textures.iter().map(|texture| (texture.name, &texture.contents));
+        let (_, contents) = buffers.chain(textures).find(|(name, _)| *name == "coefficients")?;
+        let Contents::Bytes(bytes) = contents else { return None };
         let numbers = bytemuck::pod_collect_to_vec::<u8, f32>(bytes);
         let value = numbers.into_iter().find(|number| !number.is_finite())?;
         Some(("coefficients".to_owned(), f64::from(value)))

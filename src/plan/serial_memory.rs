@@ -28,9 +28,10 @@ const fn candidate(name: &'static str, words: u32, module: &'static str, counter
     Candidate { name, words, module, counterpart }
 }
 
-const ORDER: [Candidate; 2] = [
+const ORDER: [Candidate; 3] = [
     candidate("cells", 1, "common/cells_buffer", "common/cells_texels"),
     candidate("ranks", 1, "common/ranks", "common/ranks_texels"),
+    candidate("coefficients", 4, "common/coefficient_entries", "common/coefficient_entries_texels"),
 ];
 
 /// Where depths are smoothed by Fourier transforms.
@@ -109,8 +110,8 @@ impl Plan {
         if let Some(place) = place.filter(|_| used) {
             let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));
             if Texture::holds(texels, array.words) {
-                let Buffer { name, purpose, .. } = self.buffers.remove(place);
-                self.add_texture(name, purpose, array.words, texels);
+                let Buffer { name, purpose, contents, .. } = self.buffers.remove(place);
+                self.add_texture_with(name, purpose, array.words, texels, contents);
             }
         }
     }

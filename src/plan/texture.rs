@@ -1,9 +1,9 @@
 //! Arrays that lie in textures.
 
-use super::Plan;
+use super::{Contents, Plan};
 
-/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer. It begins as zeros.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texture {
     /// The name, which is also that of the shader variable.
     pub name: &'static str,
@@ -13,6 +13,8 @@ pub struct Texture {
     pub words: u32,
     /// Texels in a row, and rows.
     pub size: [u32; 2],
+    /// Initial contents.
+    pub contents: Contents,
 }
 
 impl Texture {
@@ -55,8 +57,20 @@ impl Texture {
 impl Plan {
     /// Adds a texture that can hold the texels.
     pub(super) fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
+        self.add_texture_with(name, purpose, words, texels, Contents::Zeros);
+    }
+
+    /// The same with contents.
+    pub(super) fn add_texture_with(
+        &mut self,
+        name: &'static str,
+        purpose: &'static str,
+        words: u32,
+        texels: u64,
+        contents: Contents,
+    ) {
         let width = texels.clamp(1, Texture::ROW).next_multiple_of(64);
         let size = [width as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
-        self.textures.push(Texture { name, purpose, words, size });
+        self.textures.push(Texture { name, purpose, words, size, contents });
     }
 }

@@ -19,7 +19,7 @@ impl Builder<'_> {
             equilibration: self.equilibration,
             workgroup: self.options.workgroup(),
             space,
-            masses: vec![self.coefficients(), "common/mass_of_species"],
+            masses: [self.species.masses(), &["common/mass_of_species"]].concat(),
             particles: "reported",
             momenta: None,
             forces: "reported_forces",

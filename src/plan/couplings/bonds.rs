@@ -86,8 +86,8 @@ impl Builder<'_> {
 
     /// Displacement of a species in a step per unit of momentum, rounded where the kernel `move` rounds it.
     fn drift_per_momentum(&self, species: usize) -> f32 {
-        let drift = (self.model.time_step * self.model.units.momentum / self.common_mass()) as f32;
-        if self.single() { drift } else { drift * self.inverse_mass(species) as f32 }
+        let drift = (self.model.time_step * self.model.units.momentum / self.species.mass()) as f32;
+        if self.species.have_one_mass() { drift } else { drift * self.inverse_mass(species) as f32 }
     }
 
     fn bond_coefficients(&self, kind: &BondKind) -> [f32; 8] {

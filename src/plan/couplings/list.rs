@@ -141,7 +141,7 @@ impl Builder<'_> {
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {
-            let mut modules = vec!["common/sorted", "common/neighbour_words", self.coefficients()];
+            let mut modules = [&["common/sorted", "common/neighbour_words"], self.species.coefficients()].concat();
             modules.extend(LISTS);
             modules.extend(["common/gaussian", "common/threefry", "kernels/carry"]);
             modules.extend(self.words());

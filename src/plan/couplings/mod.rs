@@ -14,6 +14,7 @@ mod pairs;
 mod tethers;
 
 use super::layout::PARTICLE;
+use super::species::Species;
 use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, pair};
 use crate::model::{BathStep, Model, PairForce};
 use crate::noise::stream;
@@ -31,7 +32,9 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     let force = model.pair_force.as_ref().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff + force.skin, particles);
     let plan = empty_plan(model, &grid, options);
-    let mut builder = Builder { model, force, grid, particles, options, equilibration, plan, report_groups: 0 };
+    let species = Species::of(model);
+    let mut builder =
+        Builder { model, force, grid, particles, options, species, equilibration, plan, report_groups: 0 };
     builder.constants();
     builder.buffers();
     builder.list();
@@ -99,6 +102,7 @@ struct Builder<'a> {
     grid: Grid,
     particles: u64,
     options: Options,
+    species: Species,
     equilibration: u64,
     plan: Plan,
     /// Rows of partial sums that the kernels of the report fill so far.
@@ -115,7 +119,7 @@ impl Builder<'_> {
         // Nothing but a pair force tells how far a particle may go in a step, but it must not go round the box.
         let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
         let reach = if model.pair_force.is_some() { cutoff } else { 0.4 * shortest };
-        let mass = self.common_mass();
+        let mass = self.species.mass();
         let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
         self.plan.constants = vec![
             ("UNIT_X", unit(0)),
@@ -142,23 +146,13 @@ impl Builder<'_> {
             ("FRICTION_PER_LENGTH", mass / (model.time_step * units.momentum)),
             ("BATH_SQUARE", inverse(quanta.bath_squared)),
         ];
-        if self.single() {
+        if !self.species.have_table() {
             let [repulsion, friction, noise] = self.pair_impulses(0, 0);
             self.plan.constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
         }
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push(("PREDICTION", 2.0 * lambda - 1.0));
         }
-    }
-
-    /// The mass in the constants: that of the only species, or 1 where masses are in a table.
-    fn common_mass(&self) -> f64 {
-        if self.single() { self.model.species.first().map_or(1.0, |species| species.mass) } else { 1.0 }
-    }
-
-    /// Whether coefficients are constants: one species, which can move.
-    fn single(&self) -> bool {
-        self.model.species.len() <= 1 && !self.model.has_fixed_particles()
     }
 
     /// Inverse masses; none of what is held.
@@ -204,10 +198,6 @@ impl Builder<'_> {
 
     fn cells(&self) -> &'static str {
         if self.model.units.dimension == 3 { "common/grid3" } else { "common/grid2" }
-    }
-
-    fn coefficients(&self) -> &'static str {
-        if self.single() { "common/coefficients_single" } else { "common/coefficients_table" }
     }
 
     fn kicks(&self) -> &'static str {
@@ -263,7 +253,7 @@ impl Builder<'_> {
         self.plan.add_buffer("particles", "particles, in the order of the last list", PARTICLE * self.particles);
         self.plan.add_buffer("kicks", "impulses of half a step", 16 * self.particles);
         self.plan.add_buffer("reported", "particles of the last report by number", PARTICLE * self.particles);
-        if !self.single() {
+        if self.species.have_table() {
             let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
             let purpose = "coefficients of each pair of species, then of each species";
             self.plan.add_table("coefficients", purpose, bytes);

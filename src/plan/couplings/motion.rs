@@ -8,7 +8,7 @@ impl Builder<'_> {
     pub(super) fn motion(&mut self, output: &Output) {
         let groups = self.groups(self.particles);
         self.position_constants();
-        let mut modules = vec![self.coefficients(), "common/drift"];
+        let mut modules = [self.species.coefficients(), &["common/drift"]].concat();
         modules.push(if self.model.has_fixed_particles() { "common/fixed_on" } else { "common/fixed_off" });
         modules.extend(self.position_modules());
         modules.extend(self.hold_modules());
@@ -28,7 +28,8 @@ impl Builder<'_> {
         let seen = if memory { "common/position_seen" } else { "common/position_unseen" };
         let forces = self.reported_forces(output);
         // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
-        let optional = [!self.single(), memory, self.model.coloured_noise.is_some(), forces == "common/force_on"];
+        let optional =
+            [self.species.have_table(), memory, self.model.coloured_noise.is_some(), forces == "common/force_on"];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
         let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
@@ -52,10 +53,10 @@ impl Builder<'_> {
             return vec!["common/position_off", "common/position_noise_off"];
         };
         let mut modules = vec![if bath.memory { "common/position_memory" } else { "common/position_white" }];
-        modules.push(if self.single() {
-            "common/position_coefficients_single"
-        } else {
+        modules.push(if self.species.have_table() {
             "common/position_coefficients_table"
+        } else {
+            "common/position_coefficients_single"
         });
         if self.noisy_positions() {
             modules.push("common/gaussian");
@@ -90,7 +91,7 @@ impl Builder<'_> {
             ("PARTICLE_STREAM_X", f64::from(key[0])),
             ("PARTICLE_STREAM_Y", f64::from(key[1])),
         ]);
-        if self.single() && !self.model.species.is_empty() {
+        if !self.species.have_table() && !self.model.species.is_empty() {
             let [response, noise, energy] = self.position_coefficients(0);
             self.plan.constants.extend([
                 ("POSITION_RESPONSE", response),

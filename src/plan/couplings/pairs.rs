@@ -39,8 +39,8 @@ impl Builder<'_> {
     /// Modules of the pair force.
     fn pair_modules(&self) -> Vec<&'static str> {
         let force = self.force;
-        let mut modules =
-            vec![self.kicks(), "common/contact", "common/neighbour_words", "common/neighbours", self.coefficients()];
+        let mut modules = vec![self.kicks(), "common/contact", "common/neighbour_words", "common/neighbours"];
+        modules.extend(self.species.coefficients());
         modules.push(if self.spares() { "common/repulsion_spared" } else { "common/repulsion_always" });
         modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
         modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
@@ -90,7 +90,7 @@ impl Builder<'_> {
     }
 
     /// What a kernel needs of a pair of species: impulse of half a step by the repulsion at contact, and without memory the
-    /// impulses of friction (per unit velocity; of one species, momentum) and noise, with memory the response of the bath to
+    /// impulses of friction (per unit velocity; of one mass, momentum) and noise, with memory the response of the bath to
     /// its coupling function and its deviation at rest.
     pub(super) fn pair_impulses(&self, a: usize, b: usize) -> [f64; 3] {
         if self.model.species.is_empty() {
@@ -101,7 +101,7 @@ impl Builder<'_> {
         if self.force.remembers() {
             return [repulsion, step.response(), step.deviation(self.force.temperature)];
         }
-        let friction = 0.5 * self.model.time_step * self.force.friction(a, b) / self.common_mass();
+        let friction = 0.5 * self.model.time_step * self.force.friction(a, b) / self.species.mass();
         [repulsion, friction, step.noise(self.force.temperature) * self.impulse()]
     }
 

@@ -1,0 +1,52 @@
+//! How kernels know what species are like: by constants where there are few, else by a table.
+
+use crate::model::Model;
+
+/// The modules that know the coefficients of pairs and the masses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Species {
+    count: usize,
+    /// The mass that all particles have; nothing if they differ or some are held.
+    mass: Option<f64>,
+}
+
+impl Species {
+    pub fn of(model: &Model) -> Self {
+        let mut masses = model.species.iter().map(|species| (!species.fixed).then_some(species.mass));
+        let first = masses.next().unwrap_or(Some(1.0));
+        Self { count: model.species.len(), mass: first.filter(|mass| masses.all(|other| other == Some(*mass))) }
+    }
+
+    /// Whether there is a table: all coefficients of a single species that can move are constants.
+    pub fn have_table(self) -> bool {
+        self.count > 1 || self.mass.is_none()
+    }
+
+    /// Whether all particles have the same mass. Friction then acts on differences of momentum, else of velocity.
+    pub fn have_one_mass(self) -> bool {
+        self.mass.is_some()
+    }
+
+    /// The mass in the constants: that of all particles, or 1 where they differ.
+    pub fn mass(self) -> f64 {
+        self.mass.unwrap_or(1.0)
+    }
+
+    /// Modules that know the masses.
+    pub fn masses(self) -> &'static [&'static str] {
+        if self.have_one_mass() {
+            &["common/one_mass"]
+        } else {
+            &["common/masses_differ", "common/coefficient_entries"]
+        }
+    }
+
+    /// Modules that know coefficients and masses.
+    pub fn coefficients(self) -> &'static [&'static str] {
+        match (self.have_table(), self.have_one_mass()) {
+            (false, _) => &["common/coefficients_single", "common/one_mass"],
+            (true, true) => &["common/coefficients_table", "common/coefficient_entries", "common/one_mass"],
+            (true, false) => &["common/coefficients_table", "common/coefficient_entries", "common/masses_differ"],
+        }
+    }
+}
