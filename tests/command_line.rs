@@ -335,6 +335,12 @@ fn wrong_scenes_run_nothing() {
 }
 
 #[test]
+fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
+    let place = place().with("/space/box", json!([400, 400, 400]));
+    fails(&["check", &place.scene(), "--adapter", "0"], 3, &["but this scene needs ", "a smaller system needs less"]);
+}
+
+#[test]
 fn check_prints_the_plan() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     let said = succeeds(&["check", &place.scene()]);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu::{self, GpuError};
+use mesoscope::gpu::{self, AdapterChoice, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
@@ -36,14 +36,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
-    let (hardware, adapter) = match run::adapter_for(&scene, &arguments.adapter.choice()) {
+    let choice = arguments.adapter.choice();
+    let mut refusal = None;
+    let (hardware, adapter) = match run::adapter_for(&scene, &choice) {
         Ok(gpu) => (Hardware::from(&gpu), gpu.description().name.clone()),
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         Err(RunError::Gpu(GpuError::NoAdapter)) => {
             (Hardware::default(), "none here; the plan is the one for any adapter".to_owned())
         }
         Err(error) => {
-            warnings.push(error.to_string());
+            // A scene is right though no adapter here has room for it; one that was asked for should have.
+            match choice {
+                AdapterChoice::Best => warnings.push(error.to_string()),
+                _ => refusal = Some(error),
+            }
             (Hardware::default(), "none that could run it; the plan is the one for any adapter".to_owned())
         }
     };
@@ -78,7 +84,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for warning in &warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
-    print(&text)
+    print(&text)?;
+    refusal.map_or(Ok(()), |error| Err(error.into()))
 }
 
 fn interval(first: u64, every: u64) -> String {

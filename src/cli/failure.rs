@@ -9,6 +9,9 @@ use mesoscope::plot::PlotError;
 use mesoscope::run::RunError;
 use mesoscope::scene::SceneError;
 
+/// As of other programs that an interrupt ends.
+pub const INTERRUPTED: u8 = 130;
+
 /// Why a command failed.
 #[derive(Debug)]
 pub struct Failure {
@@ -37,9 +40,19 @@ impl Failure {
         Self { exit_code: 5, message: message.into() }
     }
 
+    /// A signal asked to stop.
+    pub fn interrupted(message: impl Into<String>) -> Self {
+        Self { exit_code: INTERRUPTED, message: message.into() }
+    }
+
     /// The failure of a run, in other words.
     pub fn of_run(error: &RunError, message: impl Into<String>) -> Self {
         Self { exit_code: exit_code(error), message: message.into() }
+    }
+
+    /// What stands before the message: an interruption is no error.
+    pub fn prefix(&self) -> &'static str {
+        if self.exit_code == INTERRUPTED { "" } else { "error: " }
     }
 
     /// What the process returns.
@@ -91,6 +104,7 @@ impl From<RunError> for Failure {
         match error {
             RunError::Gpu(error) => error.into(),
             RunError::Scene(error) => error.into(),
+            error @ RunError::Interrupted { .. } => Self::interrupted(error.to_string()),
             RunError::Checkpoint(CheckpointError::Output(_)) => Self::input_output(format!(
                 "{error}\nhint: give the directory that `mesoscope run` wrote, with its {}",
                 files::CHECKPOINT

@@ -4,6 +4,7 @@ mod adapter_argument;
 mod adapters;
 mod check;
 mod failure;
+mod interruption;
 mod plot;
 mod print;
 mod report;
@@ -42,7 +43,7 @@ Examples:
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 
-Exit codes: 2 wrong command line or scene, 3 no usable adapter, 4 unstable run, 5 input or output."
+Exit codes: 2 wrong command line or scene, 3 no usable adapter, 4 unstable run, 5 input or output, 130 interrupted."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -81,7 +82,7 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // Nobody is left to tell if standard error is closed.
-            let _ = writeln!(std::io::stderr().lock(), "error: {failure}");
+            let _ = writeln!(std::io::stderr().lock(), "{}{failure}", failure.prefix());
             ExitCode::from(failure.exit_code())
         }
     }

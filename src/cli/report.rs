@@ -15,6 +15,7 @@ use super::{Failure, SceneArguments, print};
 
 /// Executes a run and reports on it, unless it is to be quiet.
 pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, quiet: bool) -> Result<(), Failure> {
+    let simulation = simulation.until(&super::interruption::interrupt());
     if quiet {
         simulation.execute(choice, &mut |_| {})?;
         return Ok(());

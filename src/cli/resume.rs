@@ -35,7 +35,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if simulation.is_finished() {
         let step = simulation.first_step();
         let text = format!(
-            "nothing to do: the run in {shown} is finished at step {step}; `--steps N` goes on to a later step
+            "nothing to do: the run in {shown} has come to step {step}; `--steps N` goes on to a later step
 "
         );
         return if arguments.quiet { Ok(()) } else { print(&text) };

@@ -13,7 +13,9 @@ Examples:
   mesoscope run dpd-fluid
   mesoscope run my-scene.json --out results --steps 10000
   mesoscope run dpd-fluid --set time.step=0.02 --set integrator.type=groot-warren
-  mesoscope run dpd-fluid --adapter software")]
+  mesoscope run dpd-fluid --adapter software
+
+Ctrl-C saves a checkpoint and stops; `mesoscope resume` goes on from there.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,

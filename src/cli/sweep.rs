@@ -93,6 +93,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let choice = arguments.adapter.choice();
     let jobs = arguments.jobs.map(usize::from);
+    let run = run.until(&super::interruption::interrupt());
     let outcome = if arguments.quiet {
         run.execute(&choice, jobs, &mut |_| {})?
     } else {
@@ -132,6 +133,7 @@ impl From<SweepError> for Failure {
             SweepError::Scene(error) => error.into(),
             SweepError::Gpu(error) => error.into(),
             SweepError::Run(error) => error.into(),
+            SweepError::Interrupted { .. } => Self::interrupted(error.to_string()),
             SweepError::Variants { .. } => Self::usage(format!(
                 "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
             )),

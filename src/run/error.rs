@@ -6,7 +6,7 @@ use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A failure of a run.
 #[derive(Debug, thiserror::Error)]
@@ -21,6 +21,14 @@ pub enum RunError {
         /// When, what, and a time step to try.
         source: EngineError,
         /// The file of the last good checkpoint.
+        checkpoint: PathBuf,
+        /// Its step.
+        checkpoint_step: u64,
+    },
+    /// It was asked to stop before its end.
+    #[error("interrupted at step {checkpoint_step}; `mesoscope resume {}` goes on from there", directory_of(checkpoint).display())]
+    Interrupted {
+        /// The file of the checkpoint.
         checkpoint: PathBuf,
         /// Its step.
         checkpoint_step: u64,
@@ -65,6 +73,10 @@ pub enum RunError {
         /// The reason.
         source: PlotError,
     },
+}
+
+fn directory_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(file)
 }
 
 impl From<EngineError> for RunError {

@@ -41,6 +41,7 @@ mod conservation;
 mod energies;
 mod error;
 mod exchange_tally;
+mod interrupt;
 mod pace;
 mod pictures;
 mod schedule;
@@ -49,6 +50,7 @@ mod simulation;
 
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
+pub use interrupt::Interrupt;
 pub use pictures::redraw;
 pub(crate) use pictures::{save, show_settled};
 pub use simulation::{Outcome, Simulation, adapter_for};

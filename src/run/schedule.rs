@@ -2,12 +2,14 @@
 
 use super::cells::Due;
 use crate::scene::{Interaction, Scene};
+use std::time::Duration;
 
 /// The steps of checkpoints, snapshots and frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Schedule {
     last: u64,
     checkpoint: u64,
+    checkpoint_time: Duration,
     snapshot: Option<u64>,
     frame: Option<u64>,
     chain: Option<u64>,
@@ -26,6 +28,7 @@ impl Schedule {
         Self {
             last: scene.time.steps,
             checkpoint: output.checkpoint.every.max(1),
+            checkpoint_time: Duration::from_secs(60 * u64::from(output.checkpoint.minutes.max(1))),
             snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
             chain: output.chain.as_ref().map(|chain| chain.every.max(1)),
@@ -45,6 +48,11 @@ impl Schedule {
     /// Whether to save a checkpoint; the start and the end always are.
     pub(super) fn checkpoint(&self, step: u64) -> bool {
         step == self.last || step.is_multiple_of(self.checkpoint)
+    }
+
+    /// Whether a checkpoint is so old that another is due.
+    pub(super) fn checkpoint_after(&self, time: Duration) -> bool {
+        time >= self.checkpoint_time
     }
 
     /// The number of the snapshot to take.
@@ -82,6 +90,7 @@ mod tests {
     const SCHEDULE: Schedule = Schedule {
         last: 100,
         checkpoint: 40,
+        checkpoint_time: Duration::from_secs(600),
         snapshot: Some(30),
         frame: None,
         chain: None,
@@ -124,6 +133,9 @@ mod tests {
 
     #[test]
     fn the_ends_are_checkpoints() {
+        assert!(
+            SCHEDULE.checkpoint_after(Duration::from_secs(600)) && !SCHEDULE.checkpoint_after(Duration::from_secs(599))
+        );
         assert!(SCHEDULE.checkpoint(0) && SCHEDULE.checkpoint(80) && SCHEDULE.checkpoint(100));
         assert!(!SCHEDULE.checkpoint(30));
     }

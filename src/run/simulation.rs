@@ -6,6 +6,7 @@ use super::chain::{self, Chains};
 use super::conservation::{conserved, not_conserved};
 use super::energies::EnergyRecorder;
 use super::exchange_tally::{self, ExchangeTally};
+use super::interrupt::Interrupt;
 use super::pace::Pace;
 use super::pictures::Pictures;
 use super::schedule::Schedule;
@@ -19,7 +20,7 @@ use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpo
 use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::{self, Scene, TrajectoryFormat, placement};
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A run to be executed: a scene, where it begins and where its files go.
 #[derive(Debug, Clone)]
@@ -27,6 +28,7 @@ pub struct Simulation {
     scene: Scene,
     directory: PathBuf,
     beginning: Beginning,
+    interrupt: Interrupt,
 }
 
 #[derive(Debug, Clone)]
@@ -52,7 +54,8 @@ impl Simulation {
     /// run there are replaced.
     #[must_use]
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
-        Self { scene, directory: directory.into(), beginning: Beginning::New { force } }
+        let (directory, beginning) = (directory.into(), Beginning::New { force });
+        Self { scene, directory, beginning, interrupt: Interrupt::default() }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given.
@@ -66,7 +69,14 @@ impl Simulation {
         if let Some(steps) = steps {
             scene.time.steps = steps;
         }
-        Ok(Self { scene, directory, beginning: Beginning::Checkpoint(Box::new(checkpoint)) })
+        let beginning = Beginning::Checkpoint(Box::new(checkpoint));
+        Ok(Self { scene, directory, beginning, interrupt: Interrupt::default() })
+    }
+
+    /// The same run, which saves a checkpoint and stops when it is asked to.
+    #[must_use]
+    pub fn until(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
     }
 
     /// The scene, with every default filled in.
@@ -99,10 +109,10 @@ impl Simulation {
     /// snapshots, checkpoints and the size of batches change no bit of it.
     ///
     /// # Errors
-    /// [`RunError`]: no usable adapter, a run that became unstable, files that cannot be written. What was measured
+    /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, directory, beginning } = self;
+        let Self { scene, directory, beginning, interrupt } = self;
         let model = Model::new(&scene);
         let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
@@ -119,7 +129,7 @@ impl Simulation {
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let momentum = start.state.total_momentum();
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { scene, model, directory, momentum };
+        let task = Task { scene, model, directory, interrupt, momentum };
         loop {
             match task.attempt(&gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
@@ -149,6 +159,7 @@ struct Task {
     scene: Scene,
     model: Model,
     directory: RunDirectory,
+    interrupt: Interrupt,
     /// Total momentum at the first step, in integer units.
     momentum: [i64; 3],
 }
@@ -172,7 +183,7 @@ impl Task {
         let plan = plan_for(&self.scene, &self.model, gpu, options);
         let mut engine = Engine::new(gpu, plan, &start.state)?;
         let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, engine.plan(), start)?;
-        match run.advance_to_end(&mut engine, pace, observer) {
+        match run.advance_to_end(&mut engine, pace, &self.interrupt, observer) {
             Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
                 let checkpoint = self.directory.file(files::CHECKPOINT);
@@ -274,6 +285,8 @@ struct Run<'a> {
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
     saved_step: u64,
+    /// When it was written.
+    saved_at: Instant,
     /// Total momentum at that step, in integer units.
     momentum: [i64; 3],
 }
@@ -317,6 +330,7 @@ impl<'a> Run<'a> {
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
+            saved_at: Instant::now(),
             momentum: start.state.total_momentum(),
         })
     }
@@ -325,6 +339,7 @@ impl<'a> Run<'a> {
         &mut self,
         engine: &mut Engine<'_>,
         pace: &mut Pace,
+        interrupt: &Interrupt,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
         let begun = pace.done();
@@ -343,6 +358,15 @@ impl<'a> Run<'a> {
                 advanced?;
                 pace.submitted(steps);
                 observer(Event::Advanced(self.progress(first, begun, pace)));
+                // Here nothing has been added yet of what is due at this step.
+                let interrupted = interrupt.is_asked() && engine.step() < self.scene.time.steps;
+                if interrupted || self.schedule.checkpoint_after(self.saved_at.elapsed()) {
+                    self.save(engine, pace)?;
+                }
+                if interrupted {
+                    let checkpoint = self.directory.file(files::CHECKPOINT);
+                    return Err(RunError::Interrupted { checkpoint, checkpoint_step: self.saved_step });
+                }
             }
             self.visit(engine, pace)?;
             observer(Event::Advanced(self.progress(first, begun, pace)));
@@ -354,29 +378,7 @@ impl<'a> Run<'a> {
     fn visit(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
         let step = engine.step();
         if self.schedule.checkpoint(step) {
-            let state = engine.state();
-            pace.finished();
-            let samples = engine.take_samples();
-            self.record(&samples, engine.plan())?;
-            let state = state?;
-            // The checkpoint counts on what is in the files before its step.
-            self.energies.sync()?;
-            if let Some(trajectory) = &mut self.trajectory {
-                trajectory.flush()?;
-            }
-            let mut sections = self.analyses.sections();
-            sections.push((CONFIGURATION.to_owned(), self.energies.section()));
-            if let Some(chains) = &self.chains {
-                sections.push((chain::SECTION.to_owned(), chains.section()));
-            }
-            sections.extend(self.cells.sections());
-            if self.model.voronoi.is_some() {
-                sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
-            }
-            checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
-            self.saved_step = step;
-            self.momentum = state.total_momentum();
-            pace.begin();
+            self.save(engine, pace)?;
         }
         let samples = engine.finish()?;
         pace.finished();
@@ -411,6 +413,35 @@ impl<'a> Run<'a> {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Saves a checkpoint.
+    fn save(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+        let state = engine.state();
+        pace.finished();
+        let samples = engine.take_samples();
+        self.record(&samples, engine.plan())?;
+        let state = state?;
+        // The checkpoint counts on what is in the files before its step.
+        self.energies.sync()?;
+        if let Some(trajectory) = &mut self.trajectory {
+            trajectory.flush()?;
+        }
+        let mut sections = self.analyses.sections();
+        sections.push((CONFIGURATION.to_owned(), self.energies.section()));
+        if let Some(chains) = &self.chains {
+            sections.push((chain::SECTION.to_owned(), chains.section()));
+        }
+        sections.extend(self.cells.sections());
+        if self.model.voronoi.is_some() {
+            sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
+        }
+        checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
+        self.saved_step = state.step;
+        self.saved_at = Instant::now();
+        self.momentum = state.total_momentum();
+        pace.begin();
         Ok(())
     }
 

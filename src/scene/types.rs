@@ -957,11 +957,14 @@ pub struct Checkpoint {
     /// Steps between two checkpoints; each replaces the last. The end of the run is always one.
     #[schemars(range(min = 1))]
     pub every: u64,
+    /// Minutes after which there is another checkpoint, wherever the run then is.
+    #[schemars(range(min = 1))]
+    pub minutes: u32,
 }
 
 impl Default for Checkpoint {
     fn default() -> Self {
-        Self { every: 10_000 }
+        Self { every: 10_000, minutes: 10 }
     }
 }
 

@@ -39,6 +39,16 @@ pub enum SweepError {
         /// The directory.
         path: PathBuf,
     },
+    /// It was asked to stop before its end.
+    #[error("interrupted after {finished} of {all} variants; `mesoscope sweep --resume {}` finishes the sweep", directory.display())]
+    Interrupted {
+        /// Variants that are finished.
+        finished: usize,
+        /// All variants.
+        all: usize,
+        /// The directory of the sweep.
+        directory: PathBuf,
+    },
     /// The adapter cannot be used.
     #[error(transparent)]
     Gpu(#[from] GpuError),

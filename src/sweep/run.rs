@@ -10,7 +10,7 @@ use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::model::Model;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Summary, files as run_files};
-use crate::run::{self, Event, Outcome, Progress, RunError, Simulation};
+use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,6 +24,7 @@ pub struct SweepRun {
     summary: SweepSummary,
     directory: PathBuf,
     beginning: Beginning,
+    interrupt: Interrupt,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,7 +96,8 @@ impl SweepRun {
     #[must_use]
     pub fn start(sweep: Sweep, directory: impl Into<PathBuf>, look: Look, force: bool) -> Self {
         let summary = SweepSummary::new(&sweep, look);
-        Self { sweep, summary, directory: directory.into(), beginning: Beginning::New { force } }
+        let (directory, beginning) = (directory.into(), Beginning::New { force });
+        Self { sweep, summary, directory, beginning, interrupt: Interrupt::default() }
     }
 
     /// What is missing of the sweep in a directory: variants under way go on from their last checkpoints, those that
@@ -114,7 +116,14 @@ impl SweepRun {
                 entry.finish(&run);
             }
         }
-        Ok(Self { sweep, summary, directory, beginning: Beginning::Interrupted })
+        let beginning = Beginning::Interrupted;
+        Ok(Self { sweep, summary, directory, beginning, interrupt: Interrupt::default() })
+    }
+
+    /// The same sweep, whose variants save checkpoints and stop when it is asked to.
+    #[must_use]
+    pub fn until(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
     }
 
     /// The sweep.
@@ -136,7 +145,7 @@ impl SweepRun {
     ///
     /// # Errors
     /// [`SweepError`]: no usable adapter, a quantity to plot that nobody measures, files of the sweep itself that
-    /// cannot be written. Failures of variants are in the outcome.
+    /// cannot be written, an interruption. Failures of variants are in the outcome.
     pub fn execute(
         mut self,
         choice: &AdapterChoice,
@@ -163,6 +172,11 @@ impl SweepRun {
             jobs.unwrap_or_else(|| default_jobs(adapter, particles, waiting.len())).clamp(1, waiting.len().max(1));
         observer(SweepEvent::Started { adapter, waiting: waiting.len(), jobs });
         let failures = self.run_all(&waiting, jobs, choice, observer)?;
+        if self.interrupt.is_asked() && self.waiting().len() > failures.len() {
+            let all = self.sweep.variants().len();
+            let finished = all - self.waiting().len();
+            return Err(SweepError::Interrupted { finished, all, directory: self.directory });
+        }
         observer(SweepEvent::Finishing);
         let style = plots::style(&self.sweep);
         let drawn = plots::draw(&self.directory, &self.sweep, &self.summary, &style, &gpu)?;
@@ -188,8 +202,9 @@ impl SweepRun {
         choice: &AdapterChoice,
         observer: &mut dyn FnMut(SweepEvent<'_>),
     ) -> Result<Vec<(usize, RunError)>, SweepError> {
-        let Self { sweep, summary, directory, beginning } = self;
+        let Self { sweep, summary, directory, beginning, interrupt } = self;
         let (sweep, directory, resuming) = (&*sweep, directory.as_path(), *beginning == Beginning::Interrupted);
+        let interrupt = &*interrupt;
         let next = AtomicUsize::new(0);
         let (sender, receiver) = mpsc::channel();
         let mut failures = Vec::new();
@@ -199,8 +214,11 @@ impl SweepRun {
                 let (sender, next) = (sender.clone(), &next);
                 scope.spawn(move || {
                     while let Some(number) = waiting.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        if interrupt.is_asked() {
+                            break;
+                        }
                         let variant = &sweep.variants()[*number];
-                        let simulation = simulation(variant, &directory.join(&variant.name), resuming);
+                        let simulation = simulation(variant, &directory.join(&variant.name), resuming).until(interrupt);
                         work(*number, simulation, choice, &sender);
                     }
                 });
@@ -213,6 +231,8 @@ impl SweepRun {
                     Message::Ended(result) => {
                         match *result {
                             Ok(outcome) => summary.variants[number].finish(&outcome.summary),
+                            // It waits to go on.
+                            Err(RunError::Interrupted { .. }) => continue,
                             Err(error) => {
                                 summary.variants[number].fail(error.to_string());
                                 failures.push((number, error));

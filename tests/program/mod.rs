@@ -14,6 +14,11 @@ const WITH_ADAPTER: [&str; 5] = ["run", "resume", "plot", "check", "sweep"];
 
 /// Starts the program and waits for it; on the adapter of `MESOSCOPE_ADAPTER` unless the arguments name one.
 pub fn mesoscope(arguments: &[&str]) -> Output {
+    command(arguments).output().unwrap()
+}
+
+/// The program with its arguments, to be started.
+pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
     command.args(arguments);
     if let Ok(adapter) = std::env::var("MESOSCOPE_ADAPTER")
@@ -22,7 +27,7 @@ pub fn mesoscope(arguments: &[&str]) -> Output {
     {
         command.args(["--adapter", &adapter]);
     }
-    command.output().unwrap()
+    command
 }
 
 pub fn text(bytes: &[u8]) -> &str {
