@@ -165,7 +165,9 @@ fn resuming_a_finished_run_does_nothing() {
     place.run("out", &["--quiet"]);
     let before = bytes(&place.path("out").join(files::SUMMARY));
     let said = succeeds(&["resume", &place.argument("out")]);
-    assert!(said.contains("finished at step 60"), "{said}");
+    assert!(said.contains("is finished at step 60"), "{said}");
+    let said = succeeds(&["resume", &place.argument("out"), "--steps", "30"]);
+    assert!(said.contains("has come to step 60"), "{said}");
     assert_eq!(bytes(&place.path("out").join(files::SUMMARY)), before);
     // Killed between the last checkpoint and the summary: the rest is written.
     fs::remove_file(place.path("out").join(files::SUMMARY)).unwrap();

@@ -34,10 +34,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
     if simulation.is_finished() {
         let step = simulation.first_step();
-        let text = format!(
-            "nothing to do: the run in {shown} has come to step {step}; `--steps N` goes on to a later step
-"
-        );
+        let state = if step > simulation.scene().time.steps { "has come to" } else { "is finished at" };
+        let text =
+            format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` goes on to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
     report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
