@@ -2,28 +2,29 @@
 
 use crate::gpu::AdapterDescription;
 
-/// Particles from which a single variant keeps a software adapter busy.
-const LARGE: u64 = 16_000;
+/// Operations of a step from which a single variant keeps a software adapter busy.
+const LARGE: f64 = 5e7;
 
-/// How many of `variants` to run at once on an adapter, where the user does not say; `largest` is the number of
-/// particles of the largest of them.
+/// How many of `variants` to run at once on an adapter, where the user does not say; `largest` is the arithmetic of a
+/// step of the largest of them: its particles times [`crate::plan::Plan::operations_per_particle`].
 ///
-/// On lavapipe with two cores, two variants of 3000 particles at once were done 1.2 times as fast as one after the other
-/// (median of ten rounds, 1.0 to 1.4): one prepares, measures and draws while the other computes. With 24 000 particles
-/// it was 1.1 (nine rounds, 0.8 to 1.9; 1.0 to 1.1 in the quietest three), which is not worth twice the memory, and three at
-/// once did not differ clearly from two. The machine had other work meanwhile, so these are rough. No GPU has been
-/// measured: there, variants run one after the other unless the user says otherwise.
+/// On lavapipe with two cores, two variants at once were done 1.5 times as fast as one after the other with shallow water of
+/// 4 096 particles (median of three rounds), 1.13 with 65 536 (11 million operations) and 1.1 with 262 144 (46 million), and 1.2
+/// with a DPD fluid of 3 000 (8 million; ten rounds) and 1.2 with one of 10 125 (27 million): one prepares, measures and draws
+/// while the other computes. With 24 000 (64 million) and 52 728 it was 1.0, which is not worth twice the memory, and more than
+/// two at once did not differ clearly from two. No GPU has been measured: there, variants run one after the other unless the
+/// user says otherwise.
 ///
 /// ```
 /// use mesoscope::{gpu::AdapterDescription, sweep::default_jobs};
 ///
 /// let (name, backend, driver) = ("llvmpipe".to_owned(), "Vulkan".to_owned(), "Mesa".to_owned());
 /// let adapter = AdapterDescription { name, kind: "software", backend, driver };
-/// assert_eq!(default_jobs(&adapter, 3_000, 8), 2);
-/// assert_eq!(default_jobs(&adapter, 24_000, 8), 1);
+/// assert_eq!(default_jobs(&adapter, 8e6, 8), 2);
+/// assert_eq!(default_jobs(&adapter, 64e6, 8), 1);
 /// ```
 #[must_use]
-pub fn default_jobs(adapter: &AdapterDescription, largest: u64, variants: usize) -> usize {
+pub fn default_jobs(adapter: &AdapterDescription, largest: f64, variants: usize) -> usize {
     let wanted = if adapter.kind == "software" && largest < LARGE { 2 } else { 1 };
     wanted.min(variants.max(1))
 }
@@ -37,11 +38,11 @@ mod tests {
         let adapter =
             |kind| AdapterDescription { name: String::new(), kind, backend: String::new(), driver: String::new() };
         for (kind, largest, variants, expected) in [
-            ("software", 3_000, 8, 2),
-            ("software", 3_000, 1, 1),
-            ("software", 3_000, 0, 1),
-            ("software", 24_000, 8, 1),
-            ("discrete", 3_000, 8, 1),
+            ("software", 8e6, 8, 2),
+            ("software", 8e6, 1, 1),
+            ("software", 8e6, 0, 1),
+            ("software", 64e6, 8, 1),
+            ("discrete", 8e6, 8, 1),
         ] {
             assert_eq!(default_jobs(&adapter(kind), largest, variants), expected, "{kind} {largest} {variants}");
         }

@@ -10,6 +10,7 @@ use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::model::Model;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Summary, files as run_files};
+use crate::plan::{self, Hardware, Options};
 use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -155,7 +156,7 @@ impl SweepRun {
         self.summary.plots.check(&self.sweep)?;
         let waiting = self.waiting();
         // Before the directory: an adapter that is not there should not cost an earlier sweep its files.
-        let (gpu, particles) = self.open_adapter(choice, &waiting)?;
+        let (gpu, largest) = self.open_adapter(choice, &waiting)?;
         if let Beginning::New { force } = self.beginning {
             directory::create(&self.directory, &self.sweep, force)?;
         }
@@ -168,8 +169,7 @@ impl SweepRun {
             });
         }
         save(&self.directory, &self.sweep, &self.summary)?;
-        let jobs =
-            jobs.unwrap_or_else(|| default_jobs(adapter, particles, waiting.len())).clamp(1, waiting.len().max(1));
+        let jobs = jobs.unwrap_or_else(|| default_jobs(adapter, largest, waiting.len())).clamp(1, waiting.len().max(1));
         observer(SweepEvent::Started { adapter, waiting: waiting.len(), jobs });
         let failures = self.run_all(&waiting, jobs, choice, observer)?;
         if self.interrupt.is_asked() && self.waiting().len() > failures.len() {
@@ -184,15 +184,22 @@ impl SweepRun {
         Ok(SweepOutcome { summary: self.summary, failures, files })
     }
 
-    /// Opens an adapter with room for the largest of these variants, and says how many particles that has.
-    fn open_adapter(&self, choice: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, u64), SweepError> {
+    /// Opens an adapter with room for the largest of these variants, and says how many operations a step of it takes.
+    fn open_adapter(&self, choice: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, f64), SweepError> {
         let scenes = waiting.iter().map(|number| &self.sweep.variants()[*number].scene);
-        let sizes = scenes.map(|scene| (Model::new(scene).particle_count(), scene));
-        match sizes.max_by_key(|(particles, _)| *particles) {
-            Some((particles, scene)) => Ok((run::adapter_for(scene, choice)?, particles)),
+        let Some(scene) = scenes.max_by_key(|scene| Model::new(scene).particle_count()) else {
             // Nothing to run: plots take little room.
-            None => Ok((Gpu::open(choice, crate::gpu::Requirements::default())?, 0)),
-        }
+            return Ok((Gpu::open(choice, crate::gpu::Requirements::default())?, 0.0));
+        };
+        let gpu = run::adapter_for(scene, choice)?;
+        let plan = plan::plan(
+            &Model::new(scene),
+            scene.time.equilibration,
+            &scene.output,
+            Hardware::from(&gpu),
+            Options::default(),
+        );
+        Ok((gpu, plan.particles as f64 * plan.operations_per_particle))
     }
 
     fn run_all(
