@@ -141,6 +141,22 @@ fn the_shear_flow_keeps_its_energy_for_long() {
     }
 }
 
+/// The polynomial of a rough tolerance smooths otherwise than the exact inverse, but as positively and symmetrically: what it
+/// conserves it conserves to the order of the scheme, where a solver that stops at a residual drifts whatever the step.
+#[test]
+fn a_rough_polynomial_keeps_its_energy_to_second_order() {
+    for tolerance in [0.5, 0.1] {
+        let solver = format!(r#"interactions.0.smoothing.solver={{"type":"chebyshev","tolerance":{tolerance}}}"#);
+        let errors = [0.04, 0.02].map(|step| {
+            let scene = shear_flow(&[&solver, &time_step(step), "output.energies.every=1"]);
+            energy_error(&mut Device::new(&scene), (4.0 / step).round() as u64, 1)
+        });
+        println!("tolerance {tolerance}: max|ΔE/E0| = {errors:?}");
+        assert!((3.0..5.5).contains(&(errors[0] / errors[1])), "tolerance {tolerance}: {errors:?}");
+        assert!(errors[1] < 1e-3, "tolerance {tolerance}: {errors:?}");
+    }
+}
+
 #[test]
 fn the_largest_stable_step_of_the_shear_flow() {
     for (step, stable) in [(0.125, true), (0.14, false)] {
