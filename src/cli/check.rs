@@ -248,12 +248,13 @@ fn mesh(
         None => {}
     }
     let share = water.stability(&scene.integrator, lengths, scene.time.step);
+    let clean = water.clean_share();
     rows.push((
         "stability",
         format!(
-            "the stiffest wave takes p = {} of the limit of water spread evenly; at random places up to {:.2} is stable",
+            "the stiffest wave takes p = {} of the limit of water spread evenly; at random places up to {} is stable",
             short(share),
-            water.clean_share()
+            if clean < 0.01 { short(clean) } else { format!("{clean:.2}") }
         ),
     ));
     rows

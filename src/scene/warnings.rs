@@ -206,9 +206,10 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
         let cause = if share.is_finite() {
             format!(
                 "the stiffest wave on the mesh takes p = {} of the limit of stability of water spread evenly; with {} particles \
-                 a cell at random places up to {clean:.2} is stable",
+                 a cell at random places up to {} is stable",
                 brief(share),
-                brief(water.carriers as f64 / water.nodes() as f64)
+                brief(water.carriers as f64 / water.nodes() as f64),
+                if clean < 0.01 { brief(clean) } else { format!("{clean:.2}") }
             )
         } else {
             format!(
