@@ -15,7 +15,7 @@ use crate::{Failure, Settings};
 struct Alternative {
     name: &'static str,
     species: u16,
-    /// Mass of the first over that of the others.
+    /// Mass of all species but the first, whose mass is 1.
     mass: f64,
     noise: &'static str,
     options: fn() -> Options,
@@ -27,7 +27,7 @@ const ALTERNATIVES: [Alternative; 6] = [
     Alternative {
         name: "two species, masses 1 and 2",
         species: 2,
-        mass: 0.5,
+        mass: 2.0,
         noise: UNIFORM,
         options: Options::default,
     },
@@ -51,13 +51,14 @@ const ALTERNATIVES: [Alternative; 6] = [
 
 impl Alternative {
     fn run<'a>(&self, gpu: &'a Gpu, fluid: &Fluid, integrator: &str) -> Result<Run<'a>, Failure> {
-        // The same particles under several names, in turns: what they do stays the same, and every pair looks its coefficients up.
+        // The same particles under several names, in turns: where masses are equal they do the same, and every pair looks its
+        // coefficients up.
         let names: Vec<String> = (0..self.species).map(|number| format!("fluid {number}")).collect();
         let density = 3.0 / f64::from(self.species);
         let groups: Vec<serde_json::Value> = (names.iter())
             .enumerate()
             .map(|(number, name)| {
-                let mass = if number == 0 { 1.0 } else { 1.0 / self.mass };
+                let mass = if number == 0 { 1.0 } else { self.mass };
                 serde_json::json!({ "species": name, "number_density": density, "mass": mass })
             })
             .collect();

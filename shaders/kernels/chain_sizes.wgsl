@@ -29,4 +29,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let own = chain.z == quantity / 2u;
         reduce_quantity(group, lane, quantity, select(Sum64(0u), sizes[quantity & 1u], own));
     }
+    report_turns(workgroups.x >> 16u);
 }

@@ -38,4 +38,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     }
     put_next_neighbour_word(slot, min(count, LIST_CAPACITY));
     raise(select(0u, FAILURE_FRAMES, count > LIST_CAPACITY));
+    report_turns(workgroups.x >> 16u);
 }

@@ -1,5 +1,6 @@
 // Distances of all pairs up to a range, counted into bins: one invocation a particle, each pair seen from its smaller id.
 override SEGMENTS: u32; // workgroups that share a row
+override PARTS: u32;    // workgroups that share the rows around each of its particles
 override BINS: u32;
 override HISTOGRAM_RANGE: f32;
 override SPAN_X: u32; // cells to visit on each axis, centred on the particle's
@@ -13,13 +14,14 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     @builtin(local_invocation_index) lane: u32) {
     for (var bin = lane; bin < BINS; bin += WORKGROUP) { atomicStore(&local_bins[bin], 0u); }
     workgroupBarrier();
-    let group = linear_workgroup(workgroup, workgroups);
+    let share = linear_workgroup(workgroup, workgroups);
+    let group = share / PARTS;
     let row = group / SEGMENTS;
     if (row < rows()) {
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            count_pairs(row, position_at(index));
+            count_pairs(row, share % PARTS, position_at(index));
         }
     }
     workgroupBarrier();
@@ -30,11 +32,12 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             if (before + found < before) { atomicAdd(&histogram[2u * bin + 1u], 1u); }
         }
     }
+    report_turns(workgroups.x >> 16u);
 }
 
-fn count_pairs(row: u32, position: vec4<u32>) {
+fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
     let column = column_of(fraction_of(position));
-    for (var across = 0u; across < SPAN_Y * SPAN_Z; across++) {
+    for (var across = part; across < SPAN_Y * SPAN_Z; across += PARTS) {
         let other_row = row_at(row, across);
         for (var along = 0u; along < SPAN_X; along++) {
             let other_column = (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X;

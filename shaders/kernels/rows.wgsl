@@ -16,6 +16,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             visit(row, index);
         }
     }
+    report_turns(workgroups.x >> 16u);
     pass_finish(group, lane);
 }
 

@@ -13,7 +13,7 @@ use mesoscope::scene::{
     MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
 };
 
-use super::table::{aligned, bytes, grouped};
+use super::table::{aligned, bytes, dimensions, grouped};
 use super::{AdapterArgument, Failure, SceneArguments, print};
 
 /// Check a scene: all mistakes at once, or else what it requires - kernels, buffers, bytes, expected cost
@@ -112,7 +112,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     };
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
-    let dimensions = super::dimensions(lengths.len());
+    let dimensions = dimensions(lengths.len());
     let mut rows = vec![
         ("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),

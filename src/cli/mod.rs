@@ -87,7 +87,3 @@ pub fn main() -> ExitCode {
         }
     }
 }
-
-fn dimensions(count: usize) -> String {
-    format!("{count} dimension{}", if count == 1 { "" } else { "s" })
-}

@@ -10,7 +10,7 @@ use mesoscope::run::{Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{self, Interaction, Scene};
 use serde_json::Value;
 
-use super::table::{aligned, grouped, prefixed};
+use super::table::{aligned, dimensions, grouped, prefixed};
 use super::{Failure, SceneArguments, print};
 
 /// Executes a run and reports on it, unless it is to be quiet.
@@ -89,7 +89,7 @@ impl Reporter {
             Event::Started { adapter, first_step, last_step } => {
                 let particles = Model::new(&self.scene).particle_count();
                 let noun = if particles == 1 { "particle" } else { "particles" };
-                let dimensions = super::dimensions(self.scene.space.lengths.len());
+                let dimensions = dimensions(self.scene.space.lengths.len());
                 let (name, driver) = (&adapter.name, &adapter.driver);
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
                 let title = &self.scene.title;

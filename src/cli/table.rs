@@ -15,6 +15,11 @@ pub fn aligned(rows: &[Vec<String>], indent: &str) -> String {
     text
 }
 
+/// A number of dimensions.
+pub fn dimensions(count: usize) -> String {
+    format!("{count} dimension{}", if count == 1 { "" } else { "s" })
+}
+
 /// An integer with its digits in groups of three.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();

@@ -27,8 +27,8 @@ pub enum EngineError {
     },
     /// The adapter left a loop before its end, as software adapters do after some 65 000 turns.
     #[error(
-        "at step {step} so many particles crowd in one place that the adapter {adapter} gave up looking through them; \
-         another adapter, or particles further apart, will do"
+        "at step {step} so many particles crowd in one place, or make one chain, that the adapter {adapter} gave up looking \
+         through them; another adapter, particles further apart, or shorter chains, will do"
     )]
     GaveUp {
         /// The first step at which it was seen.

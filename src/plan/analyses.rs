@@ -300,7 +300,7 @@ impl Builder<'_> {
         self.plan.add_table("chain_starts", "where each chain begins", bytes);
         self.sums(SumSampler {
             name: "chain_sizes",
-            modules: vec!["kernels/chain_sizes"],
+            modules: vec!["common/turns_endless", "kernels/chain_sizes"],
             constants: vec![
                 ("CHAINS", words.len() as f64),
                 ("QUANTITIES", quantities as f64),

@@ -5,6 +5,7 @@ mod couplings;
 mod grid;
 mod layout;
 mod pair;
+mod pair_histogram;
 mod precision;
 mod prefix_sum;
 mod recording;
@@ -143,11 +144,6 @@ impl Options {
     #[must_use]
     pub fn suits_serial_memory(&self, hardware: Hardware) -> bool {
         self.serial_memory.unwrap_or(hardware.serial_memory)
-    }
-
-    /// The module that notices where the adapter leaves loops before their end, as software adapters may.
-    fn turns(&self, hardware: Hardware) -> &'static str {
-        if self.suits_serial_memory(hardware) { "common/turns_counted" } else { "common/turns_endless" }
     }
 
     /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.

@@ -2,10 +2,11 @@
 
 use super::analyses::{self, Reported};
 use super::layout::PARTICLE;
+use super::pair_histogram::PairHistogram;
 use super::prefix_sum::{PrefixSum, needs_levels};
-use super::recording::record_histogram;
+use super::serial_memory::TURNS;
 use super::species::Species;
-use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Texture, Traversal};
+use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal};
 use crate::model::{Model, PairForce};
 use crate::noise;
 use crate::scene::{Distribution, Generator, Integrator, Output, RadialDistribution};
@@ -18,9 +19,6 @@ const OBSERVABLES: u64 = 9;
 /// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
 /// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
 const SCAN_AT_END_CELLS: u64 = 1 << 11;
-
-/// Turns of all loops together that a workgroup is given on average: software adapters leave loops after 65 535 of them.
-const TURNS: u64 = 1 << 14;
 
 /// Makes the plan of a model.
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
@@ -44,7 +42,6 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
         species: Species::of(model),
         equilibration,
         texels: false,
-        turns: options.turns(hardware),
         scans_at_end: traversal == Traversal::Clusters
             && options.suits_serial_memory(hardware)
             && grid.count() <= SCAN_AT_END_CELLS
@@ -117,8 +114,6 @@ struct Builder<'a> {
     equilibration: u64,
     /// Whether sorted particles are texels.
     texels: bool,
-    /// The module that notices where loops are left before their end.
-    turns: &'static str,
     /// Whether a step ends with the prefix sum over cells for the next one.
     scans_at_end: bool,
     /// The kernels of that sum on their own.
@@ -365,7 +360,7 @@ impl Builder<'_> {
             Traversal::Rows => {
                 let kept = masks == Masks::Kept;
                 modules.push(if kept { "common/kept_hits_of_rows" } else { "common/hits_of_rows" });
-                modules.push("kernels/rows");
+                modules.extend(["common/turns_endless", "kernels/rows"]);
                 self.workgroup_size()
             }
             Traversal::Clusters => {
@@ -376,7 +371,7 @@ impl Builder<'_> {
                     }
                     _ => &["common/hits_of_clusters", "common/eight_hits", "common/shuffle2"],
                 });
-                modules.extend(["common/stretches", self.turns, "kernels/clusters"]);
+                modules.extend(["common/stretches", "common/turns_endless", "kernels/clusters"]);
                 8
             }
         };
@@ -527,52 +522,14 @@ impl Builder<'_> {
     }
 
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
-        let span = |axis: usize| {
-            let width = self.model.units.lengths[axis] / f64::from(self.grid.cells[axis]);
-            let cells = 2 * (asked.range / width).ceil() as u32 + 1;
-            f64::from(if axis < self.grid.dimension { cells.min(self.grid.cells[axis]) } else { 1 })
-        };
-        let bins = asked.bins;
-        let constants = [
-            ("BINS", f64::from(bins)),
-            ("HISTOGRAM_RANGE", asked.range),
-            ("SPAN_X", span(0)),
-            ("SPAN_Y", span(1)),
-            ("SPAN_Z", span(2)),
-        ];
-        let rows = self.grid.rows();
-        let segments = (self.particles / rows).div_ceil(self.workgroup_size()).max(1).min((8192 / rows).max(1));
         let mut modules = space(&self.model.units, self.predicted());
         modules.extend(self.sorted());
-        modules.extend([
-            "common/contact",
-            if self.grid.dimension == 3 { "common/span3" } else { "common/span2" },
-            "kernels/pair_histogram",
-        ]);
-        let count = self.plan.add_kernel(
-            Kernel::new("pair_histogram", modules, rows * segments)
-                .with([&constants[..], &[("SEGMENTS", segments as f64)]].concat()),
-        );
-        let record =
-            self.plan.add_kernel(record_histogram(u64::from(bins)).renamed(vec![("samples", "histogram_samples")]));
-        let capacity = 16;
-        self.plan.add_buffer("histogram", "pairs by distance", 8 * u64::from(bins));
-        self.plan.add_buffer(
-            "histogram_samples",
-            "histograms waiting to be read",
-            8 * (1 + capacity * (1 + u64::from(bins))),
-        );
-        self.plan.samplers.push(Sampler {
-            name: "radial_distribution",
-            first: self.equilibration,
-            every: asked.every,
-            kernels: vec![count, record],
-            samples: "histogram_samples",
-            quantities: bins as usize,
-            capacity,
-            // Where a report moves the particles on, distances are counted there too.
-            needs_report: self.splits(),
-        });
+        let histogram =
+            PairHistogram { units: &self.model.units, grid: &self.grid, workgroup: self.workgroup_size(), asked };
+        // Where a report moves the particles on, distances are counted there too.
+        let needs_report = self.splits();
+        let first = self.equilibration;
+        histogram.add(&mut self.plan, modules, Vec::new(), first, needs_report);
     }
 
     fn buffers(&mut self) {

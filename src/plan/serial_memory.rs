@@ -5,6 +5,9 @@
 
 use super::{Buffer, Kernel, Layout, Plan, Texture};
 
+/// Turns of all loops together that an invocation is given on average: software adapters leave loops after 65 535 of them.
+pub(super) const TURNS: u64 = 1 << 14;
+
 /// A buffer that may be held in a texture instead.
 struct Candidate {
     name: &'static str,
@@ -83,6 +86,7 @@ impl Plan {
         for array in &arrays {
             self.come_to_texture(array);
         }
+        self.count_turns();
         self.show_clock();
         for kernel in &mut self.kernels {
             for (_, usual, suited) in SUITED.into_iter().filter(|(name, ..)| *name == kernel.name) {
@@ -90,6 +94,14 @@ impl Plan {
                     *module = suited;
                 }
             }
+        }
+    }
+
+    /// Has kernels notice where loops are left before their end.
+    fn count_turns(&mut self) {
+        let modules = self.kernels.iter_mut().flat_map(|kernel| &mut kernel.modules);
+        for module in modules.filter(|module| **module == "common/turns_endless") {
+            *module = "common/turns_counted";
         }
     }
 

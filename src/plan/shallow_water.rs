@@ -36,8 +36,7 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
     let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);
     let plan = empty_plan(model, water, storage, texels);
-    let turns = options.turns(hardware);
-    let mut builder = Builder { model, water, options, storage, eights, texels, turns, plan };
+    let mut builder = Builder { model, water, options, storage, eights, texels, plan };
     builder.constants();
     builder.ordering();
     builder.depth();
@@ -151,8 +150,6 @@ struct Builder<'a> {
     eights: bool,
     /// Whether particles are texels.
     texels: bool,
-    /// The module that notices where loops are left before their end.
-    turns: &'static str,
     plan: Plan,
 }
 
@@ -227,7 +224,7 @@ impl Builder<'_> {
 
     /// A kernel that visits the cells.
     fn cell_kernel(&mut self, name: &'static str, extra: &[&'static str]) -> usize {
-        let modules = [extra, &[self.turns, self.each_cell()]].concat();
+        let modules = [extra, &["common/turns_endless", self.each_cell()]].concat();
         let lanes = self.water.nodes() / if self.eights { STRIP } else { 1 };
         self.kernel(name, &modules, lanes.div_ceil(self.options.workgroup()))
     }
@@ -406,7 +403,7 @@ impl Builder<'_> {
             (true, Storage::Bins) => &["common/eight_bins", "passes/push_of_eight"],
         };
         let push_modules = [&self.moving(self.eights)[..], &self.stored()[..], &[store_moved], push].concat();
-        let report = with(&["common/sum64", "common/reduce", self.turns, "kernels/report_water"]);
+        let report = with(&["common/sum64", "common/reduce", "common/turns_endless", "kernels/report_water"]);
         let push = self.cell_kernel("push", &push_modules);
         let push_on = self.cell_kernel("push_from_report", &push_modules);
         let report = self.kernel("report", &report, groups);

@@ -2,9 +2,9 @@
 //! by cell on the side.
 
 use super::Builder;
+use crate::plan::ARRANGE;
 use crate::plan::analyses::{self, Reported};
-use crate::plan::recording::record_histogram;
-use crate::plan::{ARRANGE, Sampler};
+use crate::plan::pair_histogram::PairHistogram;
 use crate::scene::{Output, RadialDistribution};
 
 impl Builder<'_> {
@@ -39,50 +39,18 @@ impl Builder<'_> {
     }
 
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
-        let span = |axis: usize| {
-            let width = self.model.units.lengths[axis] / f64::from(self.grid.cells[axis]);
-            let cells = 2 * (asked.range / width).ceil() as u32 + 1;
-            f64::from(if axis < self.grid.dimension { cells.min(self.grid.cells[axis]) } else { 1 })
-        };
-        let bins = u64::from(asked.bins);
-        let rows = self.grid.rows();
-        let segments = (self.particles / rows).div_ceil(self.options.workgroup()).clamp(1, (8192 / rows).max(1));
-        let constants = vec![
-            ("BINS", bins as f64),
-            ("HISTOGRAM_RANGE", asked.range),
-            ("SPAN_X", span(0)),
-            ("SPAN_Y", span(1)),
-            ("SPAN_Z", span(2)),
-            ("SEGMENTS", segments as f64),
-        ];
         let mut kernels = self.binning();
         let groups = self.groups(self.particles.max(self.grid.count()));
         // On the side: the list and what it has noted stay as they are.
         let arrange = [&[self.cells()][..], &ARRANGE].concat();
         kernels.push(self.kernel("arrange_by_cell", &arrange, groups));
-        let sorted = [self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
-        let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
-        let modules = [&sorted[..], &["common/contact", span, "kernels/pair_histogram"]].concat();
-        let count = self.kernel("pair_histogram", &modules, rows * segments);
-        self.plan.kernels[count].constants = constants;
-        kernels.push(count);
-        let record = record_histogram(bins).renamed(vec![("samples", "histogram_samples")]);
-        kernels.push(self.plan.add_kernel(record));
-        let capacity = 16;
-        self.plan.add_buffer("histogram", "pairs by distance", 8 * bins);
-        self.plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + capacity * (1 + bins)));
         if self.model.pair_force.is_none() {
             self.ordering_buffers();
         }
-        self.plan.samplers.push(Sampler {
-            name: "radial_distribution",
-            first: self.equilibration,
-            every: asked.every,
-            kernels,
-            samples: "histogram_samples",
-            quantities: asked.bins as usize,
-            capacity,
-            needs_report: false,
-        });
+        let sorted = ["common/particles", self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
+        let modules = [&self.space()[..], &sorted].concat();
+        let histogram =
+            PairHistogram { units: &self.model.units, grid: &self.grid, workgroup: self.options.workgroup(), asked };
+        histogram.add(&mut self.plan, modules, kernels, self.equilibration, false);
     }
 }

@@ -137,7 +137,9 @@ impl Builder<'_> {
         kernels.push(self.kernel("arrange", &arrange, arrange_groups));
         let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
         let exclusions = self.exclusions();
-        let modules = [&sorted[..], &[span, exclusions, "common/neighbours_next", "kernels/list"]].concat();
+        let modules =
+            [&sorted[..], &[span, exclusions, "common/neighbours_next", "common/turns_endless", "kernels/list"]]
+                .concat();
         let list = self.kernel("list", &modules, groups);
         kernels.push(list);
         if self.force.remembers() {

@@ -59,7 +59,7 @@ impl Builder<'_> {
         let quickly = self.shared_kernel("tessellate", &[&cells[..], &few].concat(), groups);
         self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
         let polygon =
-            [corners, "common/polygon", "common/in_circle", "common/turns_counted", "kernels/tessellate_exactly"];
+            [corners, "common/polygon", "common/in_circle", "common/turns_endless", "kernels/tessellate_exactly"];
         let groups = self.groups(self.particles.div_ceil(DOUBTFUL_SHARE));
         let exactly = self.shared_kernel("tessellate_exactly", &[&cells[..], &polygon].concat(), groups);
         let [x_weight, y_weight] = weights(self.model.units.lengths);

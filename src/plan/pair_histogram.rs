@@ -1,0 +1,117 @@
+//! Pairs counted by distance, for the radial distribution function.
+
+use super::recording::record_histogram;
+use super::serial_memory::TURNS;
+use super::{Grid, Kernel, Plan, Sampler};
+use crate::scene::RadialDistribution;
+use crate::state::Units;
+
+/// Histograms kept on the device between two readbacks.
+const CAPACITY: u64 = 16;
+
+/// Enough workgroups to fill an adapter.
+const ENOUGH: u64 = 8192;
+
+/// What the kernel that counts pairs has to know.
+pub(super) struct PairHistogram<'a> {
+    pub units: &'a Units,
+    pub grid: &'a Grid,
+    /// Lanes of a workgroup.
+    pub workgroup: u64,
+    pub asked: &'a RadialDistribution,
+}
+
+impl PairHistogram<'_> {
+    /// Adds the kernel, whose `modules` know the ordered particles, what records its counts, and the sampler. `kernels` order
+    /// the particles, if need be.
+    pub fn add(
+        self,
+        plan: &mut Plan,
+        mut modules: Vec<&'static str>,
+        mut kernels: Vec<usize>,
+        first: u64,
+        needs_report: bool,
+    ) {
+        let bins = u64::from(self.asked.bins);
+        let span = if self.grid.dimension == 3 { "common/span3" } else { "common/span2" };
+        modules.extend(["common/contact", span, "common/turns_endless", "kernels/pair_histogram"]);
+        let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
+        let (segments, parts) = self.shares(plan.particles, spans);
+        let workgroups = self.grid.rows() * segments * parts;
+        kernels.push(plan.add_kernel(Kernel::new("pair_histogram", modules, workgroups).with(vec![
+            ("BINS", bins as f64),
+            ("HISTOGRAM_RANGE", self.asked.range),
+            ("SPAN_X", spans[0] as f64),
+            ("SPAN_Y", spans[1] as f64),
+            ("SPAN_Z", spans[2] as f64),
+            ("SEGMENTS", segments as f64),
+            ("PARTS", parts as f64),
+        ])));
+        kernels.push(plan.add_kernel(record_histogram(bins).renamed(vec![("samples", "histogram_samples")])));
+        plan.add_buffer("histogram", "pairs by distance", 8 * bins);
+        plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + CAPACITY * (1 + bins)));
+        plan.samplers.push(Sampler {
+            name: "radial_distribution",
+            first,
+            every: self.asked.every,
+            kernels,
+            samples: "histogram_samples",
+            quantities: self.asked.bins as usize,
+            capacity: CAPACITY,
+            needs_report,
+        });
+    }
+
+    /// Cells that the range covers on an axis.
+    fn span(&self, axis: usize) -> u64 {
+        if axis >= self.grid.dimension {
+            return 1;
+        }
+        let width = self.units.lengths[axis] / f64::from(self.grid.cells[axis]);
+        (2 * (self.asked.range / width).ceil() as u64 + 1).min(self.grid.cells[axis].into())
+    }
+
+    /// Workgroups that share the particles of a row, and those that share the rows around each of these: enough to fill the
+    /// adapter, and so many that no lane makes more turns than it should.
+    fn shares(&self, particles: u64, spans: [u64; 3]) -> (u64, u64) {
+        let rows = self.grid.rows();
+        let rows_around = spans[1] * spans[2];
+        // Lanes of a vector wait for the fullest of their cells, and every cell costs a turn and the end of a loop.
+        let in_cell = (particles / self.grid.count()).max(1);
+        let turns_of_cell = in_cell + 2 * in_cell.isqrt() + 2;
+        let candidates = turns_of_cell.saturating_mul(spans[0]).saturating_mul(rows_around);
+        let rounds = (particles / rows).div_ceil(self.workgroup).max(1);
+        // Of all particles of a lane, if one workgroup took the row.
+        let turns = rounds.saturating_mul(candidates);
+        let segments = rounds.min((ENOUGH / rows).max(turns.div_ceil(TURNS)).max(1));
+        let parts = (rounds.div_ceil(segments).saturating_mul(candidates)).div_ceil(TURNS).clamp(1, rows_around);
+        (segments, parts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_lane_makes_more_turns_than_software_adapters_do() {
+        for (edge, density, range) in
+            [(10.0, 3.0, 3.0), (20.0, 3.0, 10.0), (69.34, 3.0, 10.0), (42.0, 1.0, 21.0), (110.0, 3.0, 55.0)]
+        {
+            let units = Units { dimension: 3, lengths: [edge; 3], momentum: 1.0 };
+            let particles = (density * edge * edge * edge) as u64;
+            let grid = Grid::new(&units, 1.0, particles);
+            let asked = RadialDistribution { every: 1, range, bins: 10 };
+            let histogram = PairHistogram { units: &units, grid: &grid, workgroup: 64, asked: &asked };
+            let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
+            let (segments, parts) = histogram.shares(particles, spans);
+            // A lane's particles, the rows of cells that it visits around each, the cells of these, and the particles in the
+            // fullest of some: five standard deviations above the mean.
+            let mean = particles.div_ceil(grid.count());
+            let in_cell = mean + 5 * mean.isqrt();
+            let own = (particles / grid.rows()).div_ceil(64).div_ceil(segments);
+            let turns = own * (spans[1] * spans[2]).div_ceil(parts) * spans[0] * (2 + in_cell);
+            assert!(turns < 65_535, "{edge} {range}: {turns} with {segments} segments, {parts} parts");
+        }
+    }
+}
