@@ -7,7 +7,7 @@ use std::path::Path;
 
 use mesoscope::engine::{Engine, Sample};
 use mesoscope::gpu::AdapterChoice;
-use mesoscope::measure::histogram::gaussian_density;
+use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::model::Model;
 use mesoscope::output::{Table, files, read_table};
 use mesoscope::plan::Options;
@@ -70,12 +70,11 @@ fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
         let integral = rows.iter().map(|row| row[1] * width).sum::<f64>();
         assert!((integral - (1.0 - outside / total)).abs() < 1e-12);
         // χ² of the bins with ten values or more. Velocities ten steps (0.4) apart are correlated by 0.2, so that counts
-        // scatter at most 1 + 2 · 0.2 times as much as independent ones. That densities are those in the middle of bins
-        // adds 0.02 to χ² for a bin, and that the temperature is known to 0.4 % adds 2 in all.
+        // scatter at most 1 + 2 · 0.2 times as much as independent ones. That the
+        // temperature is known to 0.4 % adds 2 to χ² in all.
         let density = |x: f64| {
-            let component = gaussian_density(x, 0.0, variance.sqrt());
-            let sphere = 2.0 * x * x / variance;
-            if values == 3.0 { component } else { component * sphere }
+            let bin = [x - 0.5 * width, x + 0.5 * width];
+            if values == 3.0 { gaussian_mean(bin, 0.0, variance.sqrt()) } else { maxwell_mean(bin, 3.0 * variance, 3) }
         };
         let pairs = rows.iter().map(|row| (row[2], density(row[0]) * width * total));
         let terms: Vec<f64> =

@@ -94,7 +94,7 @@ impl EnergiesFile {
         Ok(Self { records, columns: columns.len(), line: Vec::new() })
     }
 
-    /// Adds a row. NaN leaves its cell empty: the quantity has no value at this step.
+    /// Adds a row. What is not finite leaves its cell empty: the quantity has no value at this step.
     ///
     /// # Errors
     /// [`OutputError::RowLength`] unless there is one value for each column; [`OutputError::Io`] when a full buffer

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 
-/// A table of numbers; an empty cell is NaN.
+/// A table of finite numbers; an empty cell is NaN.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// Names of the columns.
@@ -37,7 +37,8 @@ impl Table {
 /// assert!(table.rows[0][2].is_nan());
 ///
 /// std::fs::write(&path, "step,temperature\n0,warm\n")?;
-/// assert!(read_table(&path).unwrap_err().to_string().ends_with("line 2: `warm` is not a number"));
+/// let problem = read_table(&path).unwrap_err().to_string();
+/// assert!(problem.ends_with("line 2: `warm` in column `temperature` is not a number"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -58,13 +59,13 @@ pub fn read_table(path: &Path) -> Result<Table, OutputError> {
                 split_header(&line).ok_or_else(|| wrong(1, "a quotation mark is never closed".to_owned()))?;
             continue;
         }
-        let row: Result<Vec<f64>, _> = line.split(',').map(|cell| number_of(cell).ok_or(cell)).collect();
-        let row = row.map_err(|cell| wrong(number, format!("`{cell}` is not a number")))?;
-        if row.len() != table.columns.len() {
-            let (expected, found) = (table.columns.len(), row.len());
+        let (expected, found) = (table.columns.len(), line.split(',').count());
+        if found != expected {
             return Err(wrong(number, format!("expected {expected} cells, found {found}")));
         }
-        table.rows.push(row);
+        let cells = line.split(',').zip(&table.columns);
+        let row: Result<Vec<f64>, String> = cells.map(|(cell, column)| number_of(cell, column)).collect();
+        table.rows.push(row.map_err(|problem| wrong(number, problem))?);
     }
     if table.columns.is_empty() {
         return Err(wrong(1, "expected a header with the names of the columns, found nothing".to_owned()));
@@ -72,7 +73,7 @@ pub fn read_table(path: &Path) -> Result<Table, OutputError> {
     Ok(table)
 }
 
-/// Writes a whole table, which appears complete or not at all.
+/// Writes a whole table, which appears complete or not at all. What is not finite leaves its cell empty.
 ///
 /// ```
 /// use mesoscope::output::{Table, read_table, write_table};
@@ -151,17 +152,22 @@ fn split_header(line: &str) -> Option<Vec<String>> {
     (!quoted).then_some(names)
 }
 
-fn number_of(cell: &str) -> Option<f64> {
+/// The number in a cell, NaN if it is empty, or what is wrong with it. What a table holds can be drawn: it is finite.
+fn number_of(cell: &str, column: &str) -> Result<f64, String> {
     let cell = cell.trim();
-    if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }
+    if cell.is_empty() {
+        return Ok(f64::NAN);
+    }
+    let number: f64 = cell.parse().map_err(|_| format!("`{cell}` in column `{column}` is not a number"))?;
+    if number.is_finite() { Ok(number) } else { Err(format!("`{cell}` in column `{column}` is not a finite number")) }
 }
 
-/// Appends the shortest digits that read back as the same `f64`; nothing for NaN.
+/// Appends the shortest digits that read back as the same `f64`; nothing for what is not finite.
 pub(crate) fn push_number(text: &mut Vec<u8>, value: f64) {
     let magnitude = value.abs();
-    let written = if value.is_nan() {
+    let written = if !value.is_finite() {
         Ok(())
-    } else if magnitude == 0.0 || magnitude.is_infinite() || (1e-5..1e16).contains(&magnitude) {
+    } else if magnitude == 0.0 || (1e-5..1e16).contains(&magnitude) {
         write!(text, "{value}")
     } else {
         write!(text, "{value:e}")
@@ -184,24 +190,40 @@ mod tests {
             (1e300, "1e300"),
             (5e-324, "5e-324"),
             (1.0 / 3.0, "0.3333333333333333"),
-            (f64::NEG_INFINITY, "-inf"),
             (f64::NAN, ""),
         ] {
             let mut bytes = Vec::new();
             push_number(&mut bytes, value);
             assert_eq!(std::str::from_utf8(&bytes).unwrap(), text);
-            assert_eq!(number_of(text).unwrap().to_bits(), value.to_bits());
+            assert_eq!(number_of(text, "x").unwrap().to_bits(), value.to_bits());
         }
         let mut bits = 1_u64;
         for _ in 0..10_000 {
             bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let value = f64::from_bits(bits);
-            if value.is_nan() {
+            if !value.is_finite() {
                 continue;
             }
             let mut bytes = Vec::new();
             push_number(&mut bytes, value);
             assert_eq!(std::str::from_utf8(&bytes).unwrap().parse::<f64>().unwrap().to_bits(), value.to_bits());
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_is_neither_written_nor_read() {
+        let mut text = Vec::new();
+        for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            push_number(&mut text, value);
+        }
+        assert!(text.is_empty());
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("speed_histogram.csv");
+        for cell in ["inf", "-inf", "Infinity", "nan", "1e999", "-1e999"] {
+            std::fs::write(&path, format!("speed,density\n1,2\n2,{cell}\n")).unwrap();
+            let problem = read_table(&path).unwrap_err().to_string();
+            let expected = format!("speed_histogram.csv`, line 3: `{cell}` in column `density` is not a finite number");
+            assert!(problem.ends_with(&expected), "{problem}");
         }
     }
 

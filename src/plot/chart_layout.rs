@@ -118,15 +118,11 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
 
 fn prepare(panels: &[Panel]) -> Vec<Prepared<'_>> {
     let mut prepared: Vec<Prepared<'_>> = Vec::new();
-    let mut start = 0;
-    while start < panels.len() {
-        let shares = |panel: &&Panel| panel.x == panels[start].x;
-        let count = panels[start..].iter().take_while(shares).count();
-        let group = &panels[start..start + count];
+    for group in panels.chunk_by(|above, below| above.x == below.x) {
         // Lines end at the frame; markers must not be cut by it.
         let lone = |series: &Series| matches!(series.style, SeriesStyle::Markers | SeriesStyle::LineMarkers);
         let marked = group.iter().flat_map(|panel| &panel.series).any(lone);
-        let x = axis_map(&panels[start].x, group.iter().flat_map(x_values), if marked { 0.03 } else { 0.0 });
+        let x = axis_map(&group[0].x, group.iter().flat_map(x_values), if marked { 0.03 } else { 0.0 });
         for (index, panel) in group.iter().enumerate() {
             let log = |axis: &Axis, value: f64| axis.scale == Scale::Log && value <= 0.0;
             let points = || panel.series.iter().flat_map(|series| &series.points);
@@ -134,14 +130,13 @@ fn prepare(panels: &[Panel]) -> Vec<Prepared<'_>> {
                 panel,
                 x,
                 y: axis_map(&panel.y, y_values(panel), 0.05),
-                shares_x_below: index + 1 < count,
+                shares_x_below: index + 1 < group.len(),
                 left_out: points().filter(|point| log(&panel.x, point[0]) || log(&panel.y, point[1])).count(),
                 has_data: points().any(|point| {
                     point.iter().all(|value| value.is_finite()) && !log(&panel.x, point[0]) && !log(&panel.y, point[1])
                 }),
             });
         }
-        start += count;
     }
     prepared
 }
@@ -881,4 +876,76 @@ fn is_rough(panel: &Panel, place: &Placed) -> bool {
         let drawn: f64 = pieces.iter().map(|run| length(&thinned(run), &place.area)).sum();
         drawn > 2.5 * (place.area.width() + place.area.height())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::expect_used)]
+    use super::*;
+    use crate::noise;
+    use crate::plot::ReferenceLine;
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    /// What a table that was written by hand, or a quantity without a scale, may put into a chart.
+    const DEGENERATE: [f64; 14] = [
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        0.0,
+        -0.0,
+        5e-324,
+        1e-310,
+        -1e-300,
+        1.0,
+        1.0 + f64::EPSILON,
+        -3.0,
+        1e300,
+        f64::MAX,
+        -f64::MAX,
+    ];
+
+    fn degenerate_chart(seed: u64) -> Chart {
+        let mut drawn = 0;
+        let mut below = |limit: usize| {
+            drawn += 1;
+            noise::step_key(seed, 99, drawn)[0] as usize % limit
+        };
+        let mut chart = Chart::default();
+        for _ in 0..=below(3) {
+            let mut panel = Panel::new("x", "y");
+            for axis in [&mut panel.x, &mut panel.y] {
+                axis.scale = if below(2) == 0 { Scale::Linear } else { Scale::Log };
+                axis.range = (below(2) == 0).then(|| [DEGENERATE[below(14)], DEGENERATE[below(14)]]);
+            }
+            for _ in 0..below(3) {
+                let points: Vec<[f64; 2]> = (0..below(7)).map(|_| [0, 1].map(|_| DEGENERATE[below(14)])).collect();
+                let errors = (below(2) == 0).then(|| points.iter().map(|_| DEGENERATE[below(14)]).collect());
+                let style = [SeriesStyle::Line, SeriesStyle::Markers, SeriesStyle::LineMarkers, SeriesStyle::Band];
+                let style = style[below(4)];
+                panel.series.push(Series { errors, style, ..Series::line("s", points) });
+            }
+            let references =
+                (0..below(2)).map(|_| ReferenceLine { label: "r".to_owned(), value: DEGENERATE[below(14)] });
+            panel.references.extend(references);
+            chart.panels.push(panel);
+        }
+        chart
+    }
+
+    #[test]
+    fn every_chart_is_laid_out_in_the_end() {
+        let (done, laid_out) = channel();
+        std::thread::spawn(move || {
+            for seed in 0..400 {
+                let chart = degenerate_chart(seed);
+                let result = lay_out(&chart, &PlotStyle::default()).map(|_| ()).map_err(|error| error.to_string());
+                done.send((seed, result)).unwrap();
+            }
+        });
+        for expected in 0..400 {
+            let (seed, result) = laid_out.recv_timeout(Duration::from_secs(60)).expect("a chart never ends");
+            assert_eq!((seed, result), (expected, Ok(())));
+        }
+    }
 }

@@ -10,7 +10,7 @@ pub(super) fn runs(points: &[[f64; 2]], place: impl Fn([f64; 2]) -> Option<[f64;
     let mut runs = Vec::new();
     let mut run = Run::new();
     for &point in points {
-        if let Some(pixel) = place(point) {
+        if let Some(pixel) = place(point).filter(|pixel| pixel.iter().all(|coordinate| coordinate.is_finite())) {
             run.push(pixel);
         } else if !run.is_empty() {
             runs.push(std::mem::take(&mut run));
@@ -25,11 +25,8 @@ pub(super) fn runs(points: &[[f64; 2]], place: impl Fn([f64; 2]) -> Option<[f64;
 /// Keeps the first, lowest, highest and last of all neighbouring points in one pixel column: the picture stays the same.
 pub(super) fn thinned(run: &[[f64; 2]]) -> Run {
     let mut kept = Run::new();
-    let mut start = 0;
-    while start < run.len() {
-        let column = run[start][0].floor();
-        let length = run[start..].iter().take_while(|point| point[0].floor() == column).count();
-        let group = &run[start..start + length];
+    for group in run.chunk_by(|a, b| a[0].floor() == b[0].floor()) {
+        let length = group.len();
         if length <= 4 {
             kept.extend_from_slice(group);
         } else {
@@ -48,7 +45,6 @@ pub(super) fn thinned(run: &[[f64; 2]]) -> Run {
                 chosen.iter().enumerate().filter(|&(i, c)| i == 0 || chosen[i - 1] != *c).map(|(_, &c)| group[c]),
             );
         }
-        start += length;
     }
     kept
 }

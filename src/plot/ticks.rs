@@ -34,14 +34,23 @@ pub(super) struct Ticks {
     pub multiplier: Option<String>,
 }
 
-/// Ticks of an axis with room for at most `count` labels: as many as fit.
+/// Ticks of an axis with room for at most `count` labels: as many as fit. An axis whose ends are not two numbers in order,
+/// or so close to zero or so far apart that no step between them is an ordinary number, has none.
 pub(super) fn ticks(map: &AxisMap, count: usize) -> Ticks {
+    let span = map.high - map.low;
+    let has_steps = span.is_finite() && span * SMALLEST_STEP >= f64::MIN_POSITIVE;
+    if !has_steps || map.scale == Scale::Log && map.low < f64::MIN_POSITIVE {
+        return Ticks::default();
+    }
     match map.scale {
         Scale::Linear => linear_ticks(map.low, map.high, count),
         Scale::Log if map.high / map.low < 4.0 => linear_ticks(map.low, map.high, count),
         Scale::Log => log_ticks(map.low, map.high, count),
     }
 }
+
+/// A minor step is a larger part of the axis than this.
+const SMALLEST_STEP: f64 = 1e-6;
 
 /// The smallest of 1, 2, 5 times a power of ten that is at least `raw`, and the number of minor intervals in it.
 fn nice_step(raw: f64) -> (f64, u32) {
@@ -71,7 +80,8 @@ fn linear_ticks(low: f64, high: f64, count: usize) -> Ticks {
     let count = count.max(2);
     let (mut step, mut parts) = nice_step(span / (2 * count) as f64);
     let mut values = multiples(low, high, step);
-    while values.len() > count {
+    // A step as long as the axis leaves two.
+    while values.len() > count && step < span {
         (step, parts) = nice_step(1.5 * step);
         values = multiples(low, high, step);
     }
@@ -118,7 +128,7 @@ fn log_ticks(low: f64, high: f64, count: usize) -> Ticks {
         // With few decades in sight the twos and fives carry labels too.
         for lead in 1..=9 {
             let value = f64::from(lead) * power;
-            if value < low * (1.0 - 1e-9) || value > high * (1.0 + 1e-9) {
+            if value < low * (1.0 - 1e-9) || value > high * (1.0 + 1e-9) || value.is_infinite() {
                 continue;
             }
             let labelled = match lead {
@@ -275,6 +285,22 @@ mod tests {
                 assert!(ticks.major.iter().all(|(_, label)| label.len() < 12), "{ticks:?}");
                 let distinct: std::collections::HashSet<_> = ticks.major.iter().map(|(_, label)| label).collect();
                 assert_eq!(distinct.len(), ticks.major.len(), "{low} {high} {ticks:?}");
+            }
+        }
+    }
+
+    /// Every pair of ends, in order or not, with a step between them or not, gets its few ticks and no more.
+    #[test]
+    fn ticks_end_whatever_the_axis() {
+        let tiny = [0.0, -0.0, 5e-324, 1e-310, f64::MIN_POSITIVE, 1e-300, 1e-12];
+        let large = [1.0, 1.0 + f64::EPSILON, 3e5, 1e300, f64::MAX, f64::INFINITY, f64::NAN];
+        let values: Vec<f64> = tiny.into_iter().chain(large).flat_map(|value| [value, -value]).collect();
+        for (low, high) in values.iter().flat_map(|low| values.iter().map(move |high| (*low, *high))) {
+            for (scale, count) in [(Scale::Linear, 2), (Scale::Linear, 9), (Scale::Log, 2), (Scale::Log, 9)] {
+                let found = ticks(&AxisMap { scale, low, high }, count);
+                assert!(found.major.len() + found.minor.len() < 1100, "{scale:?} {low} {high} {count}: {found:?}");
+                let values = found.major.iter().map(|(value, _)| value).chain(&found.minor);
+                assert!(values.into_iter().all(|value| value.is_finite()), "{scale:?} {low} {high}: {found:?}");
             }
         }
     }

@@ -406,13 +406,17 @@ fn density_chart(title: &str, table: &Table) -> Chart {
     let column = |index: usize| table.rows.iter().map(move |row| row.get(index).copied().unwrap_or(f64::NAN));
     let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
     let centres: Vec<f64> = column(0).collect();
-    // A single bin does not tell its width, but its density does.
+    // A single bin does not tell its width, but its density does, unless nothing was counted.
     let width = match centres.as_slice() {
         [first, .., last] => (last - first) / (centres.len() - 1) as f64,
         _ => 1.0 / column(1).sum::<f64>(),
     };
     let first = centres.first().map_or(0.0, |first| first - 0.5 * width);
-    let edges: Vec<f64> = (0..=centres.len()).map(|edge| first + edge as f64 * width).collect();
+    let edges: Vec<f64> = if width.is_finite() && width > 0.0 {
+        (0..=centres.len()).map(|edge| first + edge as f64 * width).collect()
+    } else {
+        Vec::new()
+    };
     let compared: Vec<[f64; 2]> = centres.iter().zip(column(3)).map(|(centre, density)| [*centre, density]).collect();
     let densities: Vec<f64> = column(1).collect();
     let label = match name(3) {

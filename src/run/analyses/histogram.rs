@@ -2,7 +2,7 @@
 
 use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
-use crate::measure::histogram::{Histogram, PowerMeans, gaussian_density, maxwell_density};
+use crate::measure::histogram::{Histogram, PowerMeans, gaussian_mean, maxwell_mean};
 use crate::output::{Table, files};
 use crate::plan::analyses::{
     HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_name, histogram_range, moment_quantum,
@@ -118,13 +118,12 @@ impl Analysis for Counts {
         let histogram = &self.histogram;
         let densities = histogram.density();
         let rows = histogram.counts.iter().enumerate().map(|(bin, count)| {
-            let centre = histogram.centre(bin);
             let compared = if speed {
-                maxwell_density(centre, magnitude.second, self.dimension)
+                maxwell_mean(histogram.edges(bin), magnitude.second, self.dimension)
             } else {
-                gaussian_density(centre, value.first, value.standard_deviation())
+                gaussian_mean(histogram.edges(bin), value.first, value.standard_deviation())
             };
-            vec![centre, densities[bin], *count, compared]
+            vec![histogram.centre(bin), densities[bin], *count, compared]
         });
         let compared = if speed { "maxwell" } else { "gaussian" };
         let columns = [name, "density", "count", compared].map(str::to_owned).to_vec();
