@@ -8,10 +8,10 @@ var<private> failures_of_particles: u32; // raised once, when all particles of a
 // `strain` is the sum of the magnitudes of all impulses on the particle: it tells, where the wrapped sum cannot, that
 // the sum has left the range of integers, and it carries what is not a number.
 fn check_particle(momentum: Steps, species: i32, strain: f32) {
-    let travelled = abs(Vector(momentum)) * drift_of(species);
-    failures_of_particles |= select(FAILURE_IMPULSE, 0u, strain < STRAIN_LIMIT)
+    let travelled = Vector(momentum) * drift_of(species);
+    failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(strain, STRAIN_LIMIT))
         | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
-        | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT);
+        | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {

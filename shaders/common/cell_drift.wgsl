@@ -4,7 +4,7 @@ override DISPLACEMENT_LIMIT: f32;
 
 fn drifted(cell: Particle, velocity: Vector) -> vec4<u32> {
     let way = velocity * DRIFT_STEP;
-    raise(select(FAILURE_DISPLACEMENT, 0u, largest(abs(way)) <= DISPLACEMENT_LIMIT));
+    raise(select(FAILURE_DISPLACEMENT, 0u, all_within(way, DISPLACEMENT_LIMIT)));
     let fraction = fraction_of(cell.position) + unsigned(Steps(round(way / unit_lengths())));
     return vec4<u32>(fraction, cell.position.zw);
 }

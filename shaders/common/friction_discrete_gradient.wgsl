@@ -3,7 +3,10 @@
 override FRICTION_PER_LENGTH: f32; // impulse unit of momentum per length: turns a change of phi into a motion
 
 fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
-    let drifted = drift_steps(me.momentum) - drift_steps(other.momentum);
+    let in_order = ordered(me, other);
+    let first = drift_steps(select(other.momentum, me.momentum, in_order));
+    let second = drift_steps(select(me.momentum, other.momentum, in_order));
+    let drifted = select(second - first, first - second, in_order);
     let d = Vector(signed(fraction_of(me.position) - fraction_of(other.position)) - drifted) * unit_lengths();
     let before = coupling(max(1.0 - length(d) * (1.0 / CUTOFF), 0.0));
     return -c.friction * FRICTION_PER_LENGTH * root * (coupling(contact.w) - before);

@@ -5,6 +5,6 @@ override HOLD_TIME: f32;  // ε in half steps
 fn jump_of(id: u32, jump: u32) -> Jump {
     let words = words_of_jump(id, jump, 0u);
     let more = words_of_jump(id, jump, 1u);
-    let time = -log(uniform_of_jump(more.x)) * HOLD_TIME / sqrt(uniform_of_jump(words.x));
+    let time = 0.5 * minus_two_log(centred_uniform(more.x)) * HOLD_TIME / sqrt(uniform_of_jump(words.x));
     return Jump(HOLD_FORCE * direction_of(words.y, more.y), time);
 }

@@ -5,5 +5,5 @@ override HOLD_TIME: f32;  // τ in half steps
 fn jump_of(id: u32, jump: u32) -> Jump {
     let direction = words_of_jump(id, jump, 0u).y;
     let more = words_of_jump(id, jump, 1u);
-    return Jump(HOLD_FORCE * direction_of(direction, more.y), -HOLD_TIME * log(uniform_of_jump(more.x)));
+    return Jump(HOLD_FORCE * direction_of(direction, more.y), 0.5 * HOLD_TIME * minus_two_log(centred_uniform(more.x)));
 }

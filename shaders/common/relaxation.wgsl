@@ -9,7 +9,11 @@ const RATE_LIMIT: i32 = 8388607;   // what fits beside the species
 
 fn friction_rate(c: Coefficients, root: f32) -> f32 { return 2.0 * c.friction * root * root; }
 fn rate_units(rate: f32) -> u32 { return u32(round(min(rate, 100.0) * RATE_UNIT)); }
-fn rate_of(particle: Particle) -> f32 { return f32(particle.momentum.w >> 8u) / RATE_UNIT; }
+// What a particle feels from its pairs other than this one: the difference is one of integers, see `relaxation_impulse`.
+fn rate_of_others(momentum: vec4<i32>, rate: f32) -> f32 {
+    let own = i32(rate_units(rate * rate_scale_of(species_in(momentum))));
+    return f32(max((momentum.w >> 8u) - own, 0)) * (1.0 / RATE_UNIT);
+}
 
 // (1 - exp(-s)) / s
 fn relaxed_share(s: f32) -> f32 {
@@ -17,11 +21,16 @@ fn relaxed_share(s: f32) -> f32 {
 }
 
 // Impulse along the line of centres that relaxes the pair and makes its noise.
+//
+// Both ends compute it, and must find the same bits. A compiler may contract a product and a sum at one place and not at
+// another, so whatever belongs to one particle is put in the order of the ids before anything is rounded, or stays in
+// integers: README, "Exact on any compiler". `tests/any_compiler.rs` plays such compilers.
 fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
     let rate = friction_rate(c, root);
-    let mine = max(rate_of(me) - rate * rate_scale_of(species_of(me)), 0.0);
-    let theirs = max(rate_of(other) - rate * rate_scale_of(species_of(other)), 0.0);
-    let s = pair_rate(me, other, rate, mine, theirs);
+    let in_order = ordered(me, other);
+    let first = select(other.momentum, me.momentum, in_order);
+    let second = select(me.momentum, other.momentum, in_order);
+    let s = pair_rate(species_in(first), species_in(second), rate, rate_of_others(first, rate), rate_of_others(second, rate));
     let share = relaxed_share(s);
     let motion = relative_motion(me, other, steps_of(me.momentum), steps_of(other.momentum));
     let noise = random_impulse(c, root, me, other) * sqrt(2.0 * share * (2.0 - s * share));

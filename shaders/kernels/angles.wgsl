@@ -53,6 +53,6 @@ fn visit(angle: u32) {
     add_kick(ends.y, -first - last);
     add_kick(ends.z, last);
     note_angle(stiffness, corner, first, last);
-    let most = max(largest(abs(first_pull)), largest(abs(last_pull)));
-    raise(select(FAILURE_IMPULSE, 0u, most < IMPULSE_LIMIT));
+    let sound = all_within(first_pull, IMPULSE_LIMIT) && all_within(last_pull, IMPULSE_LIMIT);
+    raise(select(FAILURE_IMPULSE, 0u, sound));
 }

@@ -30,5 +30,5 @@ fn visit(bond: u32) {
     add_kick(other_slot, -impulse);
     note_bond(ends, stretch, magnitude, contact);
     raise_at(select(FAILURE_BOND, 0u, stretch.possible), bond);
-    raise(select(FAILURE_IMPULSE, 0u, abs(magnitude) < IMPULSE_LIMIT));
+    raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
 }

@@ -25,10 +25,10 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     let opening = select(kick + held.opening, Steps(0), is_fixed(species));
     var momentum = steps_of(me.momentum) + clock_closing() * (kick + held.closing) + opening;
     momentum = select(momentum, Steps(0), is_fixed(species));
-    let travelled = abs(Vector(momentum)) * drift_of(species);
-    raise(select(FAILURE_IMPULSE, 0u, largest(abs(impulse)) < IMPULSE_LIMIT)
+    let travelled = Vector(momentum) * drift_of(species);
+    raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT))
         | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
-        | select(0u, FAILURE_DISPLACEMENT, largest(travelled) > DISPLACEMENT_LIMIT));
+        | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT)));
     let word = momentum_word(momentum, species);
     let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
     store_particle(slot, advanced_particle(position_word(fraction, id), word, opening));

@@ -40,7 +40,7 @@ fn visit(slot: u32) {
             let push = repulsion * contact.w;
             let magnitude = impulse_of_pair(push, c, contact, root, me, other, entry * PARTICLES + slot);
             let impulse = Steps(round(magnitude * contact.direction));
-            sound = sound && abs(magnitude) < IMPULSE_LIMIT;
+            sound = sound && is_within(magnitude, IMPULSE_LIMIT);
             kick += impulse;
             add_kick(other_slot, -impulse);
             note_pair(slot, other_slot, repulsion, magnitude, contact);

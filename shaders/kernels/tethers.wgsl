@@ -3,6 +3,8 @@ override PARTICLES: u32;
 override TETHER: f32; // impulse of half a step per length
 @group(0) @binding(35) var<storage, read_write> tethers: array<vec4<u32>>; // by number
 
+const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
+
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) lane: u32) {
@@ -13,7 +15,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let length = separation(position, tethers[position.w]);
         let impulse = -TETHER * length;
         add_kick(slot, Steps(round(impulse)));
-        raise(select(FAILURE_IMPULSE, 0u, largest(abs(impulse)) < 134217728.0));
+        raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT)));
         note_tether(slot, length);
     }
     finish_tethers(group, lane);

@@ -43,11 +43,20 @@ impl<K, V> Default for Kept<K, V> {
 /// Modules, and the bits of the constants that they use.
 type Ingredients = (Vec<&'static str>, Vec<(&'static str, u64)>);
 
+/// What a linked module becomes before a pipeline is made of it, on a device with some features.
+pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync>;
+
 /// What a device has compiled.
-#[derive(Default)]
 pub(super) struct Compiled {
+    rewriting: Option<Rewriting>,
     linked: Kept<Vec<&'static str>, Arc<LinkedShader>>,
     pipelines: Kept<Ingredients, wgpu::ComputePipeline>,
+}
+
+impl Compiled {
+    pub(super) fn new(rewriting: Option<Rewriting>) -> Self {
+        Self { rewriting, linked: Kept::default(), pipelines: Kept::default() }
+    }
 }
 
 impl Gpu {
@@ -67,10 +76,14 @@ impl Gpu {
         let constants: Vec<(&'static str, f64)> = used.collect();
         let bits = constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
         let pipeline = self.compiled.pipelines.get_or_make((modules.to_vec(), bits), || {
+            let mut module = linked.module.clone();
+            if let Some(rewriting) = &self.compiled.rewriting {
+                rewriting(&mut module, self.device.features());
+            }
             self.scoped(&format!("making kernel `{kernel}`"), 0, || {
                 let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(kernel),
-                    source: wgpu::ShaderSource::Naga(Cow::Owned(linked.module.clone())),
+                    source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
                 });
                 self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(kernel),

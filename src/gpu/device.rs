@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use super::adapter::{self, AdapterChoice, AdapterDescription};
-use super::compiled::Compiled;
+use super::compiled::{Compiled, Rewriting};
 use super::error::GpuError;
 
 /// What a plan needs beyond the limits every WebGPU adapter has.
@@ -62,6 +62,51 @@ impl Gpu {
     /// # Errors
     /// [`GpuError`] if there is no such adapter, if it cannot meet the requirements or if it does not open.
     pub fn open(choice: &AdapterChoice, requirements: Requirements) -> Result<Self, GpuError> {
+        Self::open_with(choice, requirements, None)
+    }
+
+    /// The same with every kernel rewritten before a pipeline is made of it.
+    ///
+    /// This is how a test plays another compiler: `rewriting` gets each linked module and the features of the device, which
+    /// has double precision wherever the adapter has, and may change arithmetic as drivers do, say by contracting products
+    /// and sums. It must leave the bindings as they are.
+    ///
+    /// ```
+    /// use std::sync::{Arc, Mutex};
+    ///
+    /// use mesoscope::engine::Engine;
+    /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+    /// # use mesoscope::plan::{Hardware, Options, plan};
+    /// # use mesoscope::{model::Model, scene};
+    ///
+    /// let seen = Arc::new(Mutex::new(0));
+    /// let counter = Arc::clone(&seen);
+    /// let rewriting = Arc::new(move |_: &mut naga::Module, _| *counter.lock().unwrap() += 1);
+    /// let gpu = Gpu::open_rewriting(&AdapterChoice::Best, Requirements::default(), rewriting)?;
+    /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]".to_owned()])?;
+    /// # let model = Model::new(&scene);
+    /// # let start = scene::placement::initial_state(&scene, &model);
+    /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+    /// let engine = Engine::new(&gpu, plan, &start)?;
+    /// assert!(*seen.lock().unwrap() > 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_rewriting(
+        choice: &AdapterChoice,
+        requirements: Requirements,
+        rewriting: Rewriting,
+    ) -> Result<Self, GpuError> {
+        Self::open_with(choice, requirements, Some(rewriting))
+    }
+
+    fn open_with(
+        choice: &AdapterChoice,
+        requirements: Requirements,
+        rewriting: Option<Rewriting>,
+    ) -> Result<Self, GpuError> {
         let adapter = adapter::choose(choice)?;
         let info = adapter.get_info();
         let offered = adapter.limits();
@@ -111,6 +156,7 @@ impl Gpu {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("mesoscope"),
             required_features: timestamps
+                | wanted(adapter.features() & wgpu::Features::SHADER_F64, rewriting.is_some())
                 | wanted(wgpu::Features::SUBGROUP, subgroups)
                 | wanted(SERIAL_FEATURES, serial_memory),
             required_limits: limits,
@@ -133,7 +179,7 @@ impl Gpu {
             subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
                 .then_some(info.subgroup_min_size),
             serial_memory,
-            compiled: Compiled::default(),
+            compiled: Compiled::new(rewriting),
             trouble,
         })
     }

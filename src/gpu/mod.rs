@@ -9,6 +9,7 @@ mod shader;
 mod shader_library;
 
 pub use adapter::{AdapterChoice, AdapterDescription, list_adapters};
+pub use compiled::Rewriting;
 pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
 pub use environment::prepare_environment;

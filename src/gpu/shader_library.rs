@@ -91,6 +91,7 @@ library![
     "common/eight_hits",
     "common/eight_scan",
     "common/eight_sorted",
+    "common/elementary",
     "common/energy_off",
     "common/energy_on",
     "common/exclusions_off",

@@ -23,7 +23,7 @@ pub use texture::Texture;
 
 use crate::model::Model;
 use crate::noise;
-use crate::scene::Output;
+use crate::scene::{Distribution, Output};
 use crate::state::Units;
 
 /// Makes the plan of a model.
@@ -309,6 +309,14 @@ pub struct Plan {
     pub reported: Option<&'static str>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
+}
+
+/// Modules of the noise of a pair or a mesh node, beside those of the random words.
+fn noise_modules(distribution: Distribution) -> &'static [&'static str] {
+    match distribution {
+        Distribution::Uniform => &["common/noise_uniform"],
+        Distribution::Gaussian => &["common/noise_gaussian", "common/gaussian", "common/elementary"],
+    }
 }
 
 impl Kernel {

@@ -6,10 +6,10 @@ use super::pair_histogram::PairHistogram;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::serial_memory::TURNS;
 use super::species::Species;
-use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal};
+use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal, noise_modules};
 use crate::model::{Model, PairForce};
 use crate::noise;
-use crate::scene::{Distribution, Generator, Integrator, Output, RadialDistribution};
+use crate::scene::{Generator, Integrator, Output, RadialDistribution};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
@@ -324,10 +324,7 @@ impl Builder<'_> {
         modules.push(if self.splits() { "common/drift_halves" } else { "common/drift" });
         if frictional && self.force.temperature > 0.0 {
             modules.push("common/random_on");
-            modules.push(match self.model.distribution {
-                Distribution::Uniform => "common/noise_uniform",
-                Distribution::Gaussian => "common/noise_gaussian",
-            });
+            modules.extend(noise_modules(self.model.distribution));
             match self.model.generator {
                 Generator::Pcg4d => modules.push("common/words_pcg4d"),
                 Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),

@@ -6,10 +6,12 @@
 use super::prefix_sum::PrefixSum;
 use super::recording::SAMPLE_ROWS;
 use super::smoothing::smoothing;
-use super::{Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Texture, Traversal};
+use super::{
+    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Texture, Traversal, noise_modules,
+};
 use crate::model::{Model, ShallowWater};
 use crate::noise;
-use crate::scene::{Generator, Integrator, Output};
+use crate::scene::{Distribution, Generator, Integrator, Output};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables.
@@ -330,7 +332,8 @@ impl Builder<'_> {
         let Some(bath) = &self.water.bath else { return };
         let mut modules = Vec::new();
         if bath.noise(self.model.temperature) > 0.0 {
-            modules.extend(["common/mesh_noise_on", "common/noise_gaussian"]);
+            modules.push("common/mesh_noise_on");
+            modules.extend(noise_modules(Distribution::Gaussian));
             match self.model.generator {
                 Generator::Pcg4d => modules.push("common/words_pcg4d"),
                 Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),

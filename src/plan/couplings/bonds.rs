@@ -62,7 +62,7 @@ impl Builder<'_> {
             Generator::Pcg4d => "common/words_pcg4d",
             Generator::Threefry2x32 => "common/words_threefry",
         };
-        vec!["common/bond_noise_on", "common/gaussian", "common/threefry", words]
+        vec!["common/bond_noise_on", "common/gaussian", "common/elementary", "common/threefry", words]
     }
 
     /// The buffers of bonds; `bonds` as `shaders/common/bond_kinds.wgsl` reads it.

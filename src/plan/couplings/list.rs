@@ -145,7 +145,7 @@ impl Builder<'_> {
         if self.force.remembers() {
             let mut modules = [&["common/sorted", "common/neighbour_words"], self.species.coefficients()].concat();
             modules.extend(LISTS);
-            modules.extend(["common/gaussian", "common/threefry", "kernels/carry"]);
+            modules.extend(["common/gaussian", "common/elementary", "common/threefry", "kernels/carry"]);
             modules.extend(self.words());
             let carry = self.kernel("carry", &modules, groups);
             let key = noise::seed_key(self.model.seed, stream::PAIR_START);

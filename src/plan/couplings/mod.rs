@@ -15,7 +15,7 @@ mod tethers;
 
 use super::layout::PARTICLE;
 use super::species::Species;
-use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, pair};
+use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, noise_modules, pair};
 use crate::model::{BathStep, Model, PairForce};
 use crate::noise::stream;
 use crate::scene::{Distribution, Generator, Integrator, Output};
@@ -225,7 +225,7 @@ impl Builder<'_> {
     fn pair_noise(&self) -> Vec<&'static str> {
         // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
         let gaussian = self.force.remembers() || self.model.distribution == Distribution::Gaussian;
-        let mut modules = vec![if gaussian { "common/noise_gaussian" } else { "common/noise_uniform" }];
+        let mut modules = noise_modules(if gaussian { Distribution::Gaussian } else { Distribution::Uniform }).to_vec();
         modules.extend(self.words());
         if self.model.generator == Generator::Threefry2x32 {
             modules.push("common/threefry");

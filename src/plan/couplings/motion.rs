@@ -19,6 +19,7 @@ impl Builder<'_> {
             modules.push("common/threefry");
         }
         if self.noisy_positions() || self.model.coloured_noise.is_some() {
+            modules.push("common/elementary");
             modules.extend(self.words());
         }
         let anchors = if self.model.pair_force.is_some() { "common/anchors_on" } else { "common/anchors_off" };

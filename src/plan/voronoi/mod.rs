@@ -128,10 +128,14 @@ impl Builder<'_> {
     /// Modules that draw the random words of a face.
     fn words(&self) -> &'static [&'static str] {
         match self.model.generator {
-            Generator::Pcg4d => &["common/face_noise", "common/gaussian", "common/words_pcg4d"],
-            Generator::Threefry2x32 => {
-                &["common/face_noise", "common/gaussian", "common/threefry", "common/words_threefry"]
-            }
+            Generator::Pcg4d => &["common/face_noise", "common/gaussian", "common/elementary", "common/words_pcg4d"],
+            Generator::Threefry2x32 => &[
+                "common/face_noise",
+                "common/gaussian",
+                "common/elementary",
+                "common/threefry",
+                "common/words_threefry",
+            ],
         }
     }
 

@@ -1,0 +1,50 @@
+//! Another compiler, played by rewriting modules before pipelines are made of them: what WGSL leaves to drivers, and lavapipe
+//! does in one way only. See [`mesoscope::gpu::Gpu::open_rewriting`].
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod contraction;
+mod flattening;
+mod functions;
+mod operands;
+mod rewriting;
+
+use std::sync::Arc;
+
+use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+
+pub use contraction::Contraction;
+pub use functions::{Deviation, Functions};
+
+/// What a compiler does to arithmetic, after it has put all functions into the kernel where that can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Compiler {
+    /// Leaves arithmetic as it is.
+    Plain,
+    /// Contracts products and sums.
+    Contracting(Contraction),
+    /// Has functions that err as much as they may.
+    Erring(Functions, Deviation),
+}
+
+impl Compiler {
+    /// The module as this compiler understands it.
+    pub fn rewrite(self, module: &mut naga::Module, features: wgpu::Features) {
+        flattening::flatten(module);
+        match self {
+            Self::Plain => {}
+            Self::Contracting(contraction) => {
+                // A fused multiplication and addition need not be one on the device: in double precision it is.
+                contraction::contract(module, contraction, features.contains(wgpu::Features::SHADER_F64));
+            }
+            Self::Erring(which, deviation) => functions::perturb(module, which, deviation),
+        }
+    }
+
+    /// The adapter of the tests with this compiler.
+    pub fn gpu(self) -> Gpu {
+        let name = std::env::var("MESOSCOPE_ADAPTER").ok();
+        let rewriting = Arc::new(move |module: &mut naga::Module, features| self.rewrite(module, features));
+        Gpu::open_rewriting(&AdapterChoice::parse(name.as_deref()), Requirements::default(), rewriting)
+            .expect("an adapter")
+    }
+}
