@@ -470,32 +470,6 @@ fn samples_do_not_depend_on_batches_or_storage() {
     }
 }
 
-/// A run that was interrupted writes the same histograms as one that was not, and says whose windows it leaves out.
-#[test]
-fn an_interrupted_run_goes_on_counting() {
-    let scene = fluid(&[EVERYTHING, &["output.checkpoint.every=28"]].concat());
-    let (whole, parts) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    run(scene.clone(), whole.path());
-    let mut short = scene;
-    short.time.steps = 28;
-    run(short, parts.path());
-    let resumed = Simulation::resume(parts.path(), Some(60)).unwrap().execute(&choice(), &mut |_| {}).unwrap();
-    for name in [files::VELOCITY_HISTOGRAM, files::SPEED_HISTOGRAM, files::ACCELERATION_HISTOGRAM] {
-        let [a, b] = [whole.path(), parts.path()].map(|path| std::fs::read(path.join(name)).unwrap());
-        assert_eq!(a, b, "{name}");
-    }
-    for quantity in ["velocity", "force"] {
-        let left_out = format!("a window of `output.autocorrelations ({quantity})` open there is left out");
-        assert!(
-            resumed.summary.warnings.iter().any(|warning| warning.contains(&left_out)),
-            "{:?}",
-            resumed.summary.warnings
-        );
-    }
-    // Steps 10 to 27 fill three windows of six; from step 28 to 60 there are five more, and three samples.
-    assert_eq!(number(&resumed, &["velocity_autocorrelation", "windows"]), 8.0);
-}
-
 fn problems(changes: &[&str]) -> Vec<String> {
     let text = serde_json::to_string(&fluid(&["time.steps=100", "time.equilibration=20"])).unwrap();
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();

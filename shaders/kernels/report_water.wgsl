@@ -4,7 +4,7 @@ override POTENTIAL: f32;      // energy per unit of mass and depth, over its qua
 override BATH_SQUARE: f32;    // square of a bath variable, over its quantum
 override MEAN_MASS: u32;
 override MOMENTUM: f32;       // product of mass and velocity, over its quantum
-const QUANTITIES: u32 = 5u;
+const QUANTITIES: u32 = 6u;
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
@@ -17,6 +17,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     var momentum_y = Sum64(0u);
     var potential = Sum64(0u);
     var bath = Sum64(0u);
+    var on_node = Sum64(0u);
     if (cell < CELLS_X * CELLS_Y) {
         let polynomial = surface_in_cell(cell % CELLS_X, cell / CELLS_X);
         let bin = opened_bin(cell);
@@ -35,7 +36,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             momentum_x = sum64_add(momentum_x, sum64_of_f32(MOMENTUM * mass * v.x));
             momentum_y = sum64_add(momentum_y, sum64_of_f32(MOMENTUM * mass * v.y));
         }
-        let deviation = f32(bitcast<i32>(node_masses[cell] - MEAN_MASS));
+        on_node = Sum64(node_masses[cell], 0u);
+        let deviation = f32(bitcast<i32>(on_node.x - MEAN_MASS));
         potential = sum64_of_f32(POTENTIAL * deviation * depths[cell]);
         // What drives the particles beyond the depth is the bath.
         let s = surface_at(cell) - depths[cell];
@@ -47,4 +49,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     reduce_quantity(group, lane, 2u, momentum_y);
     reduce_quantity(group, lane, 3u, potential);
     reduce_quantity(group, lane, 4u, bath);
+    reduce_quantity(group, lane, 5u, on_node);
 }

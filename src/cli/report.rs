@@ -189,7 +189,8 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     };
     for (column, label) in columns {
         if let Some(value) = mean(&summary.means, column) {
-            rows.push(vec![label.to_owned(), value]);
+            let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
+            rows.push(vec![label.to_owned(), if spoilt { format!("{value} †") } else { value }]);
         }
     }
     for (label, path) in [
@@ -229,11 +230,14 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
     }
-    let note = if rows.iter().any(|row| row[1].ends_with('*')) {
-        "  * from few samples: the error may be larger\n"
-    } else {
-        ""
-    };
+    let marked = |mark: char| rows.iter().any(|row| row[1].ends_with(mark) || row[1].contains(&format!("{mark} ")));
+    let mut note = String::new();
+    if marked('*') {
+        note.push_str("  * from few samples: the error may be larger\n");
+    }
+    if let Some(found) = summary.unequilibrated.as_ref().filter(|_| marked('†')) {
+        note.push_str(&format!("  † not yet in equilibrium: try {}\n", found.arguments()));
+    }
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
         let noun = if water { "pictures and arrays of each field" } else { "snapshots" };

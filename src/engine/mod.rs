@@ -260,6 +260,26 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
+    /// Goes on with a window of a sampler that was open when the state was saved: so many of its samples had been taken,
+    /// and its buffer held these words. Only right after an upload.
+    ///
+    /// # Errors
+    /// [`EngineError::State`] if the sampler has no window of more samples, or its buffer another number of words.
+    pub fn continue_window(&mut self, sampler: usize, taken: u64, words: &[u32]) -> Result<(), EngineError> {
+        let refuse = |reason: &str| EngineError::State { reason: reason.to_owned() };
+        let planned = self.plan.samplers.get(sampler).ok_or_else(|| refuse("there is no such sampler"))?;
+        let window = planned.window.filter(|window| taken < window.samples);
+        let window = window.ok_or_else(|| refuse("the sampler has no window of so many samples"))?;
+        let buffer = &self.buffers[window.buffer];
+        if buffer.size() != 4 * words.len() as u64 {
+            return Err(refuse("the window has another number of particles"));
+        }
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
+        // The second word counts the samples since the upload; the place in the window follows from it.
+        self.gpu.queue.write_buffer(&self.buffers[planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
+        Ok(())
+    }
+
     /// Advances by `steps`, taking every sample that falls due at the start of each step, in submissions of at most
     /// `batch` steps. Returns before the device is done; see [`Self::finish`].
     ///

@@ -2,6 +2,7 @@
 
 pub mod circulation;
 pub mod correlation;
+pub mod equilibration;
 mod field;
 pub mod fit;
 pub mod harmonic_chain;

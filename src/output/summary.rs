@@ -41,6 +41,10 @@ pub struct Summary {
     /// Mean of each column of the table of energies after equilibration, in the order of the table; null where a
     /// column has no values.
     pub means: serde_json::Map<String, serde_json::Value>,
+    /// Which of these means include the way to equilibrium, and how to leave it out; null where none was found to, or
+    /// where equilibrium is not what the scene is about.
+    #[serde(default)]
+    pub unequilibrated: Option<Unequilibrated>,
     /// Results of the analyses the scene asks for.
     pub results: serde_json::Map<String, serde_json::Value>,
     /// What is conserved to the last bit.
@@ -51,6 +55,51 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// The scene with every default filled in.
     pub scene: Scene,
+}
+
+/// Means that include the way to equilibrium.
+///
+/// ```
+/// use mesoscope::output::summary::{Unequilibrated, UnsettledMean};
+///
+/// let mean = UnsettledMean { quantity: "temperature".to_owned(), settled_from: Some(80), mean_from_there: 1.003 };
+/// let found = Unequilibrated { means: vec![mean], equilibration: 80, steps: None };
+/// assert_eq!(found.arguments(), "--set time.equilibration=80");
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Unequilibrated {
+    /// The means.
+    pub means: Vec<UnsettledMean>,
+    /// The number of steps of equilibration to try.
+    pub equilibration: u64,
+    /// The number of steps to try, where this run was too short to settle.
+    pub steps: Option<u64>,
+}
+
+/// A mean that includes the way to equilibrium.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnsettledMean {
+    /// The column of the table of energies.
+    pub quantity: String,
+    /// The step from which on it is steady; none where it is not so in the second half of the run either.
+    pub settled_from: Option<u64>,
+    /// The mean from there on, or of the second half.
+    pub mean_from_there: f64,
+}
+
+impl Unequilibrated {
+    /// What to add to the command line.
+    #[must_use]
+    pub fn arguments(&self) -> String {
+        let steps = self.steps.map_or_else(String::new, |steps| format!(" --steps {steps}"));
+        format!("--set time.equilibration={}{steps}", self.equilibration)
+    }
+
+    /// Whether the mean of a column is among them.
+    #[must_use]
+    pub fn includes(&self, column: &str) -> bool {
+        self.means.iter().any(|mean| mean.quantity == column)
+    }
 }
 
 /// The adapter a run computed on.
@@ -76,6 +125,7 @@ impl Summary {
             wall_seconds: 0.0,
             particle_steps_per_second: 0.0,
             means: serde_json::Map::new(),
+            unequilibrated: None,
             results: serde_json::Map::new(),
             conserved_exactly: Vec::new(),
             not_conserved: Vec::new(),

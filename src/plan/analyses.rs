@@ -1,7 +1,7 @@
 //! Analyses of the particles that a report leaves in the order of their ids, for every path of integration.
 
 use super::recording::{SAMPLE_ROWS, record_histogram, record_sums};
-use super::{Kernel, Plan, Sampler};
+use super::{Kernel, Plan, Sampler, Window};
 use crate::model::Model;
 use crate::scene::{
     Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
@@ -181,6 +181,7 @@ struct SumSampler {
     samples: &'static str,
     quantities: usize,
     every: u64,
+    window: Option<Window>,
 }
 
 struct Builder<'a> {
@@ -247,6 +248,7 @@ impl Builder<'_> {
             quantities: sampler.quantities,
             capacity: SAMPLE_ROWS,
             needs_report: true,
+            window: sampler.window,
         });
     }
 
@@ -268,6 +270,7 @@ impl Builder<'_> {
             samples: "diffusion_samples",
             quantities: 2,
             every: asked.every,
+            window: Some(Window { buffer: "trackers", samples: asked.window.max(1) }),
         });
     }
 
@@ -283,6 +286,7 @@ impl Builder<'_> {
             samples: "mode_samples",
             quantities: 2 * dimension * (dimension - 1),
             every: asked.every,
+            window: None,
         });
     }
 
@@ -312,6 +316,7 @@ impl Builder<'_> {
             samples: "chain_samples",
             quantities,
             every: asked.every,
+            window: None,
         });
     }
 
@@ -373,6 +378,7 @@ impl Builder<'_> {
             samples,
             quantities: 1,
             every: asked.every,
+            window: Some(Window { buffer: origins, samples: asked.window.max(1) }),
         });
     }
 
@@ -440,6 +446,7 @@ impl Builder<'_> {
             quantities: entries as usize,
             capacity,
             needs_report: true,
+            window: None,
         });
     }
 }

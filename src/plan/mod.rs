@@ -235,6 +235,17 @@ pub struct Sampler {
     pub capacity: u64,
     /// Whether the kernels read the particles that the report leaves in the order of their ids.
     pub needs_report: bool,
+    /// What is kept on the device from one sample to the next, if anything.
+    pub window: Option<Window>,
+}
+
+/// A window of samples, each compared with the first: a buffer of the plan holds the particles as they were then.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Window {
+    /// Name of the buffer.
+    pub buffer: &'static str,
+    /// Samples in a window; the next begins a new one.
+    pub samples: u64,
 }
 
 /// Values of the integer units in which the observables are summed.
@@ -342,6 +353,29 @@ impl Sampler {
     #[must_use]
     pub fn due(&self, step: u64) -> bool {
         step >= self.first && (step - self.first).is_multiple_of(self.every)
+    }
+
+    /// Number of samples before a step.
+    ///
+    /// ```
+    /// # use mesoscope::plan::{Hardware, Options, plan};
+    /// # use mesoscope::{model::Model, scene};
+    /// let scene = scene::load("dpd-fluid", &[r#"output={"energies":{"every":20}}"#.to_owned()])?;
+    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// assert_eq!([0, 1, 20, 21].map(|step| plan.samplers[0].samples_before(step)), [0, 1, 1, 2]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn samples_before(&self, step: u64) -> u64 {
+        step.saturating_sub(self.first).div_ceil(self.every.max(1))
+    }
+
+    /// The buffer of the window that is open before the sample of a step, and the number of its samples so far.
+    #[must_use]
+    pub fn open_window(&self, step: u64) -> Option<(&'static str, u64)> {
+        let window = self.window?;
+        let taken = self.samples_before(step) % window.samples;
+        (taken > 0).then_some((window.buffer, taken))
     }
 }
 

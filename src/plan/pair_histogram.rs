@@ -59,6 +59,7 @@ impl PairHistogram<'_> {
             quantities: self.asked.bins as usize,
             capacity: CAPACITY,
             needs_report,
+            window: None,
         });
     }
 

@@ -30,6 +30,7 @@ impl Plan {
             quantities: quantities as usize,
             capacity: SAMPLE_ROWS,
             needs_report: true,
+            window: None,
         });
         self.add_buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * groups);
         self.add_buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + quantities)));

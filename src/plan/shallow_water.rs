@@ -14,8 +14,9 @@ use crate::noise;
 use crate::scene::{Distribution, Generator, Integrator, Output};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables.
-const OBSERVABLES: u64 = 5;
+/// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
+/// mass on the nodes.
+const OBSERVABLES: u64 = 6;
 /// Bytes of tracers kept on the device between two readbacks.
 const TRACER_BYTES: u64 = 1 << 24;
 /// Bytes of a particle or tracer.
@@ -455,6 +456,7 @@ impl Builder<'_> {
             quantities: 2 * tracers as usize,
             capacity,
             needs_report: true,
+            window: None,
         });
     }
 

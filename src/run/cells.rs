@@ -1,10 +1,11 @@
 //! What a run of Voronoi DPD gathers from its states: numbers of neighbours, and the decay of a shear wave.
 
-use super::analyses::{bytes, numbers};
+use super::sections::{Sections, bytes, samples};
 use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS};
 use crate::measure::shear_wave::WaveDecay;
 use crate::measure::statistics::Estimate;
 use crate::model::{Model, NETWORK_VISCOSITY};
+use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, Summary, Table, files, write_table};
 use crate::scene::{Scene, shear_waves};
 use crate::state::State;
@@ -52,20 +53,34 @@ struct Wave {
 
 impl Cells {
     /// What a scene asks for, from the start or from the sections of a checkpoint.
-    pub(super) fn new(scene: &Scene, sections: &[(String, Vec<u8>)]) -> Self {
-        let section = |name: &str| sections.iter().find(|(known, _)| known == name).map(|(_, bytes)| numbers(bytes));
-        let neighbours = scene.output.neighbours.as_ref().map(|_| match section(NEIGHBOURS).as_deref() {
-            Some([last, counts @ ..]) => {
-                Neighbours { last: Some(*last as u64), counts: NeighbourCounts::restored(counts) }
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where these are not as much as was sampled before the step.
+    pub(super) fn new(scene: &Scene, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
+        let taken = |every: u64| samples(every, scene.time.equilibration, sections.step);
+        let neighbours = match &scene.output.neighbours {
+            None => None,
+            Some(asked) => {
+                let taken = taken(asked.every);
+                let width = MOST_NEIGHBOURS as u64 + 1;
+                let count = if taken > 0 { taken.saturating_mul(width).saturating_add(1) } else { 0 };
+                Some(match sections.numbers(NEIGHBOURS, count)?.as_deref() {
+                    Some([last, counts @ ..]) => {
+                        Neighbours { last: Some(*last as u64), counts: NeighbourCounts::restored(counts) }
+                    }
+                    _ => Neighbours::default(),
+                })
             }
-            _ => Neighbours::default(),
-        });
+        };
         let periods = shear_waves(scene).map(|(_, _, periods)| f64::from(periods)).next();
-        let wave = scene.output.shear_wave.as_ref().and(periods).map(|periods| {
-            let samples = section(SHEAR_WAVE).unwrap_or_default();
-            Wave { periods, samples: samples.as_chunks().0.to_vec() }
-        });
-        Self { neighbours, wave }
+        let wave = match (&scene.output.shear_wave, periods) {
+            (Some(asked), Some(periods)) => {
+                let numbers = sections.numbers(SHEAR_WAVE, taken(asked.every).saturating_mul(2))?;
+                Some(Wave { periods, samples: numbers.unwrap_or_default().as_chunks().0.to_vec() })
+            }
+            _ => None,
+        };
+        Ok(Self { neighbours, wave })
     }
 
     /// Adds what is due of the cells at a step, with full-step momenta. A step that was added already, before a run went
@@ -88,8 +103,9 @@ impl Cells {
     /// What a checkpoint has to keep.
     pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
         let mut sections = Vec::new();
-        if let Some(Neighbours { last: Some(last), counts }) = &self.neighbours {
-            sections.push((NEIGHBOURS.to_owned(), bytes(std::iter::once(*last as f64).chain(counts.numbers()))));
+        if let Some(Neighbours { last, counts }) = &self.neighbours {
+            let last = last.map(|last| last as f64);
+            sections.push((NEIGHBOURS.to_owned(), bytes(last.into_iter().chain(counts.numbers()))));
         }
         if let Some(wave) = &self.wave {
             sections.push((SHEAR_WAVE.to_owned(), bytes(wave.samples.as_flattened().iter().copied())));
@@ -219,6 +235,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::scene::placement::initial_state;
+    use std::path::Path;
 
     fn scene() -> Scene {
         let text = r#"{"title": "t", "space": {"box": [20, 10]}, "time": {"step": 0.5, "steps": 100}, "temperature": 1e-9,
@@ -234,7 +251,10 @@ mod tests {
         let scene = scene();
         let model = Model::new(&scene);
         let mut state = initial_state(&scene, &model);
-        let mut cells = Cells::new(&scene, &[]);
+        let at = |step: u64, sections: &[(String, Vec<u8>)]| {
+            Cells::new(&scene, &Sections::new(Path::new("checkpoint.bin"), step, sections))
+        };
+        let mut cells = at(0, &[]).unwrap();
         let (both, wave) = (Due { neighbours: true, shear_wave: true }, Due { neighbours: false, shear_wave: true });
         for (step, due) in [(0, both), (5, wave), (10, both), (10, both), (5, wave)] {
             state.step = step;
@@ -242,8 +262,12 @@ mod tests {
         }
         assert_eq!(cells.neighbours.as_ref().unwrap().counts.len(), 2);
         assert_eq!(cells.wave.as_ref().unwrap().samples.len(), 3);
-        assert_eq!(Cells::new(&scene, &cells.sections()), cells);
-        assert_ne!(Cells::new(&scene, &[]), cells);
+        assert_eq!(at(11, &cells.sections()).unwrap(), cells);
+        assert_ne!(at(0, &[]).unwrap(), cells);
+        for step in [10, 16] {
+            let refused = at(step, &cells.sections()).unwrap_err().to_string();
+            assert!(refused.contains("is no valid checkpoint"), "{refused}");
+        }
         let table = fractions(&cells.neighbours.as_ref().unwrap().counts);
         assert!((table.column("fraction").unwrap().iter().sum::<f64>() - 1.0).abs() < 1e-12);
     }

@@ -1,9 +1,10 @@
 //! What a run of harmonic chains measures and writes.
 
-use super::analyses::{bytes, numbers};
+use super::sections::{Sections, bytes, samples};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
 use crate::model::{ChainTrios, Likeness, Strand};
+use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, Table, files, write_table};
 use crate::scene::{Interaction, Scene};
 use crate::state::{State, Units};
@@ -94,24 +95,28 @@ impl Chains {
     }
 
     /// Goes on from what a checkpoint kept.
-    pub(super) fn restore(&mut self, section: &[u8]) {
-        let numbers = numbers(section);
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where it is not as much as was sampled before the step.
+    pub(super) fn restore(&mut self, sections: &Sections<'_>) -> Result<(), CheckpointError> {
+        let taken = samples(self.every, 0, sections.step);
         let clusters = self.trios.pulse.clusters;
         let width = 4 + 3 * clusters;
-        let Some((count, rest)) = numbers.split_first() else { return };
-        let Some((pulses, rest)) = rest.split_at_checked(*count as usize * width) else { return };
+        let series = ThermalSeries::numbers_after(self.trios.thermal.clusters, taken);
+        let count = (width as u64).saturating_mul(taken).saturating_add(1).saturating_add(series.saturating_mul(3));
+        let Some(numbers) = sections.numbers(SECTION, count)? else { return Ok(()) };
+        let (pulses, rest) = numbers[1..].split_at(width * taken as usize);
         let sample = |words: &[f64]| PulseSample {
             step: words[0],
             energies: [words[1], words[2], words[3]],
             displacements: [0, 1, 2].map(|number| words[4 + number * clusters..4 + (number + 1) * clusters].to_vec()),
         };
         self.pulses = pulses.chunks_exact(width).map(sample).collect();
-        if let third @ 1.. = rest.len() / 3 {
-            let mut parts = rest.chunks_exact(third);
-            for series in &mut self.thermal {
-                *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
-            }
+        let mut parts = rest.chunks_exact(rest.len().div_ceil(3).max(1));
+        for series in &mut self.thermal {
+            *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
         }
+        Ok(())
     }
 
     /// τ = ω₀t/n of a step.

@@ -1,6 +1,6 @@
 //! The circulations of material loops over a run.
 
-use super::analyses::bytes;
+use super::sections::bytes;
 use crate::engine::Sample;
 use crate::measure::circulation::{circulation, largest_gap};
 use crate::model::{Model, ShallowWater};
@@ -90,6 +90,10 @@ impl Circulations {
 
     pub(super) fn section(&self) -> Vec<u8> {
         bytes(self.rows.iter().flatten().copied())
+    }
+
+    pub(super) fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(1 + self.loops.len() as u64)
     }
 
     pub(super) fn restore(&mut self, numbers: &[f64]) {

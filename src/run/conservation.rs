@@ -3,34 +3,70 @@
 use crate::model::{BathStep, Model, Voronoi};
 use crate::scene::{Integrator, NoiseProcess};
 
-/// What a run conserves to the last bit, or to rounding where that is said.
-pub(super) fn conserved(model: &Model) -> Vec<String> {
-    let cells = model.voronoi.as_ref();
-    let kept: &[&str] = match (&model.shallow_water, &model.integrator) {
-        _ if cells.is_some_and(Voronoi::keeps_energy) => {
-            &["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"]
-        }
-        _ if cells.is_some() => &["mass, to the last bit", "total momentum, to the last bit"],
-        (None, _) if model.conserves_momentum() => &["mass", "total momentum, to the last bit"],
-        (None, _) => &["mass"],
-        (Some(water), Integrator::Gyro {}) if water.closed_loops().next().is_some() => {
-            &["mass on the mesh, to the last bit", "the circulation of material loops, to rounding"]
-        }
-        (Some(_), _) => &["mass on the mesh, to the last bit"],
-    };
-    kept.iter().map(|text| (*text).to_owned()).collect()
+/// What some models keep to the last bit: sums of integers, which every report tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum KeptQuantity {
+    /// Of Voronoi cells that exchange it, or might.
+    Mass,
+    /// Of shallow water, on the nodes.
+    MeshMass,
+    /// Of particles or cells.
+    Momentum,
+    /// Of Voronoi cells that keep account of it.
+    Energy,
 }
 
-/// What a run does not conserve, with the reasons.
-pub(super) fn not_conserved(model: &Model) -> Vec<String> {
-    if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
-        return Vec::new();
+impl KeptQuantity {
+    /// Its name in a summary.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::MeshMass => "mass on the mesh",
+            Self::Momentum => "total momentum",
+            Self::Energy => "total energy",
+        }
     }
-    let mut lost = vec![format!("total energy: {}", fate_of_energy(model))];
-    let reasons = fate_of_momentum(model);
-    if !reasons.is_empty() {
-        lost.push(format!("total momentum: {}", reasons.join("; ")));
+}
+
+/// What a model keeps to the last bit.
+pub(super) fn kept(model: &Model) -> Vec<KeptQuantity> {
+    use KeptQuantity::{Energy, Mass, MeshMass, Momentum};
+    match (&model.voronoi, &model.shallow_water) {
+        (Some(cells), _) if cells.keeps_energy() => vec![Mass, Momentum, Energy],
+        (Some(_), _) => vec![Mass, Momentum],
+        (None, Some(_)) => vec![MeshMass],
+        (None, None) if model.conserves_momentum() => vec![Momentum],
+        (None, None) => Vec::new(),
     }
+}
+
+/// What a run conserves, to the last bit or to rounding where that is said, but for what was seen to be lost.
+pub(super) fn conserved(model: &Model, lost: &[KeptQuantity]) -> Vec<String> {
+    let mut conserved = Vec::new();
+    if model.voronoi.is_none() && model.shallow_water.is_none() {
+        // Nothing changes the mass of a particle.
+        conserved.push("mass".to_owned());
+    }
+    let left = kept(model).into_iter().filter(|quantity| !lost.contains(quantity));
+    conserved.extend(left.map(|quantity| format!("{}, to the last bit", quantity.name())));
+    let loops = model.shallow_water.as_ref().is_some_and(|water| water.closed_loops().next().is_some());
+    if loops && model.integrator == (Integrator::Gyro {}) {
+        conserved.push("the circulation of material loops, to rounding".to_owned());
+    }
+    conserved
+}
+
+/// What a run does not conserve, with the reasons, and what was seen to change that was to be kept.
+pub(super) fn not_conserved(model: &Model, changed: &[(KeptQuantity, String)]) -> Vec<String> {
+    let mut lost = Vec::new();
+    if !kept(model).contains(&KeptQuantity::Energy) {
+        lost.push(format!("total energy: {}", fate_of_energy(model)));
+        let reasons = fate_of_momentum(model);
+        if !reasons.is_empty() {
+            lost.push(format!("total momentum: {}", reasons.join("; ")));
+        }
+    }
+    lost.extend(changed.iter().map(|(quantity, change)| format!("{}: {change}", quantity.name())));
     lost
 }
 
@@ -150,7 +186,7 @@ mod tests {
                 "interactions": [{{"type": "voronoi", {interaction}}}]}}"#
             );
             let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
-            (conserved(&model), not_conserved(&model))
+            (conserved(&model, &[]), not_conserved(&model, &[]))
         };
         let kept = ["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"];
         assert_eq!(fate(r#""energy": {}"#, 1.0), (kept.map(str::to_owned).to_vec(), Vec::new()));
@@ -204,16 +240,16 @@ mod tests {
         ];
         for (particles, interactions, energy, momentum) in cases {
             let model = model(particles, interactions);
-            let lost = not_conserved(&model);
+            let lost = not_conserved(&model, &[]);
             assert!(lost[0].contains(energy), "{interactions}: {lost:?}");
             match momentum {
                 "" => {
                     assert_eq!(lost.len(), 1, "{interactions}: {lost:?}");
-                    assert_eq!(conserved(&model), ["mass", "total momentum, to the last bit"]);
+                    assert_eq!(conserved(&model, &[]), ["mass", "total momentum, to the last bit"]);
                 }
                 reason => {
                     assert!(lost[1].starts_with("total momentum: ") && lost[1].contains(reason), "{lost:?}");
-                    assert_eq!(conserved(&model), ["mass"]);
+                    assert_eq!(conserved(&model, &[]), ["mass"]);
                 }
             }
         }

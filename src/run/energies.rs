@@ -1,6 +1,8 @@
 //! The table of energies of a run, and the means of its columns.
 
 use super::RunError;
+use super::sections::{Sections, bytes, samples};
+use super::settling;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
 use crate::model::{Model, Voronoi};
@@ -74,6 +76,9 @@ pub(crate) fn quantities(model: &Model) -> Vec<&'static str> {
 
 const CONFIGURATIONAL: &str = "configurational_temperature";
 
+/// Name of the section of a checkpoint that holds the sums behind the configurational temperature.
+pub(super) const SECTION: &str = "configuration";
+
 /// The rows so far, on disk and in memory.
 pub(super) struct EnergyRecorder {
     file: EnergiesFile,
@@ -83,6 +88,8 @@ pub(super) struct EnergyRecorder {
     configuration: Vec<[f64; 2]>,
     time_step: f64,
     equilibration: u64,
+    /// Whether means are meant to be those of equilibrium.
+    is_about_equilibrium: bool,
 }
 
 /// Reads the table that a run of this scene wrote until it came to a step.
@@ -113,14 +120,9 @@ fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputE
 }
 
 impl EnergyRecorder {
-    /// Begins the table at step 0, or continues it before `step` with what [`Self::section`] returned there.
-    pub(super) fn open(
-        path: &Path,
-        scene: &Scene,
-        model: &Model,
-        step: u64,
-        section: Option<&[u8]>,
-    ) -> Result<Self, RunError> {
+    /// Begins the table at step 0, or continues it before the step of a checkpoint with what [`Self::section`] left there.
+    pub(super) fn open(path: &Path, scene: &Scene, model: &Model, sections: &Sections<'_>) -> Result<Self, RunError> {
+        let step = sections.step;
         let columns = columns(model);
         let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
         let (file, rows) = if step == 0 {
@@ -132,15 +134,17 @@ impl EnergyRecorder {
             let file = EnergiesFile::resume(path, &names, step - 1)?;
             (file, read_table(path)?.rows)
         };
-        let configuration = section.map(super::analyses::numbers).unwrap_or_default();
-        let configuration = configuration.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
         let (time_step, equilibration) = (scene.time.step, scene.time.equilibration);
-        Ok(Self { file, columns, rows, configuration, time_step, equilibration })
+        let kept = samples(scene.output.energies.every, equilibration, step);
+        let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
+        let configuration = configuration.as_chunks().0.to_vec();
+        let is_about_equilibrium = settling::is_about_equilibrium(scene, model);
+        Ok(Self { file, columns, rows, configuration, time_step, equilibration, is_about_equilibrium })
     }
 
     /// What a checkpoint has to keep beside the table itself.
     pub(super) fn section(&self) -> Vec<u8> {
-        super::analyses::bytes(self.configuration.iter().flatten().copied())
+        bytes(self.configuration.iter().flatten().copied())
     }
 
     pub(super) fn add(&mut self, observables: &Observables) -> Result<(), RunError> {
@@ -181,6 +185,11 @@ impl EnergyRecorder {
         if self.rows.iter().all(|row| row[0] < self.equilibration as f64) {
             let text = format!("`{}` has no row after equilibration, so there are no means", files::ENERGIES);
             summary.warnings.push(text);
+        }
+        if self.is_about_equilibrium {
+            let EnergyTable { columns, rows } = self.table();
+            summary.unequilibrated = settling::unequilibrated(&Table { columns, rows }, self.equilibration);
+            summary.warnings.extend(summary.unequilibrated.as_ref().map(settling::warning));
         }
     }
 

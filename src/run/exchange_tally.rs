@@ -1,9 +1,10 @@
 //! What the device counts of Voronoi cells from the upload of a state on, carried over from checkpoint to checkpoint.
 
 use super::RunError;
-use super::analyses::{bytes, numbers};
+use super::sections::{Sections, bytes};
 use crate::engine::{Control, Engine};
 use crate::measure::Observables;
+use crate::output::checkpoint::CheckpointError;
 use std::mem::{offset_of, size_of};
 
 /// Name of the section of a checkpoint.
@@ -26,14 +27,17 @@ pub(super) struct ExchangeTally {
 
 impl ExchangeTally {
     /// The counts at a step, from the sections of its checkpoint.
-    pub(super) fn new(step: u64, sections: &[(String, Vec<u8>)]) -> Self {
-        let section = sections.iter().find(|(name, _)| name == SECTION).map(|(_, bytes)| numbers(bytes));
-        match section.as_deref() {
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where there are no such counts.
+    pub(super) fn new(sections: &Sections<'_>) -> Result<Self, CheckpointError> {
+        let step = sections.step;
+        Ok(match sections.numbers(SECTION, 3)?.as_deref() {
             Some([limited, iterations, residual]) => {
                 Self { step, limited: *limited as u64, iterations: *iterations as u64, residual: *residual }
             }
             _ => Self { step, ..Self::default() },
-        }
+        })
     }
 
     /// Completes what was measured: counts begin with the upload, and at that step no solution is known to the device.

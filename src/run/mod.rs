@@ -42,9 +42,12 @@ mod energies;
 mod error;
 mod exchange_tally;
 mod interrupt;
+mod kept_sums;
 mod pace;
 mod pictures;
 mod schedule;
+mod sections;
+mod settling;
 mod shown_field;
 mod simulation;
 

@@ -3,18 +3,21 @@
 use super::analyses::Analyses;
 use super::cells::Cells;
 use super::chain::{self, Chains};
-use super::conservation::{conserved, not_conserved};
-use super::energies::EnergyRecorder;
+use super::conservation::{KeptQuantity, conserved, not_conserved};
+use super::energies::{self, EnergyRecorder};
 use super::exchange_tally::{self, ExchangeTally};
 use super::interrupt::Interrupt;
+use super::kept_sums::{self, KeptSums};
 use super::pace::Pace;
 use super::pictures::Pictures;
 use super::schedule::Schedule;
+use super::sections::Sections;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::measure::observables_of;
 use crate::model::{Model, ShallowWater};
+use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
@@ -127,9 +130,8 @@ impl Simulation {
         };
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
-        let momentum = start.state.total_momentum();
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { scene, model, directory, interrupt, momentum };
+        let task = Task { scene, model, directory, interrupt };
         loop {
             match task.attempt(&gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
@@ -160,8 +162,6 @@ struct Task {
     model: Model,
     directory: RunDirectory,
     interrupt: Interrupt,
-    /// Total momentum at the first step, in integer units.
-    momentum: [i64; 3],
 }
 
 impl Task {
@@ -182,7 +182,7 @@ impl Task {
     ) -> Result<Outcome, RunError> {
         let plan = plan_for(&self.scene, &self.model, gpu, options);
         let mut engine = Engine::new(gpu, plan, &start.state)?;
-        let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, engine.plan(), start)?;
+        let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, &mut engine, start)?;
         match run.advance_to_end(&mut engine, pace, &self.interrupt, observer) {
             Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
@@ -194,16 +194,7 @@ impl Task {
         }
         observer(Event::Finishing);
         let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
-        if start.state.step > 0 {
-            let step = start.state.step;
-            let warning = |name: String| {
-                format!("went on from a checkpoint at step {step}: a window of `{name}` open there is left out")
-            };
-            warnings.extend(run.analyses.restarts_windows().into_iter().map(warning));
-        }
-        if self.model.conserves_momentum() && run.momentum != self.momentum {
-            warnings.push("the total momentum changed, which is a defect of mesoscope; please report it".to_owned());
-        }
+        warnings.extend(run.kept_sums.warning());
         let saved_step = run.saved_step;
         run.conclude(warnings, pace.done()).map_err(|error| self.stopped(error, saved_step))
     }
@@ -281,14 +272,13 @@ struct Run<'a> {
     chains: Option<Chains>,
     cells: Cells,
     tally: ExchangeTally,
+    kept_sums: KeptSums,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
     /// Step of the checkpoint on disk.
     saved_step: u64,
     /// When it was written.
     saved_at: Instant,
-    /// Total momentum at that step, in integer units.
-    momentum: [i64; 3],
 }
 
 impl<'a> Run<'a> {
@@ -298,14 +288,21 @@ impl<'a> Run<'a> {
         model: &'a Model,
         gpu: &'a Gpu,
         directory: &'a RunDirectory,
-        plan: &Plan,
+        engine: &mut Engine<'_>,
         start: &Checkpoint,
     ) -> Result<Self, RunError> {
         let step = start.state.step;
+        let path = directory.file(files::CHECKPOINT);
+        let sections = Sections::new(&path, step, &start.sections);
+        // What is wrong with the checkpoint is found before a file is touched.
+        let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
+        analyses.continue_windows(engine, &sections)?;
+        let chains = chains_of(scene, model, &sections)?;
+        let cells = Cells::new(scene, &sections)?;
+        let tally = if model.voronoi.is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
         let schedule = Schedule::new(scene);
         directory.remove_snapshots_after(schedule.snapshots_before(step))?;
-        let section = start.sections.iter().find(|(name, _)| name == CONFIGURATION).map(|(_, bytes)| bytes.as_slice());
-        let energies = EnergyRecorder::open(&directory.file(files::ENERGIES), scene, model, step, section)?;
+        let energies = EnergyRecorder::open(&directory.file(files::ENERGIES), scene, model, &sections)?;
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
@@ -323,15 +320,15 @@ impl<'a> Run<'a> {
             directory,
             schedule,
             energies,
-            analyses: Analyses::new(scene, model, plan, &start.sections),
-            chains: chains_of(scene, model, &start.sections),
-            cells: Cells::new(scene, &start.sections),
-            tally: ExchangeTally::new(step, &start.sections),
+            analyses,
+            chains,
+            cells,
+            tally,
+            kept_sums: KeptSums::new(model, &start.state, &sections)?,
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
             saved_step: step,
             saved_at: Instant::now(),
-            momentum: start.state.total_momentum(),
         })
     }
 
@@ -429,18 +426,19 @@ impl<'a> Run<'a> {
             trajectory.flush()?;
         }
         let mut sections = self.analyses.sections();
-        sections.push((CONFIGURATION.to_owned(), self.energies.section()));
+        sections.extend(self.analyses.open_windows(engine)?);
+        sections.push((energies::SECTION.to_owned(), self.energies.section()));
         if let Some(chains) = &self.chains {
             sections.push((chain::SECTION.to_owned(), chains.section()));
         }
         sections.extend(self.cells.sections());
+        sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
         if self.model.voronoi.is_some() {
             sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
         }
         checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
         self.saved_step = state.step;
         self.saved_at = Instant::now();
-        self.momentum = state.total_momentum();
         pace.begin();
         Ok(())
     }
@@ -448,6 +446,7 @@ impl<'a> Run<'a> {
     fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
         for sample in samples {
             if sample.sampler == 0 {
+                self.kept_sums.compare(sample);
                 let mut observables = observables_of(sample, plan, self.model);
                 self.tally.complete(&mut observables);
                 self.energies.add(&observables)?;
@@ -492,8 +491,10 @@ impl<'a> Run<'a> {
             summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
         }
         self.cells.conclude(self.directory, self.model, &mut summary)?;
-        summary.conserved_exactly = conserved(self.model);
-        summary.not_conserved = not_conserved(self.model);
+        let changed = self.kept_sums.lost();
+        let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
+        summary.conserved_exactly = conserved(self.model, &lost);
+        summary.not_conserved = not_conserved(self.model, &changed);
         // Numbers first: they are worth more than pictures if the disk is full.
         summary.save(&self.directory.file(files::SUMMARY))?;
         self.pictures.energies(&self.energies.table(), self.model)?;
@@ -504,13 +505,11 @@ impl<'a> Run<'a> {
 }
 
 /// The samples of harmonic chains, from the start or from a checkpoint.
-fn chains_of(scene: &Scene, model: &Model, sections: &[(String, Vec<u8>)]) -> Option<Chains> {
-    let every = scene.output.chain.as_ref()?.every;
-    let mut chains = Chains::new(model.chains.clone()?, model.units, model.time_step, every);
-    if let Some((_, section)) = sections.iter().find(|(name, _)| name == chain::SECTION) {
-        chains.restore(section);
-    }
-    Some(chains)
+fn chains_of(scene: &Scene, model: &Model, sections: &Sections<'_>) -> Result<Option<Chains>, CheckpointError> {
+    let (Some(asked), Some(trios)) = (&scene.output.chain, &model.chains) else { return Ok(None) };
+    let mut chains = Chains::new(trios.clone(), model.units, model.time_step, asked.every);
+    chains.restore(sections)?;
+    Ok(Some(chains))
 }
 
 /// The smoothed depth on the nodes of the mesh, right after a report.
@@ -518,9 +517,6 @@ pub(super) fn mesh_depth(engine: &mut Engine<'_>, water: &ShallowWater) -> Resul
     let words = engine.words("depths")?;
     Ok(words.iter().take(water.nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
-
-/// Name of the section of a checkpoint that holds the sums behind the configurational temperature.
-const CONFIGURATION: &str = "configuration";
 
 fn trajectory_name(format: TrajectoryFormat) -> &'static str {
     match format {

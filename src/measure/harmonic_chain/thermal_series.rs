@@ -94,6 +94,12 @@ impl ThermalSeries {
         [&self.momenta, &self.separations, self.history.as_flattened()].concat()
     }
 
+    /// How many [`Self::numbers`] a series of a chain of clusters has after so many samples.
+    #[must_use]
+    pub fn numbers_after(clusters: usize, samples: u64) -> u64 {
+        samples.saturating_mul(clusters as u64 + 2).saturating_add(clusters.saturating_sub(1) as u64)
+    }
+
     /// The series of a chain of clusters that gave these numbers; an empty one if they are not of such a series.
     #[must_use]
     pub fn restored(clusters: usize, numbers: &[f64]) -> Self {

@@ -67,9 +67,11 @@ impl Analysis for Autocorrelation {
     }
 
     fn section(&self) -> Vec<u8> {
-        // The vectors of the particles when a window began are not kept: a resumed run begins a new window.
-        let full = self.products.len() / self.window() * self.window();
-        bytes(self.products[..full].iter().copied())
+        bytes(self.products.iter().copied())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples
     }
 
     fn restore(&mut self, numbers: &[f64]) {
@@ -78,10 +80,6 @@ impl Analysis for Autocorrelation {
 
     fn path(&self) -> String {
         format!("output.autocorrelations ({})", self.asked.quantity.name())
-    }
-
-    fn restarts_windows(&self) -> bool {
-        true
     }
 
     fn conclude(&self) -> Conclusion {

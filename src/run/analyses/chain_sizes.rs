@@ -64,6 +64,10 @@ impl Analysis for ChainSizes {
         bytes(self.rows.iter().flatten().copied())
     }
 
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(1 + 2 * self.groups.len() as u64)
+    }
+
     fn restore(&mut self, numbers: &[f64]) {
         self.rows = numbers.chunks_exact(1 + 2 * self.groups.len()).map(<[f64]>::to_vec).collect();
     }

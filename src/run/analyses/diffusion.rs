@@ -46,19 +46,17 @@ impl Analysis for Diffusion {
     }
 
     fn section(&self) -> Vec<u8> {
-        // Where the particles were when a window began is not kept: a resumed run begins a new window.
-        let full = self.displacement.len() / self.window * self.window;
-        bytes(self.displacement[..full].iter().chain(&self.velocity[..full]).copied())
+        bytes(self.displacement.iter().chain(&self.velocity).copied())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(2)
     }
 
     fn restore(&mut self, numbers: &[f64]) {
         let (first, second) = numbers.split_at(numbers.len() / 2);
         self.displacement = first.to_vec();
         self.velocity = second.to_vec();
-    }
-
-    fn restarts_windows(&self) -> bool {
-        true
     }
 
     fn conclude(&self) -> Conclusion {

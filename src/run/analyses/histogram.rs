@@ -100,10 +100,13 @@ impl Analysis for Counts {
         bytes(single.chain(self.powers).chain(histogram.counts.iter().copied()))
     }
 
+    fn numbers_after(&self, _: u64) -> u64 {
+        (4 + HISTOGRAM_MOMENTS + self.histogram.counts.len()) as u64
+    }
+
     fn restore(&mut self, numbers: &[f64]) {
         if let Some(([samples, below, above, far], rest)) = numbers.split_first_chunk()
             && let Some((powers, counts)) = rest.split_first_chunk()
-            && counts.len() == self.histogram.counts.len()
         {
             (self.samples, self.far, self.powers) = (*samples, *far, *powers);
             let range = self.histogram.range;

@@ -9,9 +9,11 @@ mod viscosity;
 
 use super::RunError;
 use super::circulations::Circulations;
-use crate::engine::Sample;
+use super::sections::{Sections, bytes};
+use crate::engine::{Engine, Sample};
 use crate::measure::correlation::WindowedAverage;
 use crate::model::Model;
+use crate::output::checkpoint::CheckpointError;
 use crate::output::{RunDirectory, Summary, Table, files, write_table};
 use crate::plan::Plan;
 use crate::plan::analyses::{autocorrelation_name, histogram_name};
@@ -23,16 +25,6 @@ use histogram::Counts;
 use radial_distribution::RadialDistribution;
 use serde_json::Value;
 use viscosity::Viscosity;
-
-/// Real numbers as bytes of a checkpoint.
-pub(super) fn bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
-    values.flat_map(f64::to_le_bytes).collect()
-}
-
-/// The numbers that [`bytes`] wrote.
-pub(super) fn numbers(bytes: &[u8]) -> Vec<f64> {
-    bytes.chunks_exact(8).map(|word| f64::from_bits(bytemuck::pod_read_unaligned::<u64>(word).to_le())).collect()
-}
 
 /// What every analysis begins with.
 struct Setting<'a> {
@@ -48,15 +40,13 @@ trait Analysis {
     fn add(&mut self, sample: &Sample);
     /// What a checkpoint has to keep.
     fn section(&self) -> Vec<u8>;
-    /// Goes on from what [`Self::section`] kept.
+    /// How many numbers that is after so many samples.
+    fn numbers_after(&self, samples: u64) -> u64;
+    /// Goes on from what [`Self::section`] kept, which is as much as [`Self::numbers_after`] says.
     fn restore(&mut self, numbers: &[f64]);
     /// The part of the scene that asks for it.
     fn path(&self) -> String {
         format!("output.{}", self.name())
-    }
-    /// Whether a resumed run leaves out the window that was open.
-    fn restarts_windows(&self) -> bool {
-        false
     }
     /// Whether there is nothing to write.
     fn is_idle(&self) -> bool {
@@ -100,18 +90,42 @@ pub(super) struct Analyses {
 
 impl Analyses {
     /// Begins the analyses, or goes on from the sections of a checkpoint.
-    pub(super) fn new(scene: &Scene, model: &Model, plan: &Plan, sections: &[(String, Vec<u8>)]) -> Self {
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where a section is not as long as its samples make it.
+    pub(super) fn new(
+        scene: &Scene,
+        model: &Model,
+        plan: &Plan,
+        sections: &Sections<'_>,
+    ) -> Result<Self, CheckpointError> {
         let setting = Setting { model, plan };
         let mut gathered = Vec::new();
-        for index in 0..plan.samplers.len() {
+        for (index, sampler) in plan.samplers.iter().enumerate() {
             let Some(mut analysis) = analysis(scene, &setting, index) else { continue };
-            let section = sections.iter().find(|(name, _)| name == analysis.name());
-            if let Some((_, section)) = section {
-                analysis.restore(&numbers(section));
+            let count = analysis.numbers_after(sampler.samples_before(sections.step));
+            if let Some(numbers) = sections.numbers(analysis.name(), count)? {
+                analysis.restore(&numbers);
             }
             gathered.push((index, analysis));
         }
-        Self { gathered }
+        Ok(Self { gathered })
+    }
+
+    /// Gives the device back the windows that were open when the checkpoint was saved.
+    ///
+    /// # Errors
+    /// [`RunError::Checkpoint`] where one is missing or of another length.
+    pub(super) fn continue_windows(&self, engine: &mut Engine<'_>, sections: &Sections<'_>) -> Result<(), RunError> {
+        for (index, analysis) in &self.gathered {
+            let Some((buffer, taken)) = engine.plan().samplers[*index].open_window(sections.step) else { continue };
+            let planned = engine.plan().buffers.iter().find(|planned| planned.name == buffer);
+            let words = planned.map_or(0, |planned| planned.bytes / 4);
+            if let Some(words) = sections.words(&window_name(analysis.name()), words)? {
+                engine.continue_window(*index, taken, &words)?;
+            }
+        }
+        Ok(())
     }
 
     /// Adds a sample of any sampler but the first.
@@ -121,15 +135,25 @@ impl Analyses {
         }
     }
 
-    /// What a checkpoint has to keep.
+    /// What a checkpoint has to keep of what the host has gathered.
     pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
         self.gathered.iter().map(|(_, analysis)| (analysis.name().to_owned(), analysis.section())).collect()
     }
 
-    /// The parts of the scene that a resumed run measures otherwise than an uninterrupted one.
-    pub(super) fn restarts_windows(&self) -> Vec<String> {
-        let restarted = self.gathered.iter().filter(|(_, analysis)| analysis.restarts_windows());
-        restarted.map(|(_, analysis)| analysis.path()).collect()
+    /// What a checkpoint of the current step, of which no sample is taken yet, has to keep of the windows that are open
+    /// on the device.
+    ///
+    /// # Errors
+    /// [`RunError`] if the device failed.
+    pub(super) fn open_windows(&self, engine: &mut Engine<'_>) -> Result<Vec<(String, Vec<u8>)>, RunError> {
+        let mut sections = Vec::new();
+        for (index, analysis) in &self.gathered {
+            if let Some((buffer, _)) = engine.plan().samplers[*index].open_window(engine.step()) {
+                let words = engine.words(buffer)?;
+                sections.push((window_name(analysis.name()), words.into_iter().flat_map(u32::to_le_bytes).collect()));
+            }
+        }
+        Ok(sections)
     }
 
     /// Writes the tables and adds the results, or why there are none, to the summary.
@@ -147,6 +171,11 @@ impl Analyses {
         }
         Ok(())
     }
+}
+
+/// The section with the open window of an analysis.
+fn window_name(analysis: &str) -> String {
+    format!("{analysis}_window")
 }
 
 /// The analysis of a sampler, unless its samples are not for one.
@@ -185,6 +214,10 @@ impl Analysis for Circulations {
         Circulations::section(self)
     }
 
+    fn numbers_after(&self, samples: u64) -> u64 {
+        Circulations::numbers_after(self, samples)
+    }
+
     fn restore(&mut self, numbers: &[f64]) {
         Circulations::restore(self, numbers);
     }
@@ -203,11 +236,15 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::plan::{Hardware, Options, plan};
+    use std::path::Path;
 
-    #[test]
-    fn numbers_survive_a_checkpoint() {
-        let values = [0.0, -1.5, 1e300, f64::MIN_POSITIVE];
-        assert_eq!(numbers(&bytes(values.into_iter())), values);
+    /// The analyses after `step` steps that left these sections.
+    fn after(
+        step: u64,
+        sections: &[(String, Vec<u8>)],
+        (scene, model, plan): (&Scene, &Model, &Plan),
+    ) -> Result<Analyses, CheckpointError> {
+        Analyses::new(scene, model, plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
     }
 
     /// What is concluded from samples is concluded from their section too, for every analysis of particles.
@@ -235,7 +272,8 @@ mod tests {
         .unwrap();
         let model = Model::new(&scene);
         let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-        let mut analyses = Analyses::new(&scene, &model, &plan, &[]);
+        let run = (&scene, &model, &plan);
+        let mut analyses = after(0, &[], run).unwrap();
         for step in 0..3_i64 {
             for (sampler, planned) in plan.samplers.iter().enumerate().skip(1) {
                 let sums = (0..planned.quantities as i64).map(|index| (1 + index * index * (step + 1)) << 20).collect();
@@ -243,8 +281,9 @@ mod tests {
             }
         }
         assert_eq!(analyses.gathered.len(), 8);
-        let restored = Analyses::new(&scene, &model, &plan, &analyses.sections());
-        let fresh = Analyses::new(&scene, &model, &plan, &[]);
+        let sections = analyses.sections();
+        let restored = after(3, &sections, run).unwrap();
+        let fresh = after(0, &[], run).unwrap();
         for (((_, analysis), (_, restored)), (_, fresh)) in
             analyses.gathered.iter().zip(&restored.gathered).zip(&fresh.gathered)
         {
@@ -256,11 +295,24 @@ mod tests {
             assert_eq!(restored.section(), analysis.section(), "{}", analysis.name());
             assert_ne!(fresh.section(), analysis.section(), "{}", analysis.name());
         }
-        let restarted = restored.restarts_windows();
-        assert_eq!(
-            restarted,
-            ["output.diffusion", "output.autocorrelations (velocity)", "output.autocorrelations (force)"]
-        );
+        // What belongs to another step, was cut off, or is missing altogether, is refused.
+        for (index, (name, _)) in sections.iter().enumerate() {
+            let refused = |sections: &[(String, Vec<u8>)], step: u64| {
+                let error = after(step, sections, run).err().map(|error| error.to_string()).unwrap_or_default();
+                assert!(error.contains("is no valid checkpoint: its section"), "{name}: {error}");
+            };
+            for damage in
+                [|bytes: &mut Vec<u8>| bytes.truncate(bytes.len() - 1), |bytes: &mut Vec<u8>| bytes.extend([0; 8])]
+            {
+                let mut damaged = sections.clone();
+                damage(&mut damaged[index].1);
+                refused(&damaged, 3);
+            }
+            let mut fewer = sections.clone();
+            fewer.remove(index);
+            refused(&fewer, 3);
+            refused(&sections, 4);
+        }
     }
 
     /// Numbers worked out by hand.
@@ -277,7 +329,7 @@ mod tests {
         let gathered = |scene: &Scene, samples: &[&[i64]]| -> Conclusion {
             let model = Model::new(scene);
             let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-            let mut analyses = Analyses::new(scene, &model, &plan, &[]);
+            let mut analyses = after(0, &[], (scene, &model, &plan)).unwrap();
             for (step, sums) in samples.iter().enumerate() {
                 analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() });
             }

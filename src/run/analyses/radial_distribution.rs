@@ -45,12 +45,14 @@ impl Analysis for RadialDistribution {
         bytes(std::iter::once(self.samples).chain(self.counts.iter().copied()))
     }
 
+    fn numbers_after(&self, _: u64) -> u64 {
+        1 + self.counts.len() as u64
+    }
+
     fn restore(&mut self, numbers: &[f64]) {
-        if let Some((first, rest)) = numbers.split_first()
-            && rest.len() == self.counts.len()
-        {
+        if let Some((first, rest)) = numbers.split_first() {
             self.samples = *first;
-            self.counts.copy_from_slice(rest);
+            self.counts = rest.to_vec();
         }
     }
 

@@ -64,6 +64,10 @@ impl Analysis for Viscosity {
         bytes(self.modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied())
     }
 
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(2 * self.modes.len() as u64)
+    }
+
     fn restore(&mut self, numbers: &[f64]) {
         let length = numbers.len() / self.modes.len().max(1);
         for (mode, part) in self.modes.iter_mut().zip(numbers.chunks_exact(length.max(1))) {

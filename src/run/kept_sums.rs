@@ -1,0 +1,235 @@
+//! Whether what a model keeps to the last bit is kept on this adapter: the sums of every report are compared with those of
+//! the start.
+
+use super::conservation::KeptQuantity;
+use super::sections::Sections;
+use crate::engine::Sample;
+use crate::model::Model;
+use crate::output::checkpoint::CheckpointError;
+use crate::state::State;
+
+/// Name of the section of a checkpoint.
+pub(super) const SECTION: &str = "kept_sums";
+
+/// The integer sums that a model keeps, as they were at the start, and the changes that were seen since.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct KeptSums {
+    sums: Vec<KeptSum>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct KeptSum {
+    quantity: KeptQuantity,
+    /// The direction of a component: ` along x`.
+    direction: &'static str,
+    /// Its place among the sums of the first sampler.
+    place: usize,
+    /// Value of one unit.
+    unit: f64,
+    /// At the first step.
+    start: i64,
+    change: Option<Change>,
+}
+
+/// A sum that is not what it was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Change {
+    /// The first step at which it was seen.
+    step: u64,
+    /// By how many units it had changed then.
+    first: i64,
+    /// The change that is largest in magnitude so far.
+    largest: i64,
+}
+
+/// Numbers that a checkpoint keeps of each sum.
+const NUMBERS: usize = 4;
+
+impl KeptSums {
+    /// The sums of the state that a run begins with, or what a checkpoint has kept of them.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where that is of another length.
+    pub(super) fn new(model: &Model, state: &State, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
+        let mut sums: Vec<KeptSum> =
+            super::conservation::kept(model).into_iter().flat_map(|quantity| sums_of(quantity, model, state)).collect();
+        if let Some(kept) = sections.integers(SECTION, (NUMBERS * sums.len()) as u64)? {
+            for (sum, [start, step, first, largest]) in sums.iter_mut().zip(kept.as_chunks().0) {
+                sum.start = *start;
+                let change = Change { step: *step as u64, first: *first, largest: *largest };
+                sum.change = (*first != 0).then_some(change);
+            }
+        }
+        Ok(Self { sums })
+    }
+
+    /// What a checkpoint has to keep.
+    pub(super) fn section(&self) -> Vec<u8> {
+        let numbers = |sum: &KeptSum| {
+            let change = sum.change.unwrap_or(Change { step: 0, first: 0, largest: 0 });
+            [sum.start, change.step as i64, change.first, change.largest]
+        };
+        self.sums.iter().flat_map(numbers).flat_map(i64::to_le_bytes).collect()
+    }
+
+    /// Compares a sample of the observables with the start.
+    pub(super) fn compare(&mut self, sample: &Sample) {
+        for sum in &mut self.sums {
+            let Some(found) = sample.sums.get(sum.place) else { continue };
+            let difference = found.wrapping_sub(sum.start);
+            if difference == 0 {
+                continue;
+            }
+            let change = sum.change.get_or_insert(Change { step: sample.step, first: difference, largest: difference });
+            if difference.unsigned_abs() > change.largest.unsigned_abs() {
+                change.largest = difference;
+            }
+        }
+    }
+
+    /// What changed, with the largest change, for what a run does not conserve.
+    pub(super) fn lost(&self) -> Vec<(KeptQuantity, String)> {
+        let mut lost: Vec<(KeptQuantity, String)> = Vec::new();
+        for (sum, change) in self.changed() {
+            let size = format!("{}{}", sum.size(change.largest), sum.direction);
+            match lost.iter_mut().find(|(quantity, _)| *quantity == sum.quantity) {
+                Some((_, text)) => *text = format!("{text}, {size}"),
+                None => lost.push((sum.quantity, format!("on this driver changed by {size}"))),
+            }
+        }
+        lost
+    }
+
+    /// Says once of the sum that changed first when and by how much.
+    pub(super) fn warning(&self) -> Option<String> {
+        let (sum, change) = self.changed().min_by_key(|(_, change)| change.step)?;
+        Some(format!(
+            "the {}{} was to be kept to the last bit, and at step {} had changed by {}: a defect of this driver's compiler or \
+             of mesoscope; please report it with the name of the adapter",
+            sum.quantity.name(),
+            sum.direction,
+            change.step,
+            sum.size(change.first),
+        ))
+    }
+
+    fn changed(&self) -> impl Iterator<Item = (&KeptSum, Change)> {
+        self.sums.iter().filter_map(|sum| Some((sum, sum.change?)))
+    }
+}
+
+impl KeptSum {
+    /// A change with its number of units.
+    fn size(&self, change: i64) -> String {
+        let units = if change.unsigned_abs() == 1 { "unit" } else { "units" };
+        format!("{:.3e} ({} {units})", change as f64 * self.unit, change.unsigned_abs())
+    }
+}
+
+/// The sums of a quantity, as the kernels of the report and [`crate::measure::observables_of`] order them.
+fn sums_of(quantity: KeptQuantity, model: &Model, state: &State) -> Vec<KeptSum> {
+    let sum = |direction, place, unit, start| KeptSum { quantity, direction, place, unit, start, change: None };
+    let mass = || state.masses.iter().map(|mass| i64::from(*mass)).sum::<i64>();
+    match (quantity, &model.voronoi, &model.shallow_water) {
+        (KeptQuantity::Momentum, cells, _) => {
+            let first = if cells.is_some() { 1 } else { 2 };
+            let total = state.total_momentum();
+            let axes = [" along x", " along y", " along z"].into_iter().zip(total).enumerate();
+            let component = |(axis, (direction, total))| sum(direction, first + axis, model.units.momentum, total);
+            axes.take(model.units.dimension).map(component).collect()
+        }
+        (KeptQuantity::Mass, Some(cells), _) => vec![sum("", 3, cells.mass_unit, mass())],
+        (KeptQuantity::Energy, Some(cells), _) => {
+            vec![sum("", 7, cells.energy_unit, state.energies.iter().map(|energy| i64::from(*energy)).sum())]
+        }
+        (KeptQuantity::MeshMass, _, Some(water)) => vec![sum("", 5, water.mass_unit, mass())],
+        _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::run::conservation::{conserved, kept, not_conserved};
+    use crate::scene::{self, placement::initial_state};
+    use std::path::Path;
+
+    fn at(step: u64, sections: &[(String, Vec<u8>)]) -> Sections<'_> {
+        Sections::new(Path::new("checkpoint.bin"), step, sections)
+    }
+
+    /// A model, and a sample of its start.
+    fn start(text: &str) -> (Model, State, Sample) {
+        let scene = scene::parse("test", text, &[]).unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        let mut sums = vec![0; 12];
+        for sum in kept(&model).into_iter().flat_map(|quantity| sums_of(quantity, &model, &state)) {
+            sums[sum.place] = sum.start;
+        }
+        (model, state, Sample { sampler: 0, step: 0, sums })
+    }
+
+    const FLUID: &str = r#"{"title": "t", "space": {"box": [5, 5, 5]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+        "particles": [{"species": "A", "count": 10}], "interactions": [{"type": "dpd", "friction": 1}]}"#;
+    const CELLS: &str = r#"{"title": "t", "space": {"box": [5, 5]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+        "particles": [{"species": "A", "count": 25}], "interactions": [{"type": "voronoi", "energy": {}}]}"#;
+    const WATER: &str = r#"{"title": "t", "space": {"box": [6, 6]}, "time": {"step": 0.01, "steps": 1}, "temperature": 0,
+        "particles": [{"species": "water", "count": 1024, "placement": {"type": "lattice"},
+            "velocities": {"type": "rest"}}],
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6, "rotation": 6}]}"#;
+
+    #[test]
+    fn a_tampered_sample_is_told_once_and_the_claim_goes() {
+        for (text, place, name, others) in [
+            (FLUID, 3, "total momentum", 1),
+            (CELLS, 2, "total momentum", 2),
+            (CELLS, 3, "mass", 2),
+            (CELLS, 7, "total energy", 2),
+            (WATER, 5, "mass on the mesh", 0),
+        ] {
+            let (model, state, mut sample) = start(text);
+            let mut sums = KeptSums::new(&model, &state, &at(0, &[])).unwrap();
+            sums.compare(&sample);
+            assert_eq!((sums.warning(), sums.lost()), (None, Vec::new()));
+            let claim = format!("{name}, to the last bit");
+            assert!(conserved(&model, &[]).contains(&claim), "{claim}");
+
+            for (step, change) in [(40, 1), (80, -3), (120, 0)] {
+                let mut tampered = sample.clone();
+                tampered.step = step;
+                tampered.sums[place] += change;
+                sums.compare(&tampered);
+            }
+            sample.step = 160;
+            sums.compare(&sample);
+            let warning = sums.warning().unwrap();
+            assert!(warning.starts_with(&format!("the {name}")) && warning.contains("(1 unit)"), "{warning}");
+            assert!(warning.contains("at step 40 had changed"), "{warning}");
+            let lost = sums.lost();
+            let kept: Vec<KeptQuantity> = lost.iter().map(|(quantity, _)| *quantity).collect();
+            let found = conserved(&model, &kept);
+            assert!(!found.contains(&claim) && found.len() == others, "{found:?}");
+            let entry = not_conserved(&model, &lost);
+            let told = format!("{name}: on this driver changed by -");
+            assert!(entry.iter().any(|entry| entry.starts_with(&told) && entry.contains("(3 units)")), "{entry:?}");
+
+            // An interruption changes nothing of that.
+            let section = [(SECTION.to_owned(), sums.section())];
+            assert_eq!(KeptSums::new(&model, &state, &at(160, &section)).unwrap(), sums);
+            let short = [(SECTION.to_owned(), sums.section()[8..].to_vec())];
+            assert!(KeptSums::new(&model, &state, &at(160, &short)).is_err());
+        }
+    }
+
+    #[test]
+    fn what_is_not_kept_is_not_compared() {
+        let langevin = FLUID.replace(r#"{"type": "dpd", "friction": 1}"#, r#"{"type": "langevin", "friction": 1}"#);
+        let (model, state, mut sample) = start(&langevin);
+        let mut sums = KeptSums::new(&model, &state, &at(0, &[])).unwrap();
+        sample.sums[3] += 1000;
+        sums.compare(&sample);
+        assert_eq!((sums.warning(), sums.section().len()), (None, 0));
+    }
+}

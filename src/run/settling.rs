@@ -1,0 +1,145 @@
+//! Which means of a run include the way to equilibrium, and what to do about it.
+
+use crate::measure::equilibration::transient;
+use crate::model::Model;
+use crate::output::Table;
+use crate::output::summary::{Unequilibrated, UnsettledMean};
+use crate::scene::Scene;
+
+/// Columns of the table of energies that fluctuate about a constant in equilibrium, those most asked for first. Not among
+/// them are what is conserved, what wanders (the centre of mass in noise), and what is counted.
+const QUANTITIES: [&str; 8] = [
+    "temperature",
+    "internal_temperature",
+    "configurational_temperature",
+    "pressure",
+    "pressure_conservative",
+    "kinetic_energy",
+    "potential_energy",
+    "bath_square",
+];
+
+/// Whether the means of a scene are meant to be those of equilibrium: where it says how long to wait for that, and for
+/// thermal particles anyway. Flows of water, cells that warm up or slow down and chains with a pulse are about the way.
+pub(super) fn is_about_equilibrium(scene: &Scene, model: &Model) -> bool {
+    let particles = model.shallow_water.is_none() && model.voronoi.is_none() && model.chains.is_none();
+    scene.time.equilibration > 0 || particles && model.temperature > 0.0
+}
+
+/// The quantities whose rows from the step `equilibration` on begin with a transient, in a table whose first column is the step.
+pub(super) fn unequilibrated(table: &Table, equilibration: u64) -> Option<Unequilibrated> {
+    let first = table.rows.iter().position(|row| row[0] >= equilibration as f64)?;
+    let rows = &table.rows[first..];
+    let last_step = rows.last()?[0] as u64;
+    let mut means = Vec::new();
+    for quantity in QUANTITIES {
+        let Some(column) = table.columns.iter().position(|column| column == quantity) else { continue };
+        let known: Vec<&Vec<f64>> = rows.iter().filter(|row| row[column].is_finite()).collect();
+        let series: Vec<f64> = known.iter().map(|row| row[column]).collect();
+        if let Some(found) = transient(&series) {
+            let settled_from = known.get(found.samples).filter(|_| found.settles).map(|row| row[0] as u64);
+            means.push(UnsettledMean { quantity: quantity.to_owned(), settled_from, mean_from_there: found.mean });
+        }
+    }
+    // Where one does not settle, a run as long as this one has to be over before averages begin.
+    let settled = means.iter().map(|mean| mean.settled_from).collect::<Option<Vec<u64>>>();
+    let (wait, steps) = match settled {
+        Some(steps) => (rounded_up(steps.into_iter().max()?), None),
+        None => {
+            let wait = rounded_up(last_step);
+            (wait, Some(wait.saturating_add(rounded_up(last_step.saturating_sub(equilibration)))))
+        }
+    };
+    (!means.is_empty()).then_some(Unequilibrated { means, equilibration: wait, steps })
+}
+
+/// What to tell the user.
+pub(super) fn warning(found: &Unequilibrated) -> String {
+    let named: Vec<String> = found.means.iter().take(3).map(|mean| format!("`{}`", mean.quantity)).collect();
+    let more = found.means.len() - named.len();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let [verb, noun] = if found.means.len() == 1 { ["includes", "mean"] } else { ["include", "means"] };
+    let (named, arguments) = (named.join(", "), found.arguments());
+    if found.steps.is_some() {
+        format!(
+            "the {noun} of {named}{more} {verb} the way to equilibrium, which this run did not reach: run longer, as with \
+             `{arguments}`"
+        )
+    } else {
+        format!("the {noun} of {named}{more} {verb} the way to equilibrium: leave it out with `{arguments}`")
+    }
+}
+
+/// The next number of at most two digits and zeros.
+fn rounded_up(number: u64) -> u64 {
+    let mut unit = 1;
+    while number / unit >= 100 {
+        unit *= 10;
+    }
+    number.div_ceil(unit).saturating_mul(unit)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
+    use super::*;
+    use crate::noise::{gaussian, step_key};
+
+    /// A table with a row every ten steps, whose temperature begins far out and whose pressure is steady.
+    fn table(rows: u64, decay: f64) -> Table {
+        let row = |index: u64| {
+            let noise = |stream: u32| 0.1 * gaussian(step_key(3, stream, index));
+            let far = 5.0 * (-(index as f64) / decay).exp();
+            vec![10.0 * index as f64, 1.0 + far + noise(1), 20.0 + noise(2), 0.1 * index as f64]
+        };
+        let columns = ["step", "temperature", "pressure", "limited_exchanges"].map(str::to_owned).to_vec();
+        Table { columns, rows: (0..rows).map(row).collect() }
+    }
+
+    #[test]
+    fn a_transient_is_told_with_what_leaves_it_out() {
+        let table = table(500, 10.0);
+        let found = unequilibrated(&table, 0).unwrap();
+        let [mean] = &found.means[..] else { panic!("{found:?}") };
+        assert_eq!(mean.quantity, "temperature");
+        assert!((mean.mean_from_there - 1.0).abs() < 0.05 && found.steps.is_none(), "{found:?}");
+        assert!((300..1000).contains(&found.equilibration), "{found:?}");
+        let told = format!(
+            "the mean of `temperature` includes the way to equilibrium: leave it out with `--set time.equilibration={}`",
+            found.equilibration
+        );
+        assert_eq!(warning(&found), told);
+        // Which indeed leaves it out.
+        assert_eq!(unequilibrated(&table, found.equilibration), None);
+    }
+
+    #[test]
+    fn a_run_that_never_settles_is_to_be_longer() {
+        let found = unequilibrated(&table(100, 60.0), 0).unwrap();
+        assert_eq!((found.equilibration, found.steps, found.means[0].settled_from), (990, Some(1980), None));
+        let told = warning(&found);
+        assert!(told.ends_with("run longer, as with `--set time.equilibration=990 --steps 1980`"), "{told}");
+    }
+
+    #[test]
+    fn numbers_are_rounded_up_to_two_digits() {
+        assert_eq!([0, 7, 99, 100, 101, 1234, 65_000].map(rounded_up), [0, 7, 99, 100, 110, 1300, 65_000]);
+        assert_eq!(rounded_up(u64::MAX), u64::MAX);
+    }
+
+    #[test]
+    fn flows_and_pulses_are_about_the_way() {
+        for (name, overrides, expected) in [
+            ("dpd-fluid", "time.equilibration=0", true),
+            ("dpd-fluid", "temperature=0", true),
+            ("shallow-water", "seed=1", false),
+            ("shallow-water-equilibrium", "seed=1", true),
+            ("voronoi-dpd", "seed=1", false),
+            ("voronoi-dpd", "time.equilibration=100", true),
+            ("harmonic-chain", "seed=1", false),
+        ] {
+            let scene = crate::scene::load(name, &[overrides.to_owned()]).unwrap();
+            assert_eq!(is_about_equilibrium(&scene, &Model::new(&scene)), expected, "{name} {overrides}");
+        }
+    }
+}
