@@ -44,6 +44,7 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 mod prediction;
+pub mod printable;
 pub mod reference;
 pub mod run;
 pub mod scene;

@@ -7,6 +7,7 @@ use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
+use mesoscope::printable;
 use mesoscope::run::{self, RunError};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
@@ -32,10 +33,10 @@ pub struct Arguments {
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = arguments.scene.load()?;
+    let (scene, notices) = arguments.scene.load()?;
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
-    let mut warnings: Vec<String> = scene::warnings(&scene).iter().map(ToString::to_string).collect();
+    let mut warnings: Vec<String> = notices.iter().chain(&scene::warnings(&scene)).map(ToString::to_string).collect();
     let choice = arguments.adapter.choice();
     let mut refusal = None;
     let (hardware, adapter) = match run::adapter_for(&scene, &choice) {
@@ -134,7 +135,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         ),
     ]);
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
-    format!("{}\n{}", scene.title, aligned(&rows, "  "))
+    format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "))
 }
 
 /// The list of neighbours and what its pairs take.

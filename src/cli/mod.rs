@@ -17,7 +17,6 @@ mod sweep;
 mod sweep_report;
 mod table;
 
-use std::io::Write as _;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -26,7 +25,7 @@ use mesoscope::gpu::prepare_environment;
 
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
-pub use print::print;
+pub use print::{line, print};
 pub use scene_arguments::{SceneArguments, whole_number};
 
 /// Stochastic mesoscale particle simulations on any GPU.
@@ -81,8 +80,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // Nobody is left to tell if standard error is closed.
-            let _ = writeln!(std::io::stderr().lock(), "{}{failure}", failure.prefix());
+            line(&format!("{}{failure}", failure.prefix()));
             ExitCode::from(failure.exit_code())
         }
     }

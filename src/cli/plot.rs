@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use mesoscope::output::RunDirectory;
-use mesoscope::{run, sweep};
+use mesoscope::{printable, run, sweep};
 
 use super::{AdapterArgument, Failure, print};
 
@@ -49,7 +49,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     print(&format!(
         "wrote {}/: {}
 ",
-        arguments.directory.display(),
+        printable::name(&arguments.directory.display().to_string()),
         written.join(", ")
     ))
 }

@@ -1,17 +1,18 @@
 //! What a run tells its user: a line at the start, progress, a table at the end.
 
-use std::io::{IsTerminal as _, Write as _};
+use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::model::Model;
+use mesoscope::printable;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{self, Interaction, Scene};
 use serde_json::Value;
 
 use super::table::{aligned, dimensions, grouped, prefixed};
-use super::{Failure, SceneArguments, print};
+use super::{Failure, SceneArguments, line, print};
 
 /// Executes a run and reports on it, unless it is to be quiet.
 pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, quiet: bool) -> Result<(), Failure> {
@@ -21,13 +22,17 @@ pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, 
         return Ok(());
     }
     let mut reporter = Reporter::new(simulation.scene().clone());
+    let mut known = simulation.notices().to_vec();
+    for notice in &known {
+        line(&format!("note: {notice}"));
+    }
     for warning in scene::warnings(simulation.scene()) {
         line(&format!("warning: {warning}"));
+        known.push(warning.to_string());
     }
     let result = simulation.execute(choice, &mut |event| reporter.tell(event));
     reporter.clear();
     let outcome = result?;
-    let known: Vec<String> = scene::warnings(&outcome.summary.scene).iter().map(ToString::to_string).collect();
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
         line(&format!("warning: {warning}"));
     }
@@ -46,12 +51,6 @@ pub fn stem(scene: &str) -> &str {
 
 /// A short run needs no lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(1);
-
-/// A line on standard error.
-pub fn line(text: &str) {
-    // Nobody is left to tell if standard error is closed.
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
-}
 
 struct Reporter {
     scene: Scene,
@@ -92,7 +91,7 @@ impl Reporter {
                 let dimensions = dimensions(self.scene.space.lengths.len());
                 let (name, driver) = (&adapter.name, &adapter.driver);
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
-                let title = &self.scene.title;
+                let title = printable::name(&self.scene.title);
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
                     "{title}: {} {noun} in {dimensions}{begin}, on {name} ({driver})\n",
@@ -244,7 +243,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
     let momentum = if water { String::new() } else { momentum_note(&summary.not_conserved) };
-    format!("{}{note}{momentum}wrote {directory}/: {}\n", aligned(&rows, "  "), files.join(", "))
+    format!("{}{note}{momentum}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), files.join(", "))
 }
 
 /// Why momentum is not conserved, if it is not: particles that exchange it in pairs lead one to expect it.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use mesoscope::printable;
 use mesoscope::run::Simulation;
 
 use super::{AdapterArgument, Failure, print, report, whole_number};
@@ -30,7 +31,7 @@ pub struct Arguments {
 
 /// Continues the run.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let shown = arguments.directory.display().to_string();
+    let shown = printable::name(&arguments.directory.display().to_string()).into_owned();
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
     if simulation.is_finished() {
         let step = simulation.first_step();

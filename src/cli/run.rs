@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use mesoscope::printable;
 use mesoscope::run::Simulation;
 
 use super::{AdapterArgument, Failure, SceneArguments, report};
@@ -12,6 +13,7 @@ use super::{AdapterArgument, Failure, SceneArguments, report};
 Examples:
   mesoscope run dpd-fluid
   mesoscope run my-scene.json --out results --steps 10000
+  mesoscope run dpd-fluid --steps 200 --seed 7           a short try with other random numbers
   mesoscope run dpd-fluid --set time.step=0.02 --set integrator.type=groot-warren
   mesoscope run dpd-fluid --adapter software
 
@@ -38,9 +40,9 @@ pub struct Arguments {
 
 /// Simulates the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = arguments.scene.load()?;
+    let (scene, notices) = arguments.scene.load()?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
-    let shown = directory.display().to_string();
-    let simulation = Simulation::start(scene, directory, arguments.force);
+    let shown = printable::name(&directory.display().to_string()).into_owned();
+    let simulation = Simulation::start(scene, directory, arguments.force).noting(&notices);
     report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
 }

@@ -1,6 +1,6 @@
 //! The arguments that name a scene and change it.
 
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Scene, SceneError, Warning};
 
 /// Which scene, and what to change in it.
 #[derive(Debug, clap::Args)]
@@ -13,17 +13,22 @@ pub struct SceneArguments {
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
 
-    /// Number of steps; short for `--set time.steps=N`
+    /// Number of steps. Where that is fewer than the scene has, equilibration and the windows of correlations that do
+    /// not fit are shortened, and it is said which; `--set time.steps=N` leaves them as they are
     #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     pub steps: Option<u64>,
+
+    /// Seed of the random numbers; short for `--set seed=N`
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
 }
 
 impl SceneArguments {
-    /// The scene with all changes applied, checked.
-    pub fn load(&self) -> Result<Scene, SceneError> {
+    /// The scene with all changes applied, checked, and what was shortened to suit the number of steps.
+    pub fn load(&self) -> Result<(Scene, Vec<Warning>), SceneError> {
         let mut overrides = self.set.clone();
-        overrides.extend(self.steps.map(|steps| format!("time.steps={steps}")));
-        scene::load(&self.scene, &overrides)
+        overrides.extend(self.seed.map(|seed| format!("seed={seed}")));
+        scene::load_for(&self.scene, &overrides, self.steps)
     }
 }
 

@@ -39,16 +39,20 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
 
-    /// Number of steps; short for `--set time.steps=N`
+    /// Number of steps of all variants, as for `mesoscope run`
     #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     steps: Option<u64>,
+
+    /// Seed of the random numbers of all variants; short for `--set seed=N`
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
 
     /// Directory for all variants [default: the scene's name and `-sweep`, in the working directory]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Finish the sweep in this directory: run the variants that are missing, draw the plots again
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "vary", "also", "set", "steps", "out", "force"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "vary", "also", "set", "steps", "seed", "out", "force"])]
     resume: Option<PathBuf>,
 
     /// Plot every quantity divided by its own first value
@@ -85,9 +89,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         // The scene is there, or the command line would have been refused.
         let scene = arguments.scene.as_deref().unwrap_or_default();
-        let steps = arguments.steps.map(|steps| format!("time.steps={steps}"));
-        let set: Vec<String> = arguments.set.iter().cloned().chain(steps).collect();
-        let sweep = Sweep::load(scene, &set, &arguments.vary, &arguments.also)?;
+        let seed = arguments.seed.map(|seed| format!("seed={seed}"));
+        let set: Vec<String> = arguments.set.iter().cloned().chain(seed).collect();
+        let sweep = Sweep::load(scene, &set, arguments.steps, &arguments.vary, &arguments.also)?;
         let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-sweep", report::stem(scene)).into());
         (SweepRun::start(sweep, &directory, look, arguments.force), directory)
     };

@@ -4,13 +4,14 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::printable;
 use mesoscope::run::Progress;
 use mesoscope::scene;
 use mesoscope::sweep::{Sweep, SweepEvent, SweepOutcome, VariantState, VariantSummary};
 
-use super::print;
-use super::report::{duration, line, mean};
+use super::report::{duration, mean};
 use super::table::{aligned, prefixed};
+use super::{line, print};
 
 /// Columns of the table at the end, where a variant has them.
 const SHOWN: [&str; 4] = ["total_energy", "temperature", "configurational_temperature", "pressure"];
@@ -37,8 +38,9 @@ impl Reporter {
         let variants = self.sweep.variants();
         let mut known: Vec<(String, Vec<&str>)> = Vec::new();
         for variant in variants {
-            for warning in scene::warnings(&variant.scene) {
-                let text = warning.to_string();
+            let notices = variant.notices.iter().map(|notice| format!("note: {notice}"));
+            let warnings = scene::warnings(&variant.scene);
+            for text in notices.chain(warnings.iter().map(|warning| format!("warning: {warning}"))) {
                 match known.iter_mut().find(|(other, _)| *other == text) {
                     Some((_, names)) => names.push(&variant.name),
                     None => known.push((text, vec![&variant.name])),
@@ -47,8 +49,8 @@ impl Reporter {
         }
         for (text, names) in known {
             let place =
-                if names.len() == variants.len() { String::new() } else { format!("`{}`: ", names.join("`, `")) };
-            line(&format!("warning: {place}{text}"));
+                if names.len() == variants.len() { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
+            line(&format!("{text}{place}"));
         }
     }
 
@@ -68,7 +70,8 @@ impl Reporter {
                 } else {
                     format!("{waiting} of {all} variants left")
                 };
-                let title = self.sweep.variants().first().map_or("", |variant| variant.scene.title.as_str());
+                let title = self.sweep.variants().first().map_or("", |variant| &variant.scene.title);
+                let title = printable::name(title);
                 let (name, driver) = (&adapter.name, &adapter.driver);
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
@@ -171,5 +174,5 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     }
     let unsettled = rows.iter().flatten().any(|cell| cell.ends_with('*'));
     let note = if unsettled { "  * from few samples: the error may be larger\n" } else { "" };
-    format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), outcome.files.join(", "))
+    format!("{}{note}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), outcome.files.join(", "))
 }

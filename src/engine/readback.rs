@@ -9,7 +9,7 @@ use crate::gpu::{Gpu, GpuError};
 use crate::plan::Plan;
 
 /// A device that has not finished a batch by then is taken for lost.
-const PATIENCE: Duration = Duration::from_secs(600);
+const PATIENCE: Duration = Duration::from_mins(10);
 
 pub(super) struct Readback {
     staging: wgpu::Buffer,

@@ -5,8 +5,8 @@
 /// - `LP_NUM_THREADS`, the threads of the software adapter: two for each core. It deals the workgroups of a kernel out to
 ///   its threads once, in equal parts; with a thread a core all others wait for the one whose core is shared with
 ///   something else, while of two a core the scheduler makes the best.
-/// - `XDG_RUNTIME_DIR`, where a container or a batch job has none: the layer that selects devices looks for a display
-///   there, and without the variable writes an error to standard error for every adapter.
+/// - `XDG_RUNTIME_DIR`, where a container or a batch job has none, or one that is no absolute path: the layer that selects
+///   devices looks for a display there, and without one writes an error to standard error for every adapter.
 ///
 /// Both have to be there before the process has threads, so this is for the first line of `main`. On systems other than
 /// Linux, and where the process cannot begin again, it does nothing.
@@ -25,7 +25,11 @@ pub fn prepare_environment() {
 
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let wanted = [("LP_NUM_THREADS", (2 * cores).to_string()), ("XDG_RUNTIME_DIR", "/nonexistent".to_owned())];
-    let missing: Vec<_> = wanted.into_iter().filter(|(variable, _)| std::env::var_os(variable).is_none()).collect();
+    let set = |variable: &str| match std::env::var_os(variable) {
+        Some(path) if variable == "XDG_RUNTIME_DIR" => std::path::Path::new(&path).is_absolute(),
+        found => found.is_some(),
+    };
+    let missing: Vec<_> = wanted.into_iter().filter(|(variable, _)| !set(variable)).collect();
     if !missing.is_empty()
         && let Ok(program) = std::env::current_exe()
     {

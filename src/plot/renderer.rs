@@ -24,7 +24,7 @@ const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 const TILE_SIDE: u32 = 2048;
 /// Instances in one vertex buffer: 16 and 48 bytes each, far below the smallest permitted buffer limit.
 const INSTANCES_PER_BUFFER: usize = 1 << 21;
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]

@@ -28,7 +28,7 @@ impl Schedule {
         Self {
             last: scene.time.steps,
             checkpoint: output.checkpoint.every.max(1),
-            checkpoint_time: Duration::from_secs(60 * u64::from(output.checkpoint.minutes.max(1))),
+            checkpoint_time: Duration::from_mins(u64::from(output.checkpoint.minutes.max(1))),
             snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
             chain: output.chain.as_ref().map(|chain| chain.every.max(1)),
@@ -90,7 +90,7 @@ mod tests {
     const SCHEDULE: Schedule = Schedule {
         last: 100,
         checkpoint: 40,
-        checkpoint_time: Duration::from_secs(600),
+        checkpoint_time: Duration::from_mins(10),
         snapshot: Some(30),
         frame: None,
         chain: None,
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn the_ends_are_checkpoints() {
         assert!(
-            SCHEDULE.checkpoint_after(Duration::from_secs(600)) && !SCHEDULE.checkpoint_after(Duration::from_secs(599))
+            SCHEDULE.checkpoint_after(Duration::from_mins(10)) && !SCHEDULE.checkpoint_after(Duration::from_secs(599))
         );
         assert!(SCHEDULE.checkpoint(0) && SCHEDULE.checkpoint(80) && SCHEDULE.checkpoint(100));
         assert!(!SCHEDULE.checkpoint(30));

@@ -21,7 +21,7 @@ use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
-use crate::scene::{self, Scene, TrajectoryFormat, placement};
+use crate::scene::{self, Scene, TrajectoryFormat, Warning, placement};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -32,6 +32,8 @@ pub struct Simulation {
     directory: PathBuf,
     beginning: Beginning,
     interrupt: Interrupt,
+    /// What was done to the scene before the run, for its summary.
+    notices: Vec<String>,
 }
 
 #[derive(Debug, Clone)]
@@ -58,7 +60,7 @@ impl Simulation {
     #[must_use]
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let (directory, beginning) = (directory.into(), Beginning::New { force });
-        Self { scene, directory, beginning, interrupt: Interrupt::default() }
+        Self { scene, directory, beginning, interrupt: Interrupt::default(), notices: Vec::new() }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given.
@@ -69,11 +71,26 @@ impl Simulation {
         let directory = directory.into();
         let checkpoint = checkpoint::load(&directory.join(files::CHECKPOINT))?;
         let mut scene = checkpoint.scene.clone();
+        let notices = checkpoint.sections.iter().find(|(name, _)| name == NOTICES);
+        let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
         if let Some(steps) = steps {
             scene.time.steps = steps;
         }
         let beginning = Beginning::Checkpoint(Box::new(checkpoint));
-        Ok(Self { scene, directory, beginning, interrupt: Interrupt::default() })
+        Ok(Self { scene, directory, beginning, interrupt: Interrupt::default(), notices })
+    }
+
+    /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
+    #[must_use]
+    pub fn noting(mut self, notices: &[Warning]) -> Self {
+        self.notices.extend(notices.iter().map(ToString::to_string));
+        self
+    }
+
+    /// What was done to the scene before the run.
+    #[must_use]
+    pub fn notices(&self) -> &[String] {
+        &self.notices
     }
 
     /// The same run, which saves a checkpoint and stops when it is asked to.
@@ -115,7 +132,7 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, directory, beginning, interrupt } = self;
+        let Self { scene, directory, beginning, interrupt, notices } = self;
         let model = Model::new(&scene);
         let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
@@ -131,7 +148,7 @@ impl Simulation {
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { scene, model, directory, interrupt };
+        let task = Task { scene, model, directory, interrupt, notices };
         loop {
             match task.attempt(&gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
@@ -162,6 +179,8 @@ struct Task {
     model: Model,
     directory: RunDirectory,
     interrupt: Interrupt,
+    /// What was done to the scene before the run.
+    notices: Vec<String>,
 }
 
 impl Task {
@@ -183,6 +202,7 @@ impl Task {
         let plan = plan_for(&self.scene, &self.model, gpu, options);
         let mut engine = Engine::new(gpu, plan, &start.state)?;
         let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, &mut engine, start)?;
+        run.notices = &self.notices;
         match run.advance_to_end(&mut engine, pace, &self.interrupt, observer) {
             Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
@@ -193,7 +213,8 @@ impl Task {
             Ok(()) => {}
         }
         observer(Event::Finishing);
-        let mut warnings: Vec<String> = scene::warnings(&self.scene).iter().map(ToString::to_string).collect();
+        let mut warnings = self.notices.clone();
+        warnings.extend(scene::warnings(&self.scene).iter().map(ToString::to_string));
         warnings.extend(run.kept_sums.warning());
         let saved_step = run.saved_step;
         run.conclude(warnings, pace.done()).map_err(|error| self.stopped(error, saved_step))
@@ -275,6 +296,8 @@ struct Run<'a> {
     kept_sums: KeptSums,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
+    /// What was done to the scene before the run.
+    notices: &'a [String],
     /// Step of the checkpoint on disk.
     saved_step: u64,
     /// When it was written.
@@ -327,6 +350,7 @@ impl<'a> Run<'a> {
             kept_sums: KeptSums::new(model, &start.state, &sections)?,
             trajectory,
             pictures: Pictures::new(gpu, directory, scene),
+            notices: &[],
             saved_step: step,
             saved_at: Instant::now(),
         })
@@ -427,6 +451,9 @@ impl<'a> Run<'a> {
         }
         let mut sections = self.analyses.sections();
         sections.extend(self.analyses.open_windows(engine)?);
+        if !self.notices.is_empty() {
+            sections.push((NOTICES.to_owned(), serde_json::json!(self.notices).to_string().into_bytes()));
+        }
         sections.push((energies::SECTION.to_owned(), self.energies.section()));
         if let Some(chains) = &self.chains {
             sections.push((chain::SECTION.to_owned(), chains.section()));
@@ -517,6 +544,9 @@ pub(super) fn mesh_depth(engine: &mut Engine<'_>, water: &ShallowWater) -> Resul
     let words = engine.words("depths")?;
     Ok(words.iter().take(water.nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
+
+/// Name of the section of a checkpoint that holds what was done to the scene before the run.
+const NOTICES: &str = "notices";
 
 fn trajectory_name(format: TrajectoryFormat) -> &'static str {
     match format {

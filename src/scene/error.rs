@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::printable;
+
 /// One mistake in a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -30,11 +32,11 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}; ", self.path, self.found)?;
+        write!(formatter, "{}: {}; ", printable::name(&self.path), printable::name(&self.found))?;
         if let Some(suggestion) = &self.suggestion {
-            write!(formatter, "did you mean `{suggestion}`? ")?;
+            write!(formatter, "did you mean `{}`? ", printable::name(suggestion))?;
         }
-        write!(formatter, "accepted: {}", self.accepted)
+        write!(formatter, "accepted: {}", printable::name(&self.accepted))
     }
 }
 
@@ -50,7 +52,7 @@ pub struct Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}", self.path, self.message)
+        write!(formatter, "{}: {}", printable::name(&self.path), printable::name(&self.message))
     }
 }
 
@@ -59,7 +61,7 @@ impl fmt::Display for Warning {
 #[non_exhaustive]
 pub enum SceneError {
     /// Neither a file nor a built-in scene has this name.
-    #[error("no scene `{name}`: no file has this path{}, and the built-in scenes are {builtin}", did_you_mean(.suggestion.as_deref()))]
+    #[error("no scene `{}`: no file has this path{}, and the built-in scenes are {builtin}", printable::name(.name), did_you_mean(.suggestion.as_deref()))]
     NotFound {
         /// What was asked for.
         name: String,
@@ -69,7 +71,7 @@ pub enum SceneError {
         builtin: String,
     },
     /// The file exists but cannot be read.
-    #[error("cannot read the scene {}: {source}", path.display())]
+    #[error("cannot read the scene {}: {source}", printable::name(&path.to_string_lossy()))]
     Read {
         /// The file.
         path: PathBuf,
@@ -77,7 +79,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// The text is not JSON.
-    #[error("{name}:{line}:{column}: {message}")]
+    #[error("{}:{line}:{column}: {}", printable::name(.name), printable::name(.message))]
     Syntax {
         /// File or built-in name.
         name: String,
@@ -113,7 +115,8 @@ pub enum SceneError {
     },
     /// The scene satisfies its schema and yet the program does not understand it: a defect of the program.
     #[error(
-        "scene `{name}` satisfies the schema but cannot be read ({message}); this is a defect of mesoscope, please report it"
+        "scene `{}` satisfies the schema but cannot be read ({}); this is a defect of mesoscope, please report it",
+        printable::name(.name), printable::name(.message)
     )]
     SchemaMismatch {
         /// File or built-in name.
@@ -126,9 +129,10 @@ pub enum SceneError {
 /// Mistakes beyond this number are counted, not listed.
 const LISTED: usize = 20;
 
-fn list(name: &str, problems: &[Problem]) -> String {
+fn list(scene: &str, problems: &[Problem]) -> String {
     let count = problems.len();
-    let mut text = format!("scene `{name}` has {count} mistake{}:", if count == 1 { "" } else { "s" });
+    let mut text =
+        format!("scene `{}` has {count} mistake{}:", printable::name(scene), if count == 1 { "" } else { "s" });
     for problem in problems.iter().take(LISTED) {
         text.push_str("\n  ");
         text.push_str(&problem.to_string());

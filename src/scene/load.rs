@@ -7,10 +7,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::error::{Problem, SceneError};
+use super::error::{Problem, SceneError, Warning};
 use super::nearest::nearest;
 use super::path::related;
-use super::{Scene, builtin, overrides, semantics, shape, text};
+use super::{Scene, builtin, overrides, semantics, shape, shorten, text};
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
 /// `overrides` (`path.to.key=value`, in order) and checks the result.
@@ -28,8 +28,26 @@ use super::{Scene, builtin, overrides, semantics, shape, text};
 /// No such scene, a file that cannot be read, text that is not JSON, an override that does not fit, or
 /// [`SceneError::Invalid`] with all mistakes at once.
 pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    Ok(load_for(source, overrides, None)?.0)
+}
+
+/// Like [`load`], for a run of so many steps: where that is fewer than the scene has, equilibration and the windows of
+/// correlations that no longer fit are shortened, unless an override sets them. Says what was shortened.
+///
+/// ```
+/// use mesoscope::scene;
+///
+/// let (scene, notices) = scene::load_for("dpd-fluid", &[], Some(200))?;
+/// assert_eq!((scene.time.steps, scene.time.equilibration), (200, 50));
+/// assert_eq!(notices[0].to_string(), "time.equilibration: shortened from 500 to 50 of 200 steps");
+/// # Ok::<(), scene::SceneError>(())
+/// ```
+///
+/// # Errors
+/// As [`load`].
+pub fn load_for(source: &str, overrides: &[String], steps: Option<u64>) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (name, text) = read(source)?;
-    parse(&name, &text, overrides)
+    parse_for(&name, &text, overrides, steps)
 }
 
 /// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
@@ -116,8 +134,22 @@ pub fn unknown_builtin(name: &str) -> SceneError {
 /// # Errors
 /// Text that is not JSON, or [`SceneError::Invalid`] with all mistakes at once, of overrides too.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    Ok(parse_for(name, text, overrides, None)?.0)
+}
+
+/// Like [`parse`], for a run of so many steps, as [`load_for`].
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_for(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+    steps: Option<u64>,
+) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (mut document, mut problems) = text::parse(name, text)?;
     problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
+    let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
     default_integrator(&mut document);
     default_colour(&mut document);
     problems.extend(shape::check(&super::schema(), &mut document));
@@ -136,7 +168,7 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, Scen
     // A mistake in the shape is likely to be the cause of a misfit in the same place.
     further.retain(|problem| problems.iter().all(|known| !related(&known.path, &problem.path)));
     problems.extend(further);
-    if problems.is_empty() { Ok(scene) } else { Err(invalid(name, problems)) }
+    if problems.is_empty() { Ok((scene, notices)) } else { Err(invalid(name, problems)) }
 }
 
 /// Numbers that further checks can do with, for those that a scene has to give and does not.

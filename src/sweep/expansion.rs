@@ -3,7 +3,7 @@
 use super::error::{Mistake, SweepError};
 use super::naming;
 use super::variation::{Setting, Variation, settings};
-use crate::scene::{self, Scene, SceneError};
+use crate::scene::{self, Scene, SceneError, Warning};
 use serde_json::Value;
 
 /// More variants than this are taken for a slip.
@@ -18,6 +18,8 @@ pub struct Sweep {
     pub(super) base: Value,
     /// Overrides that apply to all variants.
     pub(super) set: Vec<String>,
+    /// The number of steps of all variants that do not set it, to which what is longer is shortened.
+    pub(super) steps: Option<u64>,
     pub(super) vary: Vec<Variation>,
     pub(super) also: Vec<Vec<Setting>>,
     variants: Vec<Variant>,
@@ -35,6 +37,8 @@ pub struct Variant {
     pub settings: Vec<Setting>,
     /// The scene, with every default filled in.
     pub scene: Scene,
+    /// What was shortened in it to suit the number of steps.
+    pub notices: Vec<Warning>,
     /// Number of the value of each variation; empty for a variant that stands beside them.
     pub(super) places: Vec<usize>,
 }
@@ -44,7 +48,8 @@ impl Sweep {
     ///
     /// Each of `vary` is a key with its values, `key=value,value,…` (see [`Variation::parse`]); there is a variant for
     /// every combination, the last key varying fastest. Each of `also` is one more variant beside these, with settings
-    /// `key=value,key=value,…` of its own. The overrides `set` apply to all of them, first.
+    /// `key=value,key=value,…` of its own. The overrides `set` apply to all of them, first. With `steps` all variants run for
+    /// so many, as [`scene::load_for`] does it.
     ///
     /// # Errors
     /// [`SweepError::Arguments`] or [`SweepError::Variants`] with all mistakes at once; [`SweepError::Scene`] when there is no
@@ -53,11 +58,17 @@ impl Sweep {
     /// ```
     /// use mesoscope::sweep::Sweep;
     /// let vary = ["interactions.0.friction=1,4.5", "time.step=0.02,0.04"].map(str::to_owned);
-    /// let sweep = Sweep::load("dpd-fluid", &[], &vary, &[])?;
+    /// let sweep = Sweep::load("dpd-fluid", &[], None, &vary, &[])?;
     /// assert_eq!(sweep.variants()[1].name, "friction=1,step=0.04");
     /// # Ok::<(), mesoscope::sweep::SweepError>(())
     /// ```
-    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, SweepError> {
+    pub fn load(
+        source: &str,
+        set: &[String],
+        steps: Option<u64>,
+        vary: &[String],
+        also: &[String],
+    ) -> Result<Self, SweepError> {
         let (name, text) = scene::read(source).map_err(SweepError::Scene)?;
         let mut mistakes = Vec::new();
         let mut read = Vec::new();
@@ -99,20 +110,20 @@ impl Sweep {
             // The reader of scenes says what is wrong in better words.
             return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene));
         };
-        let variants = expand(&name, &text, set, &read, &beside)?;
-        Ok(Self { scene: name, base, set: set.to_vec(), vary: read, also: beside, variants })
+        let variants = expand(&name, &text, (set, steps), &read, &beside)?;
+        Ok(Self { scene: name, base, set: set.to_vec(), steps, vary: read, also: beside, variants })
     }
 
     /// The sweep of a summary.
     pub(super) fn again(
         scene: String,
         base: Value,
-        set: Vec<String>,
+        (set, steps): (Vec<String>, Option<u64>),
         vary: Vec<Variation>,
         also: Vec<Vec<Setting>>,
     ) -> Result<Self, SweepError> {
-        let variants = expand(&scene, &base.to_string(), &set, &vary, &also)?;
-        Ok(Self { scene, base, set, vary, also, variants })
+        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also)?;
+        Ok(Self { scene, base, set, steps, vary, also, variants })
     }
 
     /// The variants, in order.
@@ -162,7 +173,7 @@ fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
 fn expand(
     name: &str,
     text: &str,
-    set: &[String],
+    (set, steps): (&[String], Option<u64>),
     vary: &[Variation],
     also: &[Vec<Setting>],
 ) -> Result<Vec<Variant>, SweepError> {
@@ -186,8 +197,9 @@ fn expand(
     let mut mistakes: Vec<Mistake> = Vec::new();
     for ((settings, places), variant) in all.into_iter().zip(names) {
         let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
-        match scene::parse(name, text, &overrides) {
-            Ok(scene) => {
+        let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
+        match scene::parse_for(name, text, &overrides, steps.filter(|_| !sets_steps)) {
+            Ok((scene, notices)) => {
                 // Values of one key differ, but what stands beside them may be one of the combinations.
                 let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
                 if let Some(twin) = twin {
@@ -196,7 +208,7 @@ fn expand(
                     continue;
                 }
                 let label = naming::label(&settings, short);
-                variants.push(Variant { name: variant, label, settings, scene, places });
+                variants.push(Variant { name: variant, label, settings, scene, notices, places });
             }
             Err(error @ SceneError::Read { .. }) => return Err(SweepError::Scene(error)),
             Err(error) => {
@@ -218,7 +230,7 @@ mod tests {
 
     fn sweep(vary: &[&str], also: &[&str]) -> Result<Sweep, SweepError> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
-        Sweep::load("dpd-fluid", &owned(&["time.equilibration=0", "time.steps=100"]), &owned(vary), &owned(also))
+        Sweep::load("dpd-fluid", &owned(&["time.equilibration=0", "time.steps=100"]), None, &owned(vary), &owned(also))
     }
 
     fn names(sweep: &Sweep) -> Vec<&str> {
@@ -259,7 +271,7 @@ mod tests {
         let found = sweep(&["temperature=0.1,.30000000000000004", "space.box=[6,6,6],[7,7,7]"], &[]).unwrap();
         let text = serde_json::to_string(&(&found.base, &found.vary, &found.also)).unwrap();
         let (base, vary, also) = serde_json::from_str(&text).unwrap();
-        let again = Sweep::again(found.scene.clone(), base, found.set.clone(), vary, also).unwrap();
+        let again = Sweep::again(found.scene.clone(), base, (found.set.clone(), None), vary, also).unwrap();
         assert_eq!(again, found);
     }
 
@@ -291,6 +303,6 @@ mod tests {
         let many: Vec<String> = (0..70).map(|number| number.to_string()).collect();
         let many = [format!("seed={}", many.join(",")), format!("temperature={}", many.join(","))];
         assert!(sweep(&[&many[0], &many[1]], &[]).unwrap_err().to_string().contains("more than 4096"));
-        assert!(matches!(Sweep::load("no-such", &[], &["seed=1".to_owned()], &[]), Err(SweepError::Scene(_))));
+        assert!(matches!(Sweep::load("no-such", &[], None, &["seed=1".to_owned()], &[]), Err(SweepError::Scene(_))));
     }
 }

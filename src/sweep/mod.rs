@@ -16,7 +16,7 @@
 //! # let results = directory.path().join("frictions");
 //! let small = ["space.box=[3,3,3]", "time.equilibration=0", "time.steps=20", "output={}"].map(str::to_owned);
 //! let vary = ["interactions.0.friction=1,4.5".to_owned()];
-//! let asked = Sweep::load("dpd-fluid", &small, &vary, &[])?;
+//! let asked = Sweep::load("dpd-fluid", &small, None, &vary, &[])?;
 //! let look = Look { quantities: vec!["temperature".to_owned()], ..Look::default() };
 //! let run = SweepRun::start(asked, &results, look, false);
 //! let outcome = run.execute(&AdapterChoice::Best, None, &mut |_| {})?;

@@ -58,8 +58,8 @@ pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) ->
     let mut style = style(&sweep);
     if !overrides.is_empty() {
         let overrides = [summary.set.as_slice(), &first_settings(&sweep), overrides].concat();
-        let scene = scene::parse(&summary.scene, &summary.base.to_string(), &overrides);
-        style = scene.map_err(SweepError::Scene)?.output.plot;
+        let scene = scene::parse_for(&summary.scene, &summary.base.to_string(), &overrides, summary.steps);
+        style = scene.map_err(SweepError::Scene)?.0.output.plot;
     }
     let gpu = Gpu::open(choice, Requirements::default())?;
     draw(directory, &sweep, &summary, &style, &gpu)
@@ -204,7 +204,7 @@ mod tests {
 
     fn inks_of(vary: &[&str], also: &[&str]) -> Vec<SeriesInk> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
-        inks(&Sweep::load("dpd-fluid", &[], &owned(vary), &owned(also)).unwrap())
+        inks(&Sweep::load("dpd-fluid", &[], None, &owned(vary), &owned(also)).unwrap())
     }
 
     #[test]

@@ -269,14 +269,13 @@ fn save(directory: &Path, sweep: &Sweep, summary: &SweepSummary) -> Result<(), S
 /// The run of a variant: from its checkpoint if a sweep is resumed and there is one, else from the beginning.
 fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Simulation {
     let steps = variant.scene.time.steps;
+    let begin = |force| Simulation::start(variant.scene.clone(), directory, force).noting(&variant.notices);
     match Simulation::resume(directory, Some(steps)) {
         // The run of another scene is nothing to go on from, nor to be overwritten.
-        Ok(simulation) if !is_of(variant, simulation.scene()) => {
-            Simulation::start(variant.scene.clone(), directory, false)
-        }
+        Ok(simulation) if !is_of(variant, simulation.scene()) => begin(false),
         Ok(simulation) if resuming && simulation.first_step() <= steps => simulation,
         // What is there without a checkpoint is the beginning of this very run.
-        _ => Simulation::start(variant.scene.clone(), directory, resuming),
+        _ => begin(resuming),
     }
 }
 

@@ -26,6 +26,9 @@ pub struct SweepSummary {
     pub also: Vec<Vec<Setting>>,
     /// Overrides of the scene that apply to all variants.
     pub set: Vec<String>,
+    /// The number of steps of all variants that do not set it, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
     /// What the plots show.
     pub plots: Look,
     /// The variants, in order.
@@ -112,6 +115,7 @@ impl SweepSummary {
             vary: sweep.vary.clone(),
             also: sweep.also.clone(),
             set: sweep.set.clone(),
+            steps: sweep.steps,
             plots: look,
             variants: sweep.variants().iter().map(waiting).collect(),
             base: sweep.base.clone(),
@@ -148,7 +152,7 @@ impl SweepSummary {
     /// The sweep that this is the summary of.
     pub(super) fn sweep(&self) -> Result<Sweep, SweepError> {
         let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
-        Sweep::again(scene, base, set, self.vary.clone(), self.also.clone())
+        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())
     }
 }
 

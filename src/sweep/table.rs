@@ -142,6 +142,7 @@ mod tests {
             vary: Vec::new(),
             also: Vec::new(),
             set: Vec::new(),
+            steps: None,
             plots: Look::default(),
             variants: vec![first, beside, failed],
             base: Value::Object(Map::new()),
