@@ -5,6 +5,7 @@
 //! instead, as Rust writes them: `\u{1b}[2J`.
 
 use std::borrow::Cow;
+use std::path::Path;
 
 /// Whether a character does something on a terminal rather than stand there: control characters, line and paragraph
 /// separators, and marks that change the direction of what follows.
@@ -40,6 +41,17 @@ fn escaped(text: &str, is_kept: impl Fn(char) -> bool) -> Cow<'_, str> {
 #[must_use]
 pub fn name(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false)
+}
+
+/// The name of a file or directory, as [`name`] shows it.
+///
+/// ```
+/// use std::path::Path;
+/// assert_eq!(mesoscope::printable::path(Path::new("runs/a\nb")), r"runs/a\nb");
+/// ```
+#[must_use]
+pub fn path(path: &Path) -> String {
+    name(&path.to_string_lossy()).into_owned()
 }
 
 /// A whole message: its line breaks are its own.

@@ -52,6 +52,12 @@ impl Units {
         std::array::from_fn(|axis| f64::from(units[axis]) * self.momentum)
     }
 
+    /// The shortest edge of the box.
+    #[must_use]
+    pub fn shortest_length(&self) -> f64 {
+        self.lengths.iter().take(self.dimension).copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// The volume of the box (area in two dimensions).
     #[must_use]
     pub fn volume(&self) -> f64 {
@@ -100,6 +106,27 @@ pub struct State {
     pub holds: Vec<Hold>,
     /// Where each particle is tied to, in scenes with tethers.
     pub tethers: Vec<[u32; 3]>,
+    /// How often each particle has gone round the box along every axis, where a trajectory is written; else empty. The way
+    /// since the start is the difference of positions and so many boxes.
+    pub images: Vec<[i32; 3]>,
+}
+
+/// How often something crosses the ends of the box on its way, which is shorter than half of it, from one fraction to
+/// another.
+///
+/// ```
+/// use mesoscope::state::crossings;
+///
+/// let [left, middle, right] = [1 << 29, 1 << 31, 7 << 29];
+/// assert_eq!(crossings([left, right, left], [right, left, middle]), [-1, 1, 0]);
+/// ```
+#[must_use]
+pub fn crossings(from: [u32; 3], to: [u32; 3]) -> [i32; 3] {
+    std::array::from_fn(|axis| {
+        let (from, to) = (from[axis], to[axis]);
+        let forward = to.wrapping_sub(from).cast_signed() >= 0;
+        i32::from(forward && to < from) - i32::from(!forward && to > from)
+    })
 }
 
 /// What the bath of a listed pair remembers.
@@ -135,7 +162,7 @@ pub struct Hold {
 impl State {
     /// What some states have and others not, by name: arrays of words.
     #[must_use]
-    pub fn arrays(&self) -> [(&'static str, &[u32]); 11] {
+    pub fn arrays(&self) -> [(&'static str, &[u32]); 12] {
         [
             ("predicted", bytemuck::cast_slice(&self.predicted)),
             ("masses", &self.masses),
@@ -148,6 +175,7 @@ impl State {
             ("bond_baths", &self.bond_baths),
             ("holds", bytemuck::cast_slice(&self.holds)),
             ("tethers", bytemuck::cast_slice(&self.tethers)),
+            ("images", bytemuck::cast_slice(&self.images)),
         ]
     }
 
@@ -187,6 +215,7 @@ impl State {
             "bond_baths" => self.bond_baths = words.to_vec(),
             "holds" => self.holds = elements(name, words)?,
             "tethers" => self.tethers = elements(name, words)?,
+            "images" => self.images = elements(name, words)?,
             _ => return Err(format!("it holds an unknown array `{name}`")),
         }
         Ok(())
@@ -204,8 +233,15 @@ impl State {
             ("position_baths", self.position_baths.len()),
             ("holds", self.holds.len()),
             ("tethers", self.tethers.len()),
+            ("images", self.images.len()),
         ];
         lengths.into_iter().find(|(_, length)| *length != 0 && *length != count).map(|(name, _)| name)
+    }
+
+    /// How often a particle has gone round the box along every axis, as far as that is known.
+    #[must_use]
+    pub fn image(&self, particle: usize) -> [i32; 3] {
+        self.images.get(particle).copied().unwrap_or_default()
     }
 
     /// Number of particles.

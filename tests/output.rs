@@ -39,6 +39,7 @@ fn state(step: u64, dimension: usize) -> State {
         positions: vec![flat([0, 1 << 30, 1 << 31]), flat([u32::MAX; 3]), flat([3 << 30, 7, 1 << 29])],
         momenta: vec![flat_signed([1 << 24, -(1 << 23), step as i32]), [0; 3], flat_signed([i32::MIN, i32::MAX, 1])],
         species: vec![0, 0, 1],
+        images: vec![flat_signed([1, -2, 3]), [0; 3], flat_signed([-1, 0, 5])],
         ..State::default()
     }
 }
@@ -416,6 +417,10 @@ fn gsd_holds_what_hoomd_expects() {
     assert_eq!(positions[0], [-2.0, -1.25, 0.0]);
     assert_eq!(positions[1], [-2.0, -2.5, -3.05]);
     let velocities: Vec<[f32; 3]> = file.iter_arrays(1, "particles/velocity").unwrap().collect();
+    assert_eq!(file.iter_scalars::<f64>(1, "log/time").unwrap().collect::<Vec<_>>(), [10.0 * model.time_step]);
+    let images: Vec<[i32; 3]> = file.iter_arrays(1, "particles/image").unwrap().collect();
+    // The second particle is so near to the upper faces that single precision puts it on the lower ones of the next box.
+    assert_eq!(images, [[1, -2, 3], [1, 1, 1], [-1, 0, 5]]);
     let unit = model.units.momentum;
     assert_eq!(velocities[0], [(unit * 16_777_216.0) as f32, (-unit * 8_388_608.0) as f32, (unit * 10.0) as f32]);
     assert_eq!(velocities[2][0], (unit * f64::from(i32::MIN) / 4.0) as f32);
@@ -462,6 +467,8 @@ fn trajectories_resume_at_the_step() {
                 let file = GsdFile::open(&path, Mode::Read).unwrap();
                 let expected = GsdFile::open(&straight, Mode::Read).unwrap();
                 for frame in 0..50 {
+                    let images = file.iter_arrays::<i32, 3>(frame, "particles/image").unwrap();
+                    assert!(images.eq(expected.iter_arrays::<i32, 3>(frame, "particles/image").unwrap()));
                     for chunk in ["particles/position", "particles/velocity"] {
                         let found: Vec<[f32; 3]> = file.iter_arrays(frame, chunk).unwrap().collect();
                         assert_eq!(found, expected.iter_arrays(frame, chunk).unwrap().collect::<Vec<[f32; 3]>>());
@@ -526,10 +533,17 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     assert_eq!(lines[0], "3");
     assert_eq!(
         lines[6],
-        "Lattice=\"4 0 0 0 5 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3 pbc=\"T T F\" Step=5 Time=0.05"
+        "Lattice=\"4 0 0 0 5 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3:map_shift:I:3:\
+         species_name:S:1 pbc=\"T T F\" Step=5 Time=0.05"
     );
-    assert!(lines[2].starts_with("light 0 1.25 0 "), "{}", lines[2]);
-    assert!(lines[4].starts_with("heavy_one 3 "), "{}", lines[4]);
+    assert!(lines[2].starts_with("H 0 1.25 0 ") && lines[2].ends_with(" 1 -2 0 light"), "{}", lines[2]);
+    assert!(lines[4].starts_with("He 3 ") && lines[4].ends_with(" -1 0 0 heavy_one"), "{}", lines[4]);
+    // As many words a line as the properties announce; momenta are masses times velocities.
+    let words: Vec<&str> = lines[4].split(' ').collect();
+    assert_eq!(words.len(), 1 + 3 + 3 + 1 + 3 + 3 + 1);
+    let number = |place: usize| words[place].parse::<f32>().unwrap();
+    assert_eq!(number(7), 4.0);
+    assert!((4..7).all(|axis| number(axis + 4) == 4.0 * number(axis)) && number(4) != 0.0, "{words:?}");
 
     fs::write(&path, &text[..text.len() - 2]).unwrap();
     drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, 5).unwrap());

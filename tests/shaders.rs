@@ -30,6 +30,7 @@ const SAMPLERS: &[&str] = &[
     r#"output.radial_distribution={"every":10,"range":1.1}"#,
     r#"output.diffusion={"every":2,"window":8}"#,
     r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.trajectory={"every":5}"#,
     r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
         {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
@@ -205,8 +206,7 @@ fn bond_plans() -> Vec<(String, Plan)> {
                     for generator in ["pcg4d", "threefry2x32-20"] {
                         let interactions = format!("interactions=[{bonds}{other}]");
                         let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
-                        let output =
-                            r#"output={"chain_sizes":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
+                        let output = r#"output={"chain_sizes":{"every":1},"trajectory":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
                         let changes = [particles, &interactions, space, &generator, integrator, output];
                         plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                     }
@@ -308,7 +308,7 @@ fn water_plans() -> Vec<(String, Plan)> {
             ],
             &["interactions.0.smoothing.length=0"],
         ],
-        &[&[], &[WATER_TRACERS]],
+        &[&[], &[WATER_TRACERS, r#"output.trajectory={"every":5}"#]],
     ];
     let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
     for choice in choices {

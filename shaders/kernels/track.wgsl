@@ -28,11 +28,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         if (samples[0].y % WINDOW == 0u) {
             tracker = Tracker(particle.position, vec4<i32>(0), particle.position, particle.momentum);
         }
-        // A signed step that carries out of the fraction is a crossing of the boundary.
-        let moved = bitcast<vec4<i32>>(particle.position - tracker.last);
-        let forward = (moved >= vec4<i32>(0)) & (particle.position < tracker.last);
-        let backward = (moved < vec4<i32>(0)) & (particle.position > tracker.last);
-        tracker.turns += select(vec4<i32>(0), vec4<i32>(1), forward) - select(vec4<i32>(0), vec4<i32>(1), backward);
+        tracker.turns += crossings(tracker.last, particle.position);
         tracker.last = particle.position;
         trackers[id] = tracker;
         // 64-bit difference from the origin, as a real number.

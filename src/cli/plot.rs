@@ -49,7 +49,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     print(&format!(
         "wrote {}/: {}
 ",
-        printable::name(&arguments.directory.display().to_string()),
+        printable::path(&arguments.directory),
         written.join(", ")
     ))
 }

@@ -31,7 +31,7 @@ pub struct Arguments {
 
 /// Continues the run.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let shown = printable::name(&arguments.directory.display().to_string()).into_owned();
+    let shown = printable::path(&arguments.directory);
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
     if simulation.is_finished() {
         let step = simulation.first_step();

@@ -42,7 +42,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, notices) = arguments.scene.load()?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
-    let shown = printable::name(&directory.display().to_string()).into_owned();
+    let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.force).noting(&notices);
     report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
 }

@@ -172,6 +172,18 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
         }
         rows.push(row);
     }
+    let averages = &outcome.summary.averages;
+    if let Some(average) = averages.first() {
+        rows.push(Vec::new());
+        let mut header = vec![format!("MEAN OF {} SEEDS", average.seeds)];
+        header.extend(columns.iter().map(|_| String::new()));
+        rows.push(header);
+        for average in averages {
+            let mut row = vec![average.label.clone()];
+            row.extend(columns.iter().map(|name| mean(&average.means, name).unwrap_or_default()));
+            rows.push(row);
+        }
+    }
     let unsettled = rows.iter().flatten().any(|cell| cell.ends_with('*'));
     let note = if unsettled { "  * from few samples: the error may be larger\n" } else { "" };
     format!("{}{note}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), outcome.files.join(", "))

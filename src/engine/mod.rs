@@ -13,8 +13,9 @@ pub use timing::{StageClock, StageTime};
 use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
-use crate::plan::{Contents, Hardware, Layout, Misfit, Plan, TIDYING};
-use crate::state::State;
+use crate::plan::paths::PATH_WORDS;
+use crate::plan::{Contents, Hardware, Layout, Misfit, Paths, Plan, TIDYING};
+use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
 use texels::Texels;
@@ -122,6 +123,20 @@ pub struct Engine<'a> {
 
 /// Units of the largest velocity of shallow water, with one bit to spare.
 const VELOCITY_RANGE: f64 = 1_073_741_824.0;
+
+/// Where particles are, with how often they have gone round the box, by id; a state that does not say is the first.
+fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
+    if state.images.len() != state.len() && (state.step > 0 || !state.images.is_empty()) {
+        return Err(EngineError::State { reason: "the times round the box are missing".to_owned() });
+    }
+    let mut words = Vec::with_capacity(PATH_WORDS * state.len());
+    for (id, position) in state.positions.iter().enumerate() {
+        let image = state.images.get(id).copied().unwrap_or_default();
+        words.extend([position[0], position[1], position[2], 0]);
+        words.extend([image[0] as u32, image[1] as u32, image[2] as u32, 0]);
+    }
+    Ok(words)
+}
 
 /// Batches that may wait on the device while the host goes on.
 const BATCHES_IN_FLIGHT: usize = 2;
@@ -241,6 +256,9 @@ impl<'a> Engine<'a> {
             }
         }
         self.species.clone_from(&state.species);
+        if let Some(buffer) = self.buffers.get(Paths::BUFFER) {
+            self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&pack_paths(state)?));
+        }
         self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.encoder("upload");
         if let Some(counts) = self.buffers.get("counts") {
@@ -369,7 +387,9 @@ impl<'a> Engine<'a> {
         let layout = Layout::Particles { dimension: self.plan.units.dimension, predicted: false };
         let words = self.words(buffer)?;
         let state = layout.unpack(self.step, &[&words], self.plan.particles as usize);
-        state.map_err(|reason| EngineError::State { reason })
+        let mut state = state.map_err(|reason| EngineError::State { reason })?;
+        self.complete_images(&mut state)?;
+        Ok(state)
     }
 
     /// The words of a buffer or texture of the plan, as they are once the device is done.
@@ -407,7 +427,24 @@ impl<'a> Engine<'a> {
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }
+        self.complete_images(&mut state)?;
         Ok(state)
+    }
+
+    /// Adds how often the particles have gone round the box until they came to where they are, where they are followed.
+    fn complete_images(&mut self, state: &mut State) -> Result<(), EngineError> {
+        if !self.plan.paths.are_followed() {
+            return Ok(());
+        }
+        let words = self.words(Paths::BUFFER)?;
+        let paths = words.chunks_exact(PATH_WORDS).zip(&state.positions);
+        state.images = paths
+            .map(|(path, position)| {
+                let since = crossings([path[0], path[1], path[2]], *position);
+                std::array::from_fn(|axis| path[4 + axis].cast_signed() + since[axis])
+            })
+            .collect();
+        Ok(())
     }
 
     fn record(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
@@ -429,6 +466,11 @@ impl<'a> Engine<'a> {
     /// Sorts, if that is still to be done, and takes whatever samples are due.
     fn record_sample(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         if self.phase == Phase::Advanced {
+            if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
+                for &kernel in &self.plan.paths.kernels {
+                    self.dispatch(kernel, pass);
+                }
+            }
             let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
             for &kernel in self.plan.sort.iter().chain(tidy).chain(&self.plan.before_report) {
                 self.dispatch(kernel, pass);

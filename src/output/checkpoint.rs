@@ -49,13 +49,16 @@ pub enum CheckpointError {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// The file is something else.
-    #[error("`{}` is not a checkpoint of mesoscope", path.display())]
+    #[error("`{}` is not a checkpoint of mesoscope", crate::printable::path(path))]
     Magic {
         /// The file.
         path: PathBuf,
     },
     /// The file was written by another version of the format.
-    #[error("`{}` has checkpoint format {found}, and this program reads format {VERSION}; resume with the version of mesoscope that wrote it", path.display())]
+    #[error(
+        "`{}` has checkpoint format {found}, and this program reads format {VERSION}; resume with the version of mesoscope that wrote it",
+        crate::printable::path(path)
+    )]
     Version {
         /// The file.
         path: PathBuf,
@@ -63,7 +66,10 @@ pub enum CheckpointError {
         found: u32,
     },
     /// The file ends too early, or goes on too long.
-    #[error("`{}` should have {expected} bytes and has {found}: it was cut short or altered", path.display())]
+    #[error(
+        "`{}` should have {expected} bytes and has {found}: it was cut short or altered",
+        crate::printable::path(path)
+    )]
     Length {
         /// The file.
         path: PathBuf,
@@ -73,13 +79,13 @@ pub enum CheckpointError {
         found: u64,
     },
     /// The content is not what was written.
-    #[error("`{}` is damaged: its checksum does not match its content", path.display())]
+    #[error("`{}` is damaged: its checksum does not match its content", crate::printable::path(path))]
     Checksum {
         /// The file.
         path: PathBuf,
     },
     /// The content passes the checksum and makes no sense.
-    #[error("`{}` is no valid checkpoint: {problem}", path.display())]
+    #[error("`{}` is no valid checkpoint: {problem}", crate::printable::path(path))]
     Malformed {
         /// The file.
         path: PathBuf,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum OutputError {
     /// The operating system refused.
-    #[error("cannot {attempted} `{}`: {source}", path.display())]
+    #[error("cannot {attempted} `{}`: {source}", crate::printable::path(path))]
     Io {
         /// What was attempted, as in "cannot create …".
         attempted: &'static str,
@@ -18,25 +18,34 @@ pub enum OutputError {
         source: io::Error,
     },
     /// The directory holds a file of an earlier run.
-    #[error("`{}` is in the way: it has the name of a result, likely of an earlier run; pass --force to replace all results there, or choose another directory with --out", path.display())]
+    #[error(
+        "`{}` is in the way: it has the name of a result, likely of an earlier run; pass --force to replace all results there, or choose another directory with --out",
+        crate::printable::path(path)
+    )]
     InTheWay {
         /// The first such file.
         path: PathBuf,
     },
     /// A directory has the name of a result.
-    #[error("`{}` is a directory, and a result is to have its name: move it away, or choose another directory with --out", path.display())]
+    #[error(
+        "`{}` is a directory, and a result is to have its name: move it away, or choose another directory with --out",
+        crate::printable::path(path)
+    )]
     DirectoryInTheWay {
         /// The directory inside that of the run.
         path: PathBuf,
     },
     /// A file stands where the directory should be.
-    #[error("`{}` is a file, and the results need a directory: choose one with --out", path.display())]
+    #[error("`{}` is a file, and the results need a directory: choose one with --out", crate::printable::path(path))]
     NoDirectory {
         /// The file.
         path: PathBuf,
     },
     /// A column name that a table cannot hold.
-    #[error("`{name}` cannot head a column of `{}`: names are not empty and hold no control characters", path.display())]
+    #[error(
+        "`{name}` cannot head a column of `{}`: names are not empty and hold no control characters",
+        crate::printable::path(path)
+    )]
     ColumnName {
         /// The table.
         path: PathBuf,
@@ -44,7 +53,7 @@ pub enum OutputError {
         name: String,
     },
     /// A row that does not fit its table.
-    #[error("a row of {found} values does not fit the {expected} columns of `{}`", path.display())]
+    #[error("a row of {found} values does not fit the {expected} columns of `{}`", crate::printable::path(path))]
     RowLength {
         /// The table.
         path: PathBuf,
@@ -54,7 +63,7 @@ pub enum OutputError {
         found: usize,
     },
     /// A line of a text file that cannot be understood.
-    #[error("`{}`, line {line}: {problem}", path.display())]
+    #[error("`{}`, line {line}: {problem}", crate::printable::path(path))]
     Line {
         /// The file.
         path: PathBuf,
@@ -64,7 +73,10 @@ pub enum OutputError {
         problem: String,
     },
     /// A table lacks a row that was written before.
-    #[error("`{}` is not what the run wrote: the row of step {step} is missing; restore the file, or run the scene anew with --force", path.display())]
+    #[error(
+        "`{}` is not what the run wrote: the row of step {step} is missing; restore the file, or run the scene anew with --force",
+        crate::printable::path(path)
+    )]
     MissingRow {
         /// The table.
         path: PathBuf,
@@ -72,7 +84,7 @@ pub enum OutputError {
         step: u64,
     },
     /// No run has been finished in the directory.
-    #[error("`{}` is missing: {advice}", path.display())]
+    #[error("`{}` is missing: {advice}", crate::printable::path(path))]
     Unfinished {
         /// The summary that a finished run leaves.
         path: PathBuf,
@@ -80,7 +92,10 @@ pub enum OutputError {
         advice: &'static str,
     },
     /// A table of a run has other columns than the run writes.
-    #[error("`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene anew with --force", path.display())]
+    #[error(
+        "`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene anew with --force",
+        crate::printable::path(path)
+    )]
     Columns {
         /// The table.
         path: PathBuf,
@@ -90,7 +105,7 @@ pub enum OutputError {
         found: String,
     },
     /// A state that does not fit the model of the trajectory.
-    #[error("cannot write step {step} to `{}`: {problem}", path.display())]
+    #[error("cannot write step {step} to `{}`: {problem}", crate::printable::path(path))]
     State {
         /// The trajectory.
         path: PathBuf,
@@ -100,7 +115,7 @@ pub enum OutputError {
         problem: &'static str,
     },
     /// A binary trajectory that cannot be continued.
-    #[error("`{}` is no trajectory this program can continue: {problem}", path.display())]
+    #[error("`{}` is no trajectory this program can continue: {problem}", crate::printable::path(path))]
     Trajectory {
         /// The trajectory.
         path: PathBuf,
@@ -108,7 +123,7 @@ pub enum OutputError {
         problem: String,
     },
     /// A value that JSON cannot hold.
-    #[error("cannot express the content of `{}` as JSON: {source}", path.display())]
+    #[error("cannot express the content of `{}` as JSON: {source}", crate::printable::path(path))]
     Json {
         /// The file.
         path: PathBuf,

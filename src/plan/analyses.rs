@@ -258,7 +258,7 @@ impl Builder<'_> {
         self.plan.add_buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
         self.sums(SumSampler {
             name: "diffusion",
-            modules: vec!["kernels/track"],
+            modules: vec!["common/crossings", "kernels/track"],
             constants: vec![
                 ("WINDOW", asked.window as f64),
                 ("DISPLACEMENT", 1.0 / quanta.length_squared),

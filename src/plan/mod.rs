@@ -6,6 +6,7 @@ mod grid;
 mod layout;
 mod pair;
 mod pair_histogram;
+pub(crate) mod paths;
 mod precision;
 mod prefix_sum;
 mod recording;
@@ -18,6 +19,7 @@ mod voronoi;
 
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
+pub use paths::Paths;
 pub use precision::check_precision;
 pub use texture::Texture;
 
@@ -313,6 +315,8 @@ pub struct Plan {
     pub finish_report: Vec<usize>,
     /// The samplers; the first is that of the observables.
     pub samplers: Vec<Sampler>,
+    /// How often particles go round the box, where a trajectory asks.
+    pub paths: Paths,
     /// At most so many storage buffers are bound by one kernel, before any is held in a texture; eight, which every adapter has,
     /// at the least.
     pub storage_buffers: u32,
@@ -404,6 +408,7 @@ impl Plan {
             advance: Vec::new(),
             finish_report: Vec::new(),
             samplers: Vec::new(),
+            paths: Paths::default(),
             storage_buffers: 8,
             reported: None,
             operations_per_particle: 0.0,

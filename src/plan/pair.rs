@@ -54,6 +54,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
     builder.ordering();
     builder.integration(output);
     builder.analyses(output);
+    builder.paths(output);
     builder.buffers();
     builder.plan
 }
@@ -229,6 +230,18 @@ impl Builder<'_> {
             self.scan = std::mem::replace(&mut self.plan.sort, scatter);
             self.plan.prepare.extend(&self.scan);
         }
+    }
+
+    /// Follows the particles, where a trajectory asks.
+    fn paths(&mut self, output: &Output) {
+        if output.trajectory.is_none() {
+            return;
+        }
+        let units = self.model.units;
+        let modules = ["common/particles", "common/crossings", "common/paths", "kernels/follow"];
+        let modules = [&space(&units, self.predicted())[..], &modules].concat();
+        let kernel = Kernel::new("follow", modules, self.particles.div_ceil(self.workgroup_size()));
+        self.plan.follow([kernel], self.force.cutoff / units.shortest_length());
     }
 
     /// Modules of what ends a step.

@@ -39,11 +39,12 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
     let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);
     let plan = empty_plan(model, water, storage, texels);
-    let mut builder = Builder { model, water, options, storage, eights, texels, plan };
+    let mut builder = Builder { model, water, options, storage, eights, texels, stride: 0.5, plan };
     builder.constants();
     builder.ordering();
     builder.depth();
     builder.motion(output);
+    builder.paths(output);
     builder.buffers();
     builder.plan
 }
@@ -153,6 +154,8 @@ struct Builder<'a> {
     eights: bool,
     /// Whether particles are texels.
     texels: bool,
+    /// The largest share of the box that a particle may go in a step.
+    stride: f64,
     plan: Plan,
 }
 
@@ -176,6 +179,7 @@ impl Builder<'_> {
         // Velocities have one bit to spare for a kick; no step may go half round the box.
         let way = (chord.abs() + sagitta.abs()) * fraction(0).max(fraction(1));
         let velocity_limit = (2_f64.powi(31) / way).min(2_f64.powi(30)).floor();
+        self.stride = velocity_limit * way / 2_f64.powi(32);
         let quanta = self.plan.quanta;
         let squared = water.wave_speed.powi(2);
         let carriers = water.carriers as f64;
@@ -458,6 +462,29 @@ impl Builder<'_> {
             needs_report: true,
             window: None,
         });
+    }
+
+    /// Follows the particles, where a trajectory asks.
+    fn paths(&mut self, output: &Output) {
+        if output.trajectory.is_none() {
+            return;
+        }
+        let groups = |things: u64| things.div_ceil(self.options.workgroup());
+        let kernel = |name, stored: Vec<&'static str>, entry, groups| {
+            let modules = [&self.mesh()[..], &stored, &["common/crossings", "common/paths", entry]].concat();
+            Kernel::new(name, modules, groups)
+        };
+        let mut kernels = vec![match self.storage {
+            Storage::Sorted => kernel("follow", self.in_place(), "kernels/follow_water", groups(self.water.carriers)),
+            Storage::Bins => kernel("follow", self.stored(), "kernels/follow_bins", groups(self.water.nodes())),
+        }];
+        if self.tracers() > 0 {
+            let stored = vec!["common/storage", "common/stored_water", "common/water_in_place"];
+            let follow = kernel("follow_tracers", stored, "kernels/follow_water", groups(self.tracers()));
+            let count = vec![("PARTICLES", self.tracers() as f64)];
+            kernels.push(follow.with(count).renamed(vec![("particles", "tracers")]));
+        }
+        self.plan.follow(kernels, self.stride);
     }
 
     /// A buffer of so many particles, or two textures: of their motion, and of their masses and numbers.

@@ -59,19 +59,28 @@ pub struct Axis {
     /// Values at the two ends; left out, they follow from the data. A range that is empty, not finite, or not positive
     /// on a logarithmic axis counts as left out.
     pub range: Option<[f64; 2]>,
+    /// Names at 0, 1, 2 and so on instead of numbers; empty for an axis of numbers.
+    pub categories: Vec<String>,
 }
 
 impl Axis {
     /// A linear axis that fits its data.
     #[must_use]
     pub fn linear(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Linear, range: None }
+        Self { label: label.to_owned(), ..Self::default() }
+    }
+
+    /// An axis of names, with the same room for each.
+    #[must_use]
+    pub fn categories(label: &str, names: Vec<String>) -> Self {
+        let range = Some([-0.5, names.len().max(1) as f64 - 0.5]);
+        Self { label: label.to_owned(), scale: Scale::Linear, range, categories: names }
     }
 
     /// A logarithmic axis that fits its data; what is not positive is left out and the subtitle says so.
     #[must_use]
     pub fn log(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Log, range: None }
+        Self { label: label.to_owned(), scale: Scale::Log, ..Self::default() }
     }
 }
 

@@ -377,6 +377,14 @@ impl Layout<'_> {
             let width = frame.right - left;
             let mut wanted = ((width / (3.0 * label)) as usize).clamp(2, 10);
             let mut x_ticks = ticks(&prepared.x, wanted);
+            if !prepared.panel.x.categories.is_empty() {
+                let names = &prepared.panel.x.categories;
+                let room = width / names.len() as f64 - 0.6 * label;
+                let named =
+                    names.iter().enumerate().map(|(place, name)| (place as f64, shortened(name, room, &text_width)));
+                all.push(Ticks { major: named.collect(), ..Ticks::default() });
+                continue;
+            }
             // Labels of many digits need more room than the first guess gave them.
             while wanted > 1 {
                 let widest = x_ticks.major.iter().map(|(_, text)| text_width(text)).fold(0.0, f64::max);
@@ -867,6 +875,21 @@ impl Layout<'_> {
         let x = at[0] + width + 0.7 * self.sizes.gap;
         self.canvas.text_centred(&name, [x, at[1]], Anchor::Start, style);
     }
+}
+
+/// A name cut to a width, with an ellipsis where something is missing.
+fn shortened(name: &str, room: f64, width: &dyn Fn(&str) -> f64) -> String {
+    if width(name) <= room {
+        return name.to_owned();
+    }
+    let mut kept: String = name.to_owned();
+    while kept.pop().is_some() {
+        let text = format!("{}…", kept.trim_end());
+        if width(&text) <= room {
+            return text;
+        }
+    }
+    String::new()
 }
 
 /// Whether a line of the panel goes up and down so much that dashes could not be told from noise.

@@ -16,7 +16,10 @@ pub enum RunError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// The simulation left the range where its numbers mean anything.
-    #[error("{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`", checkpoint.display())]
+    #[error(
+        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`",
+        crate::printable::path(checkpoint)
+    )]
     Unstable {
         /// When, what, and a time step to try.
         source: EngineError,
@@ -26,7 +29,10 @@ pub enum RunError {
         checkpoint_step: u64,
     },
     /// It was asked to stop before its end.
-    #[error("interrupted at step {checkpoint_step}; `mesoscope resume {}` goes on from there", directory_of(checkpoint).display())]
+    #[error(
+        "interrupted at step {checkpoint_step}; `mesoscope resume {}` goes on from there",
+        crate::printable::path(directory_of(checkpoint))
+    )]
     Interrupted {
         /// The file of the checkpoint.
         checkpoint: PathBuf,
@@ -34,7 +40,10 @@ pub enum RunError {
         checkpoint_step: u64,
     },
     /// Writing failed on the way, when there was a checkpoint already.
-    #[error("{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` goes on from it", checkpoint.display())]
+    #[error(
+        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` goes on from it",
+        crate::printable::path(checkpoint)
+    )]
     Stopped {
         /// What could not be written.
         source: OutputError,

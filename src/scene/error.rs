@@ -71,7 +71,7 @@ pub enum SceneError {
         builtin: String,
     },
     /// The file exists but cannot be read.
-    #[error("cannot read the scene {}: {source}", printable::name(&path.to_string_lossy()))]
+    #[error("cannot read the scene {}: {source}", printable::path(path))]
     Read {
         /// The file.
         path: PathBuf,

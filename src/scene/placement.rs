@@ -4,7 +4,7 @@ use super::{Generator, ParticleGroup, Placement, Scene, Velocities};
 use super::{chains, voronoi_start};
 use crate::model::{Model, ShallowWater};
 use crate::noise::{self, stream};
-use crate::state::State;
+use crate::state::{State, crossings};
 
 /// The state at step 0 of a scene: particles numbered group by group, each group in its own order.
 ///
@@ -66,7 +66,39 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             state.tethers.clone_from(&state.positions);
         }
     }
+    if scene.output.trajectory.is_some() {
+        state.images = images(&state, model);
+    }
     state
+}
+
+/// Times round the box at the start, so that what is bonded together is whole: from the first particle of every molecule
+/// along its bonds.
+fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
+    let mut images = vec![[0; 3]; state.len()];
+    let Some(bonds) = &model.bonds else { return images };
+    let mut bonded: Vec<Vec<usize>> = vec![Vec::new(); state.len()];
+    for [first, second] in bonds.bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
+        bonded[first].push(second);
+        bonded[second].push(first);
+    }
+    let mut reached = vec![false; state.len()];
+    let mut ahead = Vec::new();
+    for first in 0..state.len() {
+        if !std::mem::replace(&mut reached[first], true) {
+            ahead.push(first);
+        }
+        while let Some(particle) = ahead.pop() {
+            for &other in &bonded[particle] {
+                if !std::mem::replace(&mut reached[other], true) {
+                    let crossed = crossings(state.positions[particle], state.positions[other]);
+                    images[other] = std::array::from_fn(|axis| images[particle][axis] + crossed[axis]);
+                    ahead.push(other);
+                }
+            }
+        }
+    }
+    images
 }
 
 /// Draws the bath variables of all coordinates from their law at rest.

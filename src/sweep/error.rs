@@ -34,13 +34,16 @@ pub enum SweepError {
         accepted: Vec<String>,
     },
     /// The directory holds no sweep.
-    #[error("there is no sweep in `{}`: it has no sweep.json", path.display())]
+    #[error("there is no sweep in `{}`: it has no sweep.json", crate::printable::path(path))]
     NoSweep {
         /// The directory.
         path: PathBuf,
     },
     /// It was asked to stop before its end.
-    #[error("interrupted after {finished} of {all} variants; `mesoscope sweep --resume {}` finishes the sweep", directory.display())]
+    #[error(
+        "interrupted after {finished} of {all} variants; `mesoscope sweep --resume {}` finishes the sweep",
+        crate::printable::path(directory)
+    )]
     Interrupted {
         /// Variants that are finished.
         finished: usize,

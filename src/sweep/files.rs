@@ -5,6 +5,20 @@ pub const TABLE: &str = "sweep.csv";
 /// The summary: what was varied and what came out.
 pub const SUMMARY: &str = "sweep.json";
 
+/// The table of averages over the seed: a row for every variant but for its seed.
+pub const AVERAGES: &str = "sweep-averages.csv";
+
+/// The plot of means against what is varied; further ones where there are many quantities, from 2.
+///
+/// ```
+/// use mesoscope::sweep::files;
+/// assert_eq!([files::means(1), files::means(2)], ["sweep-means.png", "sweep-means-2.png"]);
+/// ```
+#[must_use]
+pub fn means(number: usize) -> String {
+    if number < 2 { "sweep-means.png".to_owned() } else { format!("sweep-means-{number}.png") }
+}
+
 /// The plot of a quantity.
 ///
 /// ```
@@ -27,7 +41,7 @@ pub fn plot(quantity: &str) -> String {
 pub fn is_of_a_sweep(name: &str) -> bool {
     let name = name.strip_suffix(".tmp").unwrap_or(name);
     let is_plot = name.strip_prefix("sweep-").and_then(|rest| rest.strip_suffix(".png")).is_some_and(|q| !q.is_empty());
-    name == TABLE || name == SUMMARY || is_plot
+    [TABLE, SUMMARY, AVERAGES].contains(&name) || is_plot
 }
 
 #[cfg(test)]
@@ -36,7 +50,7 @@ mod tests {
 
     #[test]
     fn only_the_files_of_a_sweep_are_recognised() {
-        for name in ["sweep.csv", "sweep.json.tmp", "sweep-total_energy.png", "sweep-x.png.tmp"] {
+        for name in ["sweep.csv", "sweep-averages.csv", "sweep.json.tmp", "sweep-total_energy.png", "sweep-x.png.tmp"] {
             assert!(is_of_a_sweep(name), "{name}");
         }
         for name in ["sweep", "sweep-.png", "sweep-x.jpg", "sweep.json.bak", "energies.csv", "friction=1"] {

@@ -6,7 +6,8 @@
 //! for every quantity of the tables of energies one plot of all variants (`sweep-total_energy.png`).
 //!
 //! A variant has the same bytes as the same scene run alone: variants under way at the same time share nothing but the
-//! adapter, each with a device of its own.
+//! adapter, each with a device of its own. Means over time are plotted against what is varied (`sweep-means.png`); where the
+//! seed is among the keys, they are means over seeds, with errors from their scatter, and stand in `sweep-averages.csv` too.
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
@@ -23,24 +24,28 @@
 //! for variant in &outcome.summary.variants {
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
 //! }
-//! assert_eq!(outcome.files, ["sweep.csv", "sweep.json", "sweep-temperature.png"]);
-//! assert_eq!(sweep::redraw(&results, &AdapterChoice::Best, &["output.plot.width=1600".to_owned()])?, ["sweep-temperature.png"]);
+//! assert_eq!(outcome.files, ["sweep.csv", "sweep.json", "sweep-means.png", "sweep-temperature.png"]);
+//! assert_eq!(sweep::redraw(&results, &AdapterChoice::Best, &["output.plot.width=1600".to_owned()])?, outcome.files[2..]);
 //! assert!(outcome.failures.is_empty() && results.join("friction=4.5/run.json").exists());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod averages;
 mod concurrency;
 mod directory;
 mod error;
 mod expansion;
 pub mod files;
+mod means_chart;
 mod naming;
+mod observables;
 mod plots;
 mod run;
 mod summary;
 mod table;
 mod variation;
 
+pub use averages::SeedAverage;
 pub use concurrency::default_jobs;
 pub use error::{Mistake, SweepError};
 pub use expansion::{Sweep, Variant};

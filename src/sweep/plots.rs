@@ -3,6 +3,7 @@
 use super::error::SweepError;
 use super::expansion::{Sweep, Variant};
 use super::files;
+use super::means_chart;
 use super::summary::{SweepSummary, VariantState};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::model::Model;
@@ -107,6 +108,11 @@ pub(super) fn draw(
     let plotter = Plotter::new(gpu.device(), gpu.queue());
     let plotter = plotter.map_err(|source| run::RunError::Plot { name: files::plot("*"), source })?;
     let mut written = Vec::new();
+    for (number, chart) in (1..).zip(means_chart::charts(sweep, summary, look)) {
+        let name = files::means(number);
+        run::save(&place, &name, plotter.draw_chart(&chart, style))?;
+        written.push(name);
+    }
     for quantity in quantities {
         let mut curves: Vec<Curve> = Vec::new();
         let mut without: Vec<&str> = Vec::new();

@@ -168,6 +168,7 @@ impl SweepRun {
                 backend: adapter.backend.clone(),
             });
         }
+        self.summary.average();
         save(&self.directory, &self.sweep, &self.summary)?;
         let jobs = jobs.unwrap_or_else(|| default_jobs(adapter, largest, waiting.len())).clamp(1, waiting.len().max(1));
         observer(SweepEvent::Started { adapter, waiting: waiting.len(), jobs });
@@ -180,7 +181,9 @@ impl SweepRun {
         observer(SweepEvent::Finishing);
         let style = plots::style(&self.sweep);
         let drawn = plots::draw(&self.directory, &self.sweep, &self.summary, &style, &gpu)?;
-        let files = [files::TABLE, files::SUMMARY].into_iter().map(str::to_owned).chain(drawn).collect();
+        let averages = (!self.summary.averages.is_empty()).then_some(files::AVERAGES);
+        let tables = [files::TABLE].into_iter().chain(averages).chain([files::SUMMARY]);
+        let files = tables.map(str::to_owned).chain(drawn).collect();
         Ok(SweepOutcome { summary: self.summary, failures, files })
     }
 
@@ -245,6 +248,7 @@ impl SweepRun {
                                 failures.push((number, error));
                             }
                         }
+                        summary.average();
                         if let Err(error) = save(directory, sweep, summary) {
                             // Variants under way may end; no others begin.
                             next.store(waiting.len(), Ordering::Relaxed);

@@ -1,5 +1,6 @@
 //! The summary of a sweep, `sweep.json`.
 
+use super::averages::{SeedAverage, averages};
 use super::error::SweepError;
 use super::expansion::Sweep;
 use super::files;
@@ -33,6 +34,9 @@ pub struct SweepSummary {
     pub plots: Look,
     /// The variants, in order.
     pub variants: Vec<VariantSummary>,
+    /// Means over the seed, where it is among the keys and several are finished.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub averages: Vec<SeedAverage>,
     /// The scene as it was written, before all of this.
     pub base: Value,
 }
@@ -118,8 +122,14 @@ impl SweepSummary {
             steps: sweep.steps,
             plots: look,
             variants: sweep.variants().iter().map(waiting).collect(),
+            averages: Vec::new(),
             base: sweep.base.clone(),
         }
+    }
+
+    /// Takes the means over the seed anew.
+    pub(super) fn average(&mut self) {
+        self.averages = averages(&self.variants);
     }
 
     /// Writes the summary into the directory of the sweep.

@@ -1,40 +1,85 @@
 //! The table of a sweep, `sweep.csv`: a row for every variant.
 
+use super::averages::{SEED, SeedAverage};
+use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
+use super::variation::Setting;
 use super::{files, naming};
 use crate::output::{OutputError, push_number, quoted, write_atomically};
 use serde_json::Value;
 use std::path::Path;
 
-/// Writes the table into the directory of the sweep; `keys` are those that distinguish variants.
+/// Writes the table into the directory of the sweep, and that of averages over the seed where there are any; `keys` are those
+/// that distinguish variants.
 pub(super) fn write(directory: &Path, summary: &SweepSummary, keys: &[&str]) -> Result<(), OutputError> {
     let text = text(summary, keys);
-    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))
+    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))?;
+    if let Some(text) = averages_text(summary, keys) {
+        write_atomically(&directory.join(files::AVERAGES), |writer| writer.write_all(text.as_bytes()))?;
+    }
+    Ok(())
 }
 
-/// A quantity with its standard error, which may be missing.
-type Observable = (String, f64, Option<f64>);
-
 fn text(summary: &SweepSummary, keys: &[&str]) -> String {
-    let observables: Vec<Vec<Observable>> = summary
+    let rows: Vec<Row> = summary
         .variants
         .iter()
         .map(|variant| {
-            let means = variant.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
-            let results = variant.results.iter().flat_map(|(name, result)| results(name, result));
-            means.chain(results).collect()
+            let mut cells = vec![variant.name.clone()];
+            cells.extend(values(&variant.settings, keys));
+            cells.push(variant.state.name().to_owned());
+            let ended = variant.steps > 0 || !variant.means.is_empty();
+            for value in [
+                variant.steps as f64,
+                variant.particles as f64,
+                variant.wall_seconds,
+                variant.particle_steps_per_second,
+            ] {
+                cells.push(if ended { number(value) } else { String::new() });
+            }
+            (cells, observables(variant))
         })
         .collect();
-    // A column of errors is there if any variant has one.
+    let after = ["state", "steps", "particles", "wall_seconds", "particle_steps_per_second"];
+    let header = ["variant"].into_iter().chain(keys.iter().copied()).chain(after).map(str::to_owned).collect();
+    table(header, &rows)
+}
+
+/// The table of averages over the seed; none where there are none.
+fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<String> {
+    if summary.averages.is_empty() {
+        return None;
+    }
+    let keys: Vec<&str> = keys.iter().copied().filter(|key| *key != SEED).collect();
+    let row = |average: &SeedAverage| {
+        let mut cells = values(&average.settings, &keys);
+        cells.push(average.seeds.to_string());
+        let means = average.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
+        (cells, means.collect())
+    };
+    let rows: Vec<Row> = summary.averages.iter().map(row).collect();
+    Some(table(keys.iter().copied().chain(["seeds"]).map(str::to_owned).collect(), &rows))
+}
+
+/// Cells in front, and what was measured.
+type Row = (Vec<String>, Vec<Observable>);
+
+/// The values of keys in the settings of a variant; nothing where they are not set.
+fn values(settings: &[Setting], keys: &[&str]) -> Vec<String> {
+    let value = |key: &&str| settings.iter().find(|setting| setting.key == *key).map(|setting| plain(&setting.value));
+    keys.iter().map(|key| value(key).unwrap_or_default()).collect()
+}
+
+/// Lines of cells in front, under their header, and of all observables with their errors.
+fn table(mut header: Vec<String>, rows: &[Row]) -> String {
+    // A column of errors is there if any row has one.
     let mut columns: Vec<(&str, bool)> = Vec::new();
-    for (name, _, error) in observables.iter().flatten() {
+    for Observable { name, error, .. } in rows.iter().flat_map(|(_, observables)| observables) {
         match columns.iter_mut().find(|(known, _)| known == name) {
             Some((_, has_error)) => *has_error |= error.is_some(),
             None => columns.push((name, error.is_some())),
         }
     }
-    let mut header: Vec<String> = ["variant"].into_iter().chain(keys.iter().copied()).map(str::to_owned).collect();
-    header.extend(["state", "steps", "particles", "wall_seconds", "particle_steps_per_second"].map(str::to_owned));
     for (name, has_error) in &columns {
         // Set and measured may have the same name: `temperature`.
         let mean = if header.iter().any(|known| known == name) { "_mean" } else { "" };
@@ -44,24 +89,13 @@ fn text(summary: &SweepSummary, keys: &[&str]) -> String {
         }
     }
     let mut lines = vec![line(&header)];
-    for (variant, observables) in summary.variants.iter().zip(&observables) {
-        let mut cells = vec![variant.name.clone()];
-        for key in keys {
-            let setting = variant.settings.iter().find(|setting| setting.key == *key);
-            cells.push(setting.map(|setting| plain(&setting.value)).unwrap_or_default());
-        }
-        cells.push(variant.state.name().to_owned());
-        let ended = variant.steps > 0 || !variant.means.is_empty();
-        for value in
-            [variant.steps as f64, variant.particles as f64, variant.wall_seconds, variant.particle_steps_per_second]
-        {
-            cells.push(if ended { number(value) } else { String::new() });
-        }
+    for (cells, observables) in rows {
+        let mut cells = cells.clone();
         for (name, has_error) in &columns {
-            let found = observables.iter().find(|(known, ..)| known == name);
-            cells.push(found.map(|(_, value, _)| number(*value)).unwrap_or_default());
+            let found = observables.iter().find(|known| known.name == *name);
+            cells.push(found.map(|found| number(found.value)).unwrap_or_default());
             if *has_error {
-                cells.push(found.and_then(|(_, _, error)| *error).map(number).unwrap_or_default());
+                cells.push(found.and_then(|found| found.error).map(number).unwrap_or_default());
             }
         }
         lines.push(line(&cells));
@@ -89,23 +123,10 @@ fn number(value: f64) -> String {
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// A number, or an object with a mean or a value and maybe a standard error.
-fn observable(name: String, found: &Value) -> Option<Observable> {
-    let value = found.as_f64().or_else(|| found["mean"].as_f64()).or_else(|| found["value"].as_f64())?;
-    Some((name, value, found["standard_error"].as_f64()))
-}
-
-/// The numbers in the result of an analysis: `radial_distribution.peak_height`.
-fn results(name: &str, result: &Value) -> Vec<Observable> {
-    let entries = result.as_object().into_iter().flatten();
-    entries.filter_map(|(key, value)| observable(format!("{name}.{key}"), value)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::plots::Look;
     use super::super::summary::{VariantState, VariantSummary};
-    use super::super::variation::Setting;
     use super::*;
     use serde_json::{Map, json};
 
@@ -145,6 +166,7 @@ mod tests {
             steps: None,
             plots: Look::default(),
             variants: vec![first, beside, failed],
+            averages: Vec::new(),
             base: Value::Object(Map::new()),
         };
         let expected = "variant,a.b,state,steps,particles,wall_seconds,particle_steps_per_second,temperature,\

@@ -1,7 +1,16 @@
 //! Extended XYZ: text that most viewers read. Positions lie in `[0, L]`; real numbers have single precision.
-//! Species keep their names, which OVITO accepts; ASE reads the file only where they are chemical symbols.
+//!
+//! A line of a particle holds, in this order:
+//!
+//! - `species`: a chemical symbol, for ASE reads nothing else and others choose colours by it. A species that is not named
+//!   by one gets one that no other has (`He` in the absence of helium), and its name stands in `species_name` at the end.
+//! - `pos`, `velo`: position and velocity (of these names in OVITO and QUIP).
+//! - `masses`, `momenta`: as ASE has them, whose velocities are momenta over masses.
+//! - `map_shift`: how often the particle has gone round the box (OVITO's periodic image).
+//!
+//! All are in the units of the scene. `Lattice` has three vectors in any dimension, and `pbc` says which are real.
 
-use super::Description;
+use super::{Description, elements};
 use crate::output::OutputError;
 use crate::output::records::RecordFile;
 use crate::state::State;
@@ -37,24 +46,46 @@ impl ExtendedXyz {
     }
 }
 
+/// Names of species, each as one word of the format.
+fn words(description: &Description) -> Vec<String> {
+    let word = |name: &str| -> String {
+        let is_bad = |character: char| character.is_whitespace() || character.is_control();
+        let name = name.replace(is_bad, "_");
+        if name.is_empty() { "_".to_owned() } else { name }
+    };
+    description.species.iter().map(|species| word(&species.name)).collect()
+}
+
 fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> std::io::Result<()> {
     let [x, y, z] = description.units.lengths;
     let periodic = ["T F F", "T T F", "T T T"][description.units.dimension.clamp(1, 3) - 1];
     let time = state.step as f64 * description.time_step;
+    let names = words(description);
+    let symbols = elements::symbols(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    let named = names != symbols;
     writeln!(text, "{}", state.len())?;
     writeln!(
         text,
-        "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" Properties=species:S:1:pos:R:3:velo:R:3 pbc=\"{periodic}\" Step={} Time={time}",
+        "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" \
+         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3:map_shift:I:3{} pbc=\"{periodic}\" Step={} \
+         Time={time}",
+        if named { ":species_name:S:1" } else { "" },
         state.step
     )?;
-    // A name is one word in this format.
-    let names: Vec<String> =
-        description.species.iter().map(|species| species.name.replace(char::is_whitespace, "_")).collect();
     for particle in 0..state.len() {
+        let species = state.species[particle] as usize;
+        let mass = description.mass(state, particle);
+        let velocity = description.velocity(state, particle);
         let [x, y, z] = description.units.position(state.positions[particle]).map(|value| value as f32);
-        let [u, v, w] = description.velocity(state, particle).map(|value| value as f32);
-        let name = &names[state.species[particle] as usize];
-        writeln!(text, "{name} {x} {y} {z} {u} {v} {w}")?;
+        let [u, v, w] = velocity.map(|value| value as f32);
+        let [p, q, r] = velocity.map(|value| (mass * value) as f32);
+        let [i, j, k] = state.image(particle);
+        let symbol = symbols[species];
+        write!(text, "{symbol} {x} {y} {z} {u} {v} {w} {} {p} {q} {r} {i} {j} {k}", mass as f32)?;
+        if named {
+            write!(text, " {}", names[species])?;
+        }
+        writeln!(text)?;
     }
     Ok(())
 }

@@ -1,7 +1,8 @@
 //! HOOMD's GSD, schema `hoomd` 1.4: <https://gsd.readthedocs.io/en/stable/schema-hoomd.html>.
 //!
 //! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
-//! which is written as a plane on which all particles have y = 0. What never changes (box, types, masses, bonds) is written in the first frame, from which readers take it for all others.
+//! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
+//! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses, bonds) is written in the first frame, from which readers take it for all others.
 
 use super::Description;
 use crate::output::OutputError;
@@ -52,15 +53,21 @@ impl GsdTrajectory {
             if first {
                 write_constants(file, description, state)?;
             }
+            if first || description.changing_masses {
+                write_masses(file, description, state)?;
+            }
             file.write_scalars("configuration/step", [state.step])?;
-            let positions = state.positions.iter().map(|position| centred(description, *position));
+            file.write_scalars("log/time", [state.step as f64 * description.time_step])?;
+            let positions = state.positions.iter().map(|position| centred(description, *position).0);
             file.write_arrays("particles/position", positions)?;
             let velocities =
                 (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
             file.write_arrays("particles/velocity", velocities)?;
-            if description.changing_masses && !first {
-                write_masses(file, description, state)?;
-            }
+            let images = (0..state.len()).map(|particle| {
+                let (_, rounded) = centred(description, state.positions[particle]);
+                std::array::from_fn::<i32, 3, _>(|axis| state.image(particle)[axis] + rounded[axis])
+            });
+            file.write_arrays("particles/image", images)?;
             file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), state.step, error))
         })?;
         self.empty = false;
@@ -111,7 +118,6 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
-    write_masses(file, description, state)?;
     let bonds = &description.bonds;
     if bonds.is_empty() {
         return Ok(());
@@ -124,17 +130,20 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
 }
 
 /// The position relative to the centre of the box. Where rounding to single precision would reach the upper face, the
-/// lower one is meant: the same place, inside the box.
-fn centred(description: &Description, position: [u32; 3]) -> [f32; 3] {
-    std::array::from_fn(|axis| {
+/// lower one is meant, the same place inside the box: one of the next image, which the second array says.
+fn centred(description: &Description, position: [u32; 3]) -> ([f32; 3], [i32; 3]) {
+    let mut images = [0; 3];
+    let centred = std::array::from_fn(|axis| {
         if axis >= description.units.dimension {
             return 0.0;
         }
         let length = description.units.lengths[axis];
         let half = (length as f32) / 2.0;
         let value = (f64::from((position[axis] ^ 0x8000_0000) as i32) * length / 4_294_967_296.0) as f32;
+        images[axis] = i32::from(value >= half);
         if value >= half { -half } else { value }
-    })
+    });
+    (centred, images)
 }
 
 /// The bytes of a name, cut between characters if it is too long.
@@ -175,6 +184,7 @@ fn copy_frames(path: &Path, old: GsdFile, frames: u64) -> Result<GsdFile, Output
 
 fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Result<(), OutputError> {
     let mut new = GsdTrajectory { path: temporary.to_path_buf(), file: Some(create_file(temporary)?), empty: true };
+    // The chunks of a frame in the order in which they were written, so that the copy has the same bytes.
     for frame in 0..frames {
         let unreadable = |error: hoomd_gsd::file_layer::ReadError| OutputError::Trajectory {
             path: path.to_path_buf(),
@@ -199,19 +209,21 @@ fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Resul
         copy!(scalars u32, "particles/N");
         copy!(arrays i8, NAME, "particles/types");
         copy!(scalars u32, "particles/typeid");
-        copy!(scalars f32, "particles/mass");
         copy!(scalars u32, "bonds/N");
         copy!(arrays i8, NAME, "bonds/types");
         copy!(scalars u32, "bonds/typeid");
         copy!(arrays u32, 2, "bonds/group");
+        copy!(scalars f32, "particles/mass");
         copy!(scalars u64, "configuration/step");
+        copy!(scalars f64, "log/time");
         copy!(arrays f32, 3, "particles/position");
         copy!(arrays f32, 3, "particles/velocity");
+        copy!(arrays i32, 3, "particles/image");
         new.attempt(|file| file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), frame, error)))?;
         // One frame in memory at a time.
         new.flush()?;
     }
-    new.flush()
+    Ok(())
 }
 
 /// Makes sure that the header and the index of a file point inside it: the file layer takes that for granted.
@@ -323,9 +335,10 @@ mod tests {
             changing_masses: false,
             bonds: Vec::new(),
         };
-        assert_eq!(centred(&description, [1 << 31; 3]), [0.0; 3]);
+        assert_eq!(centred(&description, [1 << 31; 3]), ([0.0; 3], [0; 3]));
+        assert_eq!(centred(&description, [u32::MAX; 3]), ([-5.0, -0.15, -3.5], [1; 3]));
         for fraction in [0, 1, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
-            for (value, length) in centred(&description, [fraction; 3]).into_iter().zip(units.lengths) {
+            for (value, length) in centred(&description, [fraction; 3]).0.into_iter().zip(units.lengths) {
                 let half = length as f32 / 2.0;
                 assert!(value >= -half && value < half, "{fraction}: {value} with L/2 = {half}");
             }

@@ -1,5 +1,6 @@
-//! Positions and velocities for other tools: OVITO, freud, `MDAnalysis`.
+//! Positions and velocities for other tools: OVITO, freud, `MDAnalysis`, ASE.
 
+mod elements;
 mod extended_xyz;
 mod gsd;
 

@@ -46,6 +46,7 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.motion(output);
     builder.observables(output);
     builder.analyses(output);
+    builder.paths(output);
     builder.plan
 }
 
@@ -116,9 +117,7 @@ impl Builder<'_> {
         let to_force = units.momentum / half;
         let cutoff = self.force.cutoff;
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
-        // Nothing but a pair force tells how far a particle may go in a step, but it must not go round the box.
-        let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
-        let reach = if model.pair_force.is_some() { cutoff } else { 0.4 * shortest };
+        let reach = self.reach();
         let mass = self.species.mass();
         let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
         self.plan.constants = vec![
@@ -153,6 +152,22 @@ impl Builder<'_> {
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push(("PREDICTION", 2.0 * lambda - 1.0));
         }
+    }
+
+    /// How far a particle may go in a step along an axis.
+    fn reach(&self) -> f64 {
+        // Nothing but a pair force tells, but it must not go round the box.
+        if self.model.pair_force.is_some() { self.force.cutoff } else { 0.4 * self.model.units.shortest_length() }
+    }
+
+    /// Follows the particles, where a trajectory asks.
+    fn paths(&mut self, output: &Output) {
+        if output.trajectory.is_none() {
+            return;
+        }
+        let modules = ["common/particles", "common/crossings", "common/paths", "kernels/follow"];
+        let kernel = Kernel::new("follow", [&self.space()[..], &modules].concat(), self.groups(self.particles));
+        self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
     }
 
     /// Inverse masses; none of what is held.

@@ -28,6 +28,7 @@ pub(super) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &
     builder.steps(output);
     builder.observables(output);
     builder.analyses(output);
+    builder.paths(output);
     builder.plan
 }
 
@@ -64,7 +65,6 @@ impl Builder<'_> {
     fn constants(&mut self) {
         let (units, cells) = (self.model.units, self.cells);
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
-        let shortest = units.lengths[0].min(units.lengths[1]);
         self.plan.constants = vec![
             ("UNIT_X", unit(0)),
             ("UNIT_Y", unit(1)),
@@ -86,9 +86,25 @@ impl Builder<'_> {
             ("EXCHANGE_LIMIT", cells.exchange_limit),
             ("VISCOSITY", cells.viscosity * self.model.time_step),
             ("CONDUCTIVITY", cells.conductivity.unwrap_or(0.0) * self.model.time_step),
-            // Cells that jump over many others see nothing of them; none may go round the box.
-            ("DISPLACEMENT_LIMIT", (8.0 * mean_volume(self.model).sqrt()).min(0.4 * shortest)),
+            ("DISPLACEMENT_LIMIT", self.reach()),
         ];
+    }
+
+    /// How far a cell may go in a step along an axis: those that jump over many others see nothing of them, and none may go
+    /// round the box.
+    fn reach(&self) -> f64 {
+        (8.0 * mean_volume(self.model).sqrt()).min(0.4 * self.model.units.shortest_length())
+    }
+
+    /// Follows the cells, where a trajectory asks.
+    fn paths(&mut self, output: &Output) {
+        if output.trajectory.is_none() {
+            return;
+        }
+        let modules =
+            [&SPACE[..], &["common/particles", "common/crossings", "common/paths", "kernels/follow"]].concat();
+        let kernel = Kernel::new("follow", modules, self.groups(self.particles));
+        self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
     }
 
     /// Whether friction acts.

@@ -1,0 +1,173 @@
+//! Averages over the seed: variants that differ in nothing else are samples of one.
+
+use super::naming;
+use super::observables::{Observable, observables};
+use super::summary::{VariantState, VariantSummary};
+use super::variation::Setting;
+use crate::measure::statistics::Estimate;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// The key of a scene that makes samples of variants.
+pub(super) const SEED: &str = "seed";
+
+/// What variants that differ in their seeds alone have in common.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SeedAverage {
+    /// What a legend calls them.
+    pub label: String,
+    /// What distinguishes them from others.
+    pub settings: Vec<Setting>,
+    /// Number of seeds that are finished.
+    pub seeds: usize,
+    /// The mean over seeds of every quantity of the variants, with its standard error from their scatter.
+    pub means: Map<String, Value>,
+}
+
+/// Variants that belong together, in order of the first of each.
+pub(super) struct Group<'a> {
+    /// What they have in common.
+    pub settings: Vec<&'a Setting>,
+    /// The variants of it that are finished.
+    pub finished: Vec<&'a VariantSummary>,
+    /// Whether variants differ in their seeds.
+    pub over_seeds: bool,
+}
+
+/// The groups of variants: those with the same settings but for the seed, or else each by itself.
+pub(super) fn groups(variants: &[VariantSummary]) -> Vec<Group<'_>> {
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for variant in variants {
+        let settings: Vec<&Setting> = variant.settings.iter().filter(|setting| setting.key != SEED).collect();
+        let over_seeds = settings.len() < variant.settings.len();
+        let known = groups.iter_mut().find(|group| over_seeds && group.over_seeds && group.settings == settings);
+        let finished = (variant.state == VariantState::Finished).then_some(variant);
+        match known {
+            Some(group) => group.finished.extend(finished),
+            None => groups.push(Group { settings, finished: finished.into_iter().collect(), over_seeds }),
+        }
+    }
+    groups
+}
+
+impl Group<'_> {
+    /// What came out: of one variant as it says itself, of several the mean over them, with its error from their scatter.
+    /// Quantities that some of them lack are left out.
+    pub(super) fn observables(&self) -> Vec<Observable> {
+        let Some((first, others)) = self.finished.split_first() else { return Vec::new() };
+        if others.is_empty() {
+            return observables(first);
+        }
+        let others: Vec<Vec<Observable>> = others.iter().map(|variant| observables(variant)).collect();
+        let average = |observable: Observable| {
+            let found = others.iter().map(|others| others.iter().find(|other| other.name == observable.name));
+            let rest: Vec<f64> = found.map(|found| found.map(|other| other.value)).collect::<Option<_>>()?;
+            let values: Vec<f64> = std::iter::once(observable.value).chain(rest).collect();
+            let (value, error) = mean(&values);
+            Some(Observable { name: observable.name, value, error: Some(error) })
+        };
+        observables(first).into_iter().filter_map(average).collect()
+    }
+}
+
+/// The mean of independent values, at least two, and its standard error.
+fn mean(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    // Differences from one of them lose no digits where the mean is large and the scatter small.
+    let mean = values[0] + values.iter().map(|value| value - values[0]).sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    (mean, (squares / (count * (count - 1.0))).sqrt())
+}
+
+/// The averages of all variants of which there is more than one seed.
+pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
+    let several = groups(variants).into_iter().filter(|group| group.finished.len() > 1);
+    several
+        .map(|group| {
+            let seeds = group.finished.len();
+            let keys: Vec<&str> = group.settings.iter().map(|setting| setting.key.as_str()).collect();
+            let short = naming::short_keys(&keys);
+            let short = |key: &str| {
+                keys.iter().position(|known| *known == key).map_or_else(|| key.to_owned(), |index| short[index].clone())
+            };
+            let settings: Vec<Setting> = group.settings.iter().map(|setting| (*setting).clone()).collect();
+            let means = group.observables().into_iter().map(|Observable { name, value, error }| {
+                let estimate = Estimate {
+                    mean: value,
+                    standard_error: error,
+                    samples: seeds,
+                    correlation_samples: None,
+                    converged: true,
+                };
+                // Plain numbers and nothing else: this conversion cannot fail.
+                (name, serde_json::to_value(estimate).unwrap_or_default())
+            });
+            let label = if settings.is_empty() { "all".to_owned() } else { naming::label(&settings, short) };
+            SeedAverage { label, settings, seeds, means: means.collect() }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn variant(settings: &[(&str, Value)], state: VariantState, temperature: f64) -> VariantSummary {
+        let settings: Vec<Setting> =
+            settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
+        let means = json!({"temperature": {"mean": temperature, "standard_error": 0.5}});
+        VariantSummary {
+            name: String::new(),
+            label: String::new(),
+            settings,
+            state,
+            failure: None,
+            particles: 1,
+            steps: 1,
+            wall_seconds: 0.0,
+            particle_steps_per_second: 0.0,
+            means: means.as_object().cloned().unwrap_or_default(),
+            results: json!({"diffusion": {"windows": 3, "einstein": {"value": temperature}}})
+                .as_object()
+                .cloned()
+                .unwrap_or_default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Worked out by hand: 1, 2 and 6 have the mean 3 and the error √((4 + 1 + 9)/(3·2)).
+    #[test]
+    fn seeds_are_samples_of_one_variant() {
+        let finished = VariantState::Finished;
+        let seeds = |friction: f64, values: &[f64]| -> Vec<VariantSummary> {
+            let one = |(seed, value): (usize, &f64)| {
+                variant(&[("a.friction", json!(friction)), ("seed", json!(seed))], finished, *value)
+            };
+            values.iter().enumerate().map(one).collect()
+        };
+        let mut variants = [seeds(1.0, &[1.0, 2.0, 6.0]), seeds(9.0, &[4.0, 4.0])].concat();
+        variants.push(variant(&[("a.friction", json!(9.0)), ("seed", json!(7))], VariantState::Failed, 1e9));
+        variants.push(variant(&[("a.friction", json!(20))], finished, 5.0));
+        let found = averages(&variants);
+        assert_eq!(
+            found.iter().map(|average| average.label.as_str()).collect::<Vec<_>>(),
+            ["friction = 1.0", "friction = 9.0"]
+        );
+        assert_eq!(found.iter().map(|average| average.seeds).collect::<Vec<_>>(), [3, 2]);
+        let temperature = &found[0].means["temperature"];
+        assert_eq!(temperature["mean"], json!(3.0));
+        assert_eq!(temperature["standard_error"].as_f64(), Some((14.0_f64 / 6.0).sqrt()));
+        assert_eq!((&temperature["samples"], &found[0].means["diffusion.windows"]["mean"]), (&json!(3), &json!(3.0)));
+        assert_eq!(found[0].means["diffusion.einstein"]["mean"], json!(3.0));
+        assert_eq!(found[1].means["temperature"]["standard_error"], json!(0.0));
+        // A variant alone keeps its own error, and without seeds nothing is averaged.
+        let groups = groups(&variants);
+        assert_eq!(groups.len(), 3);
+        assert_eq!(groups[2].observables()[0].error, Some(0.5));
+        let alike = [1.0, 2.0].map(|friction| variant(&[("a.friction", json!(friction))], finished, 1.0));
+        assert!(averages(&alike).is_empty());
+        let only_seeds = [1, 2].map(|seed| variant(&[("seed", json!(seed))], finished, f64::from(seed)));
+        assert_eq!(averages(&only_seeds)[0].label, "all");
+    }
+}

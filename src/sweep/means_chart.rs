@@ -1,0 +1,255 @@
+//! Means against what is varied: one panel a quantity, with errors.
+
+use super::averages::{Group, SEED, groups};
+use super::expansion::Sweep;
+use super::naming::{readable, short_keys};
+use super::observables::Observable;
+use super::plots::Look;
+use super::summary::SweepSummary;
+use super::variation::Setting;
+use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, quantity_label};
+use serde_json::Value;
+
+/// Panels of one picture.
+const PANELS: usize = 4;
+
+/// Columns of the table of energies that say something about the run rather than about the matter.
+const LEFT_OUT: [&str; 3] = ["momentum_", "center_of_mass_velocity_", "particle"];
+
+/// What comes first, where it is measured.
+const FIRST: [&str; 3] = ["temperature", "configurational_temperature", "pressure"];
+
+/// The charts of the means of all variants that are finished against the values of one varied key: the one with most
+/// numbers, or else most values; every combination of the others is a curve, and variants beside them are lines to compare
+/// with. No chart where less than two values are finished.
+pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<Chart> {
+    let Some(axis) = MeansAxis::of(sweep) else { return Vec::new() };
+    let groups = groups(&summary.variants);
+    let found: Vec<(&Group<'_>, Vec<Observable>)> =
+        groups.iter().map(|group| (group, group.observables())).filter(|(_, found)| !found.is_empty()).collect();
+    let panels: Vec<Panel> =
+        quantities(&found, look).iter().filter_map(|quantity| axis.panel(quantity, &found)).collect();
+    let title = sweep.variants().first().map_or("", |variant| variant.scene.title.as_str());
+    let seeds = found.iter().map(|(group, _)| group.finished.len()).max().unwrap_or(0);
+    let subtitle = if seeds > 1 {
+        format!("means over {seeds} seeds, bars: standard errors from their scatter")
+    } else {
+        "means over time after equilibration, bars: standard errors".to_owned()
+    };
+    let chart =
+        |panels: &[Panel]| Chart { title: title.to_owned(), subtitle: subtitle.clone(), panels: panels.to_vec() };
+    panels.chunks(PANELS).map(chart).collect()
+}
+
+/// The quantities to show: those asked for; else those with errors whose means differ.
+fn quantities(found: &[(&Group<'_>, Vec<Observable>)], look: &Look) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for observable in found.iter().flat_map(|(_, found)| found) {
+        let wanted = if look.quantities.is_empty() {
+            observable.error.is_some() && LEFT_OUT.iter().all(|start| !observable.name.starts_with(start))
+        } else {
+            look.quantities.contains(&observable.name)
+        };
+        if wanted && !names.contains(&observable.name) {
+            names.push(observable.name.clone());
+        }
+    }
+    names.retain(|name| {
+        let mut values = found.iter().filter_map(|(_, found)| value_of(found, name)).map(|observable| observable.value);
+        let first = values.next();
+        !look.quantities.is_empty() || values.any(|value| Some(value) != first)
+    });
+    // A sort that keeps the order of all others.
+    names.sort_by_key(|name| FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()));
+    names
+}
+
+fn value_of<'a>(found: &'a [Observable], name: &str) -> Option<&'a Observable> {
+    found.iter().find(|observable| observable.name == name && observable.value.is_finite())
+}
+
+/// A point and its error.
+type Point = ([f64; 2], f64);
+
+/// The key along the horizontal axis.
+struct MeansAxis<'a> {
+    key: &'a str,
+    axis: Axis,
+    values: &'a [Value],
+    /// Where each value lies.
+    places: Vec<f64>,
+}
+
+impl<'a> MeansAxis<'a> {
+    /// The axis of a sweep; none where nothing but the seed has two values.
+    fn of(sweep: &'a Sweep) -> Option<Self> {
+        let varied = || sweep.variations().iter().filter(|varied| varied.key != SEED && varied.values.len() > 1);
+        let numbers = |values: &[Value]| values.iter().all(Value::is_number);
+        let most = |varied: &&super::Variation| (numbers(&varied.values), varied.values.len());
+        // Of equals the first.
+        let chosen = varied().rev().max_by_key(most)?;
+        let label = short_keys(&[&chosen.key]).remove(0);
+        let places: Vec<f64> = if numbers(&chosen.values) {
+            chosen.values.iter().filter_map(Value::as_f64).collect()
+        } else {
+            (0..chosen.values.len()).map(|place| place as f64).collect()
+        };
+        let axis = if !numbers(&chosen.values) {
+            Axis::categories(&label, chosen.values.iter().map(readable).collect())
+        } else if is_geometric(&places) {
+            Axis::log(&label)
+        } else {
+            Axis::linear(&label)
+        };
+        Some(Self { key: &chosen.key, axis, values: &chosen.values, places })
+    }
+
+    fn place(&self, settings: &[&Setting]) -> Option<f64> {
+        let setting = settings.iter().find(|setting| setting.key == self.key)?;
+        let place = self.values.iter().position(|value| *value == setting.value)?;
+        self.places.get(place).copied()
+    }
+
+    fn panel(&self, quantity: &str, found: &[(&Group<'_>, Vec<Observable>)]) -> Option<Panel> {
+        let last = quantity.rsplit('.').next().unwrap_or(quantity);
+        let mut panel = Panel { x: self.axis.clone(), ..Panel::new("", &quantity_label(last, false)) };
+        // Points with their errors, curve by curve.
+        let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
+        for (group, observables) in found {
+            let Some(observable) = value_of(observables, quantity) else { continue };
+            let others: Vec<Setting> = group
+                .settings
+                .iter()
+                .filter(|setting| setting.key != self.key)
+                .map(|setting| (*setting).clone())
+                .collect();
+            let name = name(&others);
+            let Some(place) = self.place(&group.settings) else {
+                panel = panel.with_reference(&name, observable.value);
+                continue;
+            };
+            let point = ([place, observable.value], observable.error.unwrap_or(f64::NAN));
+            match curves.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, points)) => points.push(point),
+                None => curves.push((name, vec![point])),
+            }
+        }
+        let several = curves.len() + panel.references.len() > 1;
+        for (name, mut points) in curves {
+            points.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+            let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = points.into_iter().unzip();
+            let name = match (several, name.is_empty()) {
+                (false, _) => "",
+                (true, true) => "variants",
+                (true, false) => &name,
+            };
+            let style = if self.axis.categories.is_empty() { SeriesStyle::LineMarkers } else { SeriesStyle::Markers };
+            panel.series.push(Series { style, ..Series::markers(name, points).with_errors(errors) });
+        }
+        let places: Vec<f64> = panel.series.iter().flat_map(|series| &series.points).map(|point| point[0]).collect();
+        places.iter().any(|place| *place != places[0]).then_some(panel)
+    }
+}
+
+/// What a legend says of settings: `step = 0.02`.
+fn name(settings: &[Setting]) -> String {
+    let keys: Vec<&str> = settings.iter().map(|setting| setting.key.as_str()).collect();
+    let short = short_keys(&keys);
+    let parts = settings.iter().zip(short).map(|(setting, key)| format!("{key} = {}", readable(&setting.value)));
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Whether numbers lie more evenly by their ratios than by their differences, over a factor of at least ten.
+fn is_geometric(values: &[f64]) -> bool {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(least), Some(most)) = (sorted.first(), sorted.last()) else { return false };
+    if *least <= 0.0 || sorted.len() < 3 || most / least < 9.999 {
+        return false;
+    }
+    // The spread of the distances between neighbours, relative to their mean.
+    let unevenness = |measure: fn(f64, f64) -> f64| {
+        let gaps: Vec<f64> = sorted.windows(2).map(|pair| measure(pair[0], pair[1])).collect();
+        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+        gaps.iter().map(|gap| (gap / mean - 1.0).powi(2)).sum::<f64>()
+    };
+    unevenness(|a, b| (b / a).ln()) < unevenness(|a, b| b - a)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::summary::VariantState;
+    use super::*;
+    use crate::plot::Scale;
+    use serde_json::json;
+
+    /// The charts of a sweep whose variants are finished, with the temperature that a function gives for their number.
+    fn drawn(vary: &[&str], also: &[&str], temperature: impl Fn(usize) -> f64) -> Vec<Chart> {
+        let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+        let sweep = Sweep::load("dpd-fluid", &[], None, &owned(vary), &owned(also)).unwrap();
+        let mut summary = SweepSummary::new(&sweep, Look::default());
+        for (number, variant) in summary.variants.iter_mut().enumerate() {
+            variant.state = VariantState::Finished;
+            let value = json!({"mean": temperature(number), "standard_error": 0.125});
+            variant.means.insert("momentum_x".to_owned(), value.clone());
+            variant.means.insert("pressure".to_owned(), json!({"mean": 3.0, "standard_error": 0.5}));
+            variant.means.insert("temperature".to_owned(), value);
+        }
+        charts(&sweep, &summary, &Look::default())
+    }
+
+    #[test]
+    fn numbers_over_decades_are_logarithmic() {
+        for (values, log) in [
+            (&[0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0][..], true),
+            (&[100.0, 1.0, 10.0], true),
+            (&[1.0, 4.5, 9.0], false),
+            (&[0.01, 0.02, 0.04, 0.06, 0.08], false),
+            (&[0.0, 1.0, 10.0, 100.0], false),
+            (&[1.0, 100.0], false),
+            (&[1.0, 25.0, 50.0, 75.0, 100.0], false),
+        ] {
+            assert_eq!(is_geometric(values), log, "{values:?}");
+        }
+    }
+
+    #[test]
+    fn means_stand_over_the_values_of_the_key_in_order() {
+        let charts = drawn(&["interactions.0.friction=9,1,4.5"], &["temperature=0"], |number| number as f64);
+        assert_eq!((charts.len(), charts[0].panels.len()), (1, 1), "the pressure is always the same");
+        let panel = &charts[0].panels[0];
+        assert_eq!((panel.x.label.as_str(), panel.x.scale), ("friction", Scale::Linear));
+        assert_eq!(panel.y.label, "Temperature (energy units)");
+        assert_eq!(panel.series[0].points, [[1.0, 1.0], [4.5, 2.0], [9.0, 0.0]]);
+        assert_eq!(panel.series[0].errors.as_deref(), Some(&[0.125; 3][..]));
+        assert_eq!((panel.references[0].label.as_str(), panel.references[0].value), ("temperature = 0", 3.0));
+    }
+
+    #[test]
+    fn words_are_categories_and_other_keys_are_curves() {
+        let charts =
+            drawn(&["integrator.type=splitting,cotter-reich", "time.step=0.01,0.02,0.03"], &[], |number| number as f64);
+        let panel = &charts[0].panels[0];
+        assert_eq!(panel.x.label, "step");
+        let curves: Vec<&str> = panel.series.iter().map(|series| series.name.as_str()).collect();
+        assert_eq!(curves, ["type = splitting", "type = cotter-reich"]);
+        assert_eq!(panel.series[1].points, [[0.01, 3.0], [0.02, 4.0], [0.03, 5.0]]);
+        let charts = drawn(&["integrator.type=splitting,cotter-reich,groot-warren"], &[], |number| number as f64);
+        let panel = &charts[0].panels[0];
+        assert_eq!(panel.x.categories, ["splitting", "cotter-reich", "groot-warren"]);
+        assert_eq!(panel.series[0].points[2], [2.0, 2.0]);
+    }
+
+    #[test]
+    fn seeds_are_averaged() {
+        let charts = drawn(&["interactions.0.friction=1,10,100", "seed=1,2"], &[], |number| (number * number) as f64);
+        let panel = &charts[0].panels[0];
+        assert_eq!((panel.series.len(), panel.x.scale), (1, Scale::Log));
+        // 0 and 1, 4 and 9, 16 and 25: half the difference is the error of the mean of two.
+        assert_eq!(panel.series[0].points, [[1.0, 0.5], [10.0, 6.5], [100.0, 20.5]]);
+        assert_eq!(panel.series[0].errors.as_deref(), Some(&[0.5, 2.5, 4.5][..]));
+        assert!(charts[0].subtitle.contains("2 seeds"), "{}", charts[0].subtitle);
+        assert!(drawn(&["seed=1,2,3"], &[], |number| number as f64).is_empty());
+    }
+}

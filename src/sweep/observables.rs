@@ -1,0 +1,34 @@
+//! The numbers that came out of a variant: means of the table of energies and results of the analyses.
+
+use super::summary::VariantSummary;
+use serde_json::Value;
+
+/// A quantity with its standard error, which may be missing.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Observable {
+    /// `temperature`, `diffusion.diffusion_einstein`.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard error.
+    pub error: Option<f64>,
+}
+
+/// All numbers of a variant, in order.
+pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
+    let means = variant.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
+    let results = variant.results.iter().flat_map(|(name, result)| results(name, result));
+    means.chain(results).collect()
+}
+
+/// A number, or an object with a mean or a value and maybe a standard error.
+pub(super) fn observable(name: String, found: &Value) -> Option<Observable> {
+    let value = found.as_f64().or_else(|| found["mean"].as_f64()).or_else(|| found["value"].as_f64())?;
+    Some(Observable { name, value, error: found["standard_error"].as_f64() })
+}
+
+/// The numbers in the result of an analysis: `radial_distribution.peak_height`.
+fn results(name: &str, result: &Value) -> Vec<Observable> {
+    let entries = result.as_object().into_iter().flatten();
+    entries.filter_map(|(key, value)| observable(format!("{name}.{key}"), value)).collect()
+}
