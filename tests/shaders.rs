@@ -541,7 +541,7 @@ fn every_kernel_of_a_plan_runs() {
     for (scene, plan) in plans() {
         let samplers = plan.samplers.iter().map(|sampler| &sampler.kernels);
         let begin = [&plan.prepare, &plan.sort, &plan.tidy, &plan.before_report];
-        let lists = begin.into_iter().chain([&plan.report, &plan.finish_report, &plan.advance]);
+        let lists = begin.into_iter().chain([&plan.report, &plan.finish_report, &plan.advance, &plan.paths.kernels]);
         let run: BTreeSet<usize> = lists.chain(samplers).flatten().copied().collect();
         for (index, kernel) in plan.kernels.iter().enumerate().filter(|(index, _)| !run.contains(index)) {
             complaints.entry(format!("kernel {index}, `{}`, is never run", kernel.name)).or_insert(scene.clone());

@@ -141,7 +141,8 @@ fn table_summary_and_plots() {
 
     // A plot for every quantity that changes, of the size that the scene asks for.
     let plots: Vec<String> = listing(&out).into_iter().filter(|name| name.starts_with("sweep-")).collect();
-    let expected = ["configurational_temperature", "kinetic_energy", "potential_energy", "pressure"];
+    let expected =
+        ["configurational_temperature", "kinetic_energy", "means-2", "means", "potential_energy", "pressure"];
     let expected = expected.into_iter().chain(["pressure_conservative", "temperature", "total_energy"]);
     assert_eq!(plots, expected.map(|quantity| format!("sweep-{quantity}.png")).collect::<Vec<_>>());
     for name in &plots {
@@ -222,7 +223,8 @@ fn nothing_is_overwritten_unless_asked() {
     fails(&borrowed(&[again.clone(), vec!["--force".into(), "--adapter".into(), "abacus".into()]].concat()), 3, &[]);
     assert_eq!(listing(&place.path("out")), before);
     succeeds(&borrowed(&[again, vec!["--force".to_owned()]].concat()));
-    let expected = ["notes.txt", "seed=3", "seed=4", "sweep-pressure.png", "sweep.csv", "sweep.json"];
+    let expected =
+        ["notes.txt", "seed=3", "seed=4", "sweep-averages.csv", "sweep-pressure.png", "sweep.csv", "sweep.json"];
     assert_eq!(listing(&place.path("out")), expected);
     // The directory of a single run is in the way too.
     succeeds(&["run", &place.scene(), "--out", &place.argument("single"), "--quiet"]);

@@ -42,7 +42,9 @@ pub(super) fn shorten(document: &mut Value, steps: u64, overrides: &[String]) ->
     let Some(measured) = steps.checked_sub(left_out) else { return notices };
     // From the last, so that the places of those before hold if it is taken out.
     for window in windows.iter().rev().filter(|window| !window.fits(measured)) {
-        notices.insert(usize::from(left_out < equilibration), window.shorten(document, measured));
+        if let Some(shortened) = window.shorten(document, measured) {
+            notices.insert(usize::from(left_out < equilibration), shortened);
+        }
     }
     notices
 }
@@ -68,6 +70,8 @@ struct Window {
     /// Its place, in a list of them.
     index: Option<usize>,
     every: u64,
+    /// Whether the steps between two samples are asked for as they are.
+    every_stays: bool,
     samples: u64,
     fewest: u64,
 }
@@ -82,9 +86,10 @@ fn windows(document: &Value, is_asked: &dyn Fn(&str) -> bool) -> Vec<Window> {
         };
         for (index, entry) in entries {
             let (Some(every), Some(samples)) = (whole(&entry["every"]), whole(&entry["window"])) else { continue };
-            let window = Window { name, index, every, samples, fewest };
+            let mut window = Window { name, index, every, every_stays: false, samples, fewest };
             let place = window.place().replace('[', ".").replace(']', "");
-            if every > 0 && !["every", "window"].iter().any(|key| is_asked(&format!("{place}.{key}"))) {
+            window.every_stays = is_asked(&format!("{place}.every"));
+            if every > 0 && !is_asked(&format!("{place}.window")) {
                 windows.push(window);
             }
         }
@@ -103,11 +108,15 @@ impl Window {
         format!("output.{}{index}", self.name)
     }
 
-    /// Takes fewer samples, or the fewest more often; where even those do not fit, the analysis is left out.
-    fn shorten(&self, document: &mut Value, measured: u64) -> Warning {
+    /// Takes fewer samples, or the fewest more often; where even those do not fit, the analysis is left out. Does nothing if
+    /// what is asked for does not let it.
+    fn shorten(&self, document: &mut Value, measured: u64) -> Option<Warning> {
         let place = self.place();
         let samples = (measured / self.every).max(self.fewest);
         let every = self.every.min(measured / samples);
+        if self.every_stays && every < self.every {
+            return None;
+        }
         let output = &mut document["output"];
         if every == 0 {
             match (output[self.name].as_array_mut(), self.index) {
@@ -116,7 +125,7 @@ impl Window {
             }
             let message =
                 format!("left out: {measured} steps after equilibration are fewer than the samples of a window");
-            return notice(&place, message);
+            return Some(notice(&place, message));
         }
         let entry = match self.index {
             Some(index) => &mut output[self.name][index],
@@ -131,7 +140,7 @@ impl Window {
             of_steps(self.every),
             of_steps(every)
         );
-        notice(&format!("{place}.window"), message)
+        Some(notice(&format!("{place}.window"), message))
     }
 }
 
@@ -212,7 +221,10 @@ mod tests {
             assert!(error.contains("accepted: "), "{error}");
         }
         let (found, notices) = gas(200, &["time.equilibration=100", "output.viscosity.every=9"]);
+        let viscosity = found.output.viscosity.unwrap();
         assert_eq!((found.time.equilibration, found.output.diffusion.unwrap().window), (100, 20));
-        assert_eq!(notices.len(), 1, "{notices:?}");
+        assert_eq!((viscosity.every, viscosity.window, notices.len()), (9, 11, 2), "{notices:?}");
+        let often = ["time.equilibration=100", "output.viscosity.every=13"].map(str::to_owned);
+        assert!(scene::load_for("ideal-dissipative-gas", &often, Some(200)).is_err());
     }
 }
