@@ -967,7 +967,7 @@ mod tests {
             }
         });
         for expected in 0..400 {
-            let (seed, result) = laid_out.recv_timeout(Duration::from_secs(60)).expect("a chart never ends");
+            let (seed, result) = laid_out.recv_timeout(Duration::from_mins(1)).expect("a chart never ends");
             assert_eq!((seed, result), (expected, Ok(())));
         }
     }

@@ -16,12 +16,12 @@ pub(super) struct Sections<'a> {
     pub step: u64,
     /// Its file, for messages.
     path: &'a Path,
-    sections: &'a [(String, Vec<u8>)],
+    kept: &'a [(String, Vec<u8>)],
 }
 
 impl<'a> Sections<'a> {
-    pub(super) fn new(path: &'a Path, step: u64, sections: &'a [(String, Vec<u8>)]) -> Self {
-        Self { step, path, sections }
+    pub(super) fn new(path: &'a Path, step: u64, kept: &'a [(String, Vec<u8>)]) -> Self {
+        Self { step, path, kept }
     }
 
     /// The numbers of a section, of which there have to be so many; none at step 0.
@@ -49,7 +49,7 @@ impl<'a> Sections<'a> {
         if self.step == 0 {
             return Ok(None);
         }
-        let Some((_, bytes)) = self.sections.iter().find(|(known, _)| known == name) else {
+        let Some((_, bytes)) = self.kept.iter().find(|(known, _)| known == name) else {
             return Err(self.malformed(format!("its section `{name}` is missing")));
         };
         if bytes.len() as u64 != length {

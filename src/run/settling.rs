@@ -43,12 +43,11 @@ pub(super) fn unequilibrated(table: &Table, equilibration: u64) -> Option<Unequi
     }
     // Where one does not settle, a run as long as this one has to be over before averages begin.
     let settled = means.iter().map(|mean| mean.settled_from).collect::<Option<Vec<u64>>>();
-    let (wait, steps) = match settled {
-        Some(steps) => (rounded_up(steps.into_iter().max()?), None),
-        None => {
-            let wait = rounded_up(last_step);
-            (wait, Some(wait.saturating_add(rounded_up(last_step.saturating_sub(equilibration)))))
-        }
+    let (wait, steps) = if let Some(steps) = settled {
+        (rounded_up(steps.into_iter().max()?), None)
+    } else {
+        let wait = rounded_up(last_step);
+        (wait, Some(wait.saturating_add(rounded_up(last_step.saturating_sub(equilibration)))))
     };
     (!means.is_empty()).then_some(Unequilibrated { means, equilibration: wait, steps })
 }
