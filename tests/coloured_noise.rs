@@ -314,7 +314,8 @@ fn check_jumps(scene: &Scene, steps: u64) -> u64 {
         assert!((found_left - left).abs() <= timing, "{what}: off by {}", found_left - left);
         for axis in 0..3 {
             let found = f64::from(f32::from_bits(hold.force[axis]));
-            assert!((found - force[axis]).abs() < 2e-6 * strength, "{what}: force {found} for {}", force[axis]);
+            // The error of the sine and the cosine, and single precision, on any driver.
+            assert!((found - force[axis]).abs() < 1e-6 * strength, "{what}: force {found} for {}", force[axis]);
             let impulse = f64::from(state.momenta[id][axis]) * model.units.momentum;
             // Every half step is rounded to units of momentum.
             let rounding = 0.5 * elapsed * model.units.momentum + strength * model.time_step * timing;

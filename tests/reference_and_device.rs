@@ -3,6 +3,7 @@
 //! Both round impulses to 2⁻²⁴ of the thermal momentum and positions to 2⁻³² of the box. Single precision adds a relative
 //! error of some 2⁻²³ to an impulse of at most about 2²³ units, so one step may differ by a few units for each of some
 //! dozen pairs; a hundred units allows for that and for little else: the noise of a step is ten thousand times larger.
+//! That holds on every driver, for `tests/edge_of_error.rs` makes functions err as much as they may.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod support;
@@ -12,20 +13,24 @@ use mesoscope::reference::Reference;
 use support::{engine, fluid, largest_difference, observables, predictions_agree, reference, start};
 
 const UNITS: i64 = 100;
+/// The same where drivers compute powers, which are off by up to some 10⁻⁶ of themselves.
+const UNITS_OF_POWERS: i64 = 400;
 
 fn check(changes: &[&str], options: Options) {
     let scene = fluid(changes);
     let (_, state) = start(&scene);
     let mut device = engine(&scene, &state, options);
     let mut reference = reference(&scene, &state);
+    let powers = changes.iter().any(|change| change.starts_with("interactions.0.weight_exponent"));
+    let units = if powers { UNITS_OF_POWERS } else { UNITS };
     for step in 1..=3 {
         device.advance(1, 1).unwrap();
         reference.step().unwrap();
         let found = device.state().unwrap();
         let (momentum, position) = largest_difference(&found, reference.state());
-        assert!(momentum <= UNITS * step, "step {step}: momenta differ by {momentum} units ({changes:?})");
+        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units ({changes:?})");
         // In these boxes a unit of momentum moves a particle up to four units of position a step.
-        assert!(position <= 4 * UNITS * step, "step {step}: positions differ by {position} units ({changes:?})");
+        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units ({changes:?})");
         assert_eq!(found.total_momentum(), state.total_momentum(), "momentum moved ({changes:?})");
         if !found.predicted.is_empty() {
             predictions_agree(&found, reference.state());

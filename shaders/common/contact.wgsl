@@ -1,4 +1,5 @@
-// The geometry of a pair.
+// The geometry of a pair. Every term is odd or even under exchange of its particles, so both ends find the same bits
+// however a compiler contracts; so must every law that both ends compute: the rule is in common/relaxation.wgsl.
 override CUTOFF: f32;
 
 struct Contact {

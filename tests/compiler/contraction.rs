@@ -23,11 +23,17 @@ pub enum Contraction {
 #[derive(Debug, Clone, Copy)]
 struct Product {
     left: Handle<Expression>,
-    right: Handle<Expression>,
+    right: Factor,
     negative: bool,
     component: Option<u32>,
     /// The multiplication.
     by: Handle<Expression>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Factor {
+    Value(Handle<Expression>),
+    Number(f32),
 }
 
 /// Contracts in every function of a module; with double precision as a product and a sum of it, rounded once, else by the
@@ -110,7 +116,14 @@ fn product(function: &Rewriting<'_>, value: Handle<Expression>) -> Option<Produc
         }
         Expression::Binary { op: BinaryOperator::Multiply, left, right } => {
             function.shape(left).and(function.shape(right))?;
-            Some(Product { left, right, negative: false, component: None, by: value })
+            Some(Product { left, right: Factor::Value(right), negative: false, component: None, by: value })
+        }
+        // Who divides by a power of two multiplies by its inverse.
+        Expression::Binary { op: BinaryOperator::Divide, left, right } => {
+            let inverse = 1.0 / function.number(right)?;
+            let power = inverse.is_normal() && inverse.to_bits().trailing_zeros() >= f32::MANTISSA_DIGITS - 1;
+            let product = Product { left, right: Factor::Number(inverse), negative: false, component: None, by: value };
+            power.then_some(product)
         }
         Expression::Unary { op: UnaryOperator::Negate, expr } => {
             let product = product(function, expr)?;
@@ -125,7 +138,7 @@ fn product(function: &Rewriting<'_>, value: Handle<Expression>) -> Option<Produc
 }
 
 fn is_one(function: &Rewriting<'_>, value: Handle<Expression>) -> bool {
-    matches!(function.expression(value), Expression::Literal(Literal::F32(1.0)))
+    function.number(value) == Some(1.0)
 }
 
 /// ± a product ± another value.
@@ -136,9 +149,13 @@ fn fused(
     [product_negative, other_negative]: [bool; 2],
     double: bool,
 ) -> Handle<Expression> {
+    let right = match product.right {
+        Factor::Value(right) => right,
+        Factor::Number(number) => function.literal(Literal::F32(number), Shape::Scalar),
+    };
     let [mut left, mut right] = match product.component {
-        None => [product.left, product.right],
-        Some(index) => [product.left, product.right].map(|factor| function.component(factor, index)),
+        None => [product.left, right],
+        Some(index) => [product.left, right].map(|factor| function.component(factor, index)),
     };
     let mut other = other;
     let shape = function.shape(other).unwrap();
@@ -180,6 +197,7 @@ fn dot(
         sum = Some(match sum {
             None => function.binary(BinaryOperator::Multiply, left, right),
             Some(sum) => {
+                let right = Factor::Value(right);
                 let product = Product { left, right, negative: false, component: None, by: left };
                 fused(function, product, sum, [false; 2], double)
             }

@@ -134,6 +134,18 @@ impl Rewriting<'_> {
         }
     }
 
+    /// The number that a value is, where it is one that is written in the shader.
+    pub fn number(&self, handle: Handle<Expression>) -> Option<f32> {
+        let expression = match self.expression(handle) {
+            Expression::Constant(constant) => &self.module.global_expressions[self.module.constants[*constant].init],
+            other => other,
+        };
+        match expression {
+            Expression::Literal(Literal::F32(number)) => Some(*number),
+            _ => None,
+        }
+    }
+
     fn append(&mut self, expression: Expression) -> Handle<Expression> {
         let handle = self.made.expressions.append(expression, Span::UNDEFINED);
         let context = ResolveContext::with_locals(self.module, &self.made.local_variables, &self.made.arguments);
