@@ -22,12 +22,12 @@ const INK: [u8; 3] = [0x1A; 3];
 
 fn draw(name: &str, picture: &FieldPicture<'_>, style: &PlotStyle) -> RgbaImage {
     let drawn = save(&format!("field-{name}"), plotter().draw_field(picture, style).unwrap());
-    assert_eq!((drawn.width(), drawn.height()), (style.width, style.height));
+    assert_eq!((drawn.width(), drawn.height()), (style.width, style.height.unwrap_or(drawn.height())));
     drawn
 }
 
 fn small() -> PlotStyle {
-    PlotStyle { width: 800, height: 600, ..PlotStyle::default() }
+    PlotStyle { width: 800, height: Some(600), ..PlotStyle::default() }
 }
 
 fn close(pixel: [u8; 3], colour: [u8; 3], tolerance: u8) -> bool {
@@ -358,7 +358,7 @@ fn meshes_and_boxes_of_all_shapes() {
     for (width, height, scale) in
         [(1, 1, 1.0), (40, 30, 1.0), (320, 240, 1.0), (320, 240, 8.0), (2400, 600, 1.0), (600, 1600, 2.0)]
     {
-        let style = PlotStyle { width, height, scale, ..PlotStyle::default() };
+        let style = PlotStyle { width, height: Some(height), scale, ..PlotStyle::default() };
         draw(&format!("size-{width}x{height}-{scale}"), &picture, &style);
     }
 }

@@ -37,6 +37,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let model = Model::new(&scene);
     let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = notices.iter().chain(&scene::warnings(&scene)).map(ToString::to_string).collect();
+    warnings.extend(run::lettering(&scene));
     let choice = arguments.adapter.choice();
     let mut refusal = None;
     let (hardware, adapter) = match run::adapter_for(&scene, &choice) {

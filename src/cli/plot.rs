@@ -58,4 +58,4 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 const SCHEDULE: &str = "output.snapshot.every";
 
 /// What of a scene is only about the look.
-const LOOK: [&str; 2] = ["output.plot.", "output.snapshot."];
+const LOOK: [&str; 3] = ["output.plot.", "output.snapshot.", "output.fields.ranges."];

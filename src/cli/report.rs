@@ -215,6 +215,16 @@ fn results(outcome: &Outcome, directory: &str) -> String {
             rows.push(vec![label.to_owned(), value]);
         }
     }
+    for kind in summary.results.get("chain_sizes").and_then(Value::as_array).into_iter().flatten() {
+        let [species, beads] = [kind["species"].as_str().unwrap_or_default(), &kind["beads"].to_string()];
+        for (label, size) in
+            [("end-to-end distance²", "end_to_end_squared"), ("gyration radius²", "radius_of_gyration_squared")]
+        {
+            if let Some(value) = kind.as_object().and_then(|kind| mean(kind, size)) {
+                rows.push(vec![format!("{label} of `{species}` ({beads} beads)"), value]);
+            }
+        }
+    }
     for (name, circulation) in summary.results.get("circulation").and_then(Value::as_object).into_iter().flatten() {
         let Some(initial) = circulation["initial"].as_f64() else { continue };
         let change = match [&circulation["largest_relative_change"], &circulation["largest_change"]].map(Value::as_f64)
@@ -235,7 +245,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         note.push_str("  * from few samples: the error may be larger\n");
     }
     if let Some(found) = summary.unequilibrated.as_ref().filter(|_| marked('†')) {
-        note.push_str(&format!("  † not yet in equilibrium: try {}\n", found.arguments()));
+        note = format!("{note}  † not yet in equilibrium: try {}\n", found.arguments());
     }
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {

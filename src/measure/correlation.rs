@@ -204,6 +204,8 @@ pub struct WaveViscosity {
     pub autocorrelation: Vec<f64>,
     /// First lag of the fit; the last is the end of `autocorrelation`.
     pub fit_from: usize,
+    /// The fitted exponential at these lags.
+    pub fit: Vec<f64>,
 }
 
 /// Why no viscosity comes out.
@@ -335,6 +337,7 @@ pub fn shear_viscosity(
             viscosity: Coefficient { value, standard_error: jackknife_error(&replicates) },
             autocorrelation: decay.autocorrelation.clone(),
             fit_from: decay.fit_from,
+            fit: decay.fit(),
         });
     }
     let complete = without.iter().filter(|values| values.len() == waves.len());
@@ -352,6 +355,8 @@ struct Decay {
     autocorrelation: Vec<f64>,
     fit_from: usize,
     rate: f64,
+    /// Value of the fit at lag zero.
+    amplitude: f64,
 }
 
 impl Decay {
@@ -380,9 +385,15 @@ impl Decay {
         if lags < 3 {
             return Err(ViscosityError::TooCoarse { wave_number, lags });
         }
-        let rate =
-            decay_rate(&autocorrelation, fit_from, &autocorrelation).ok_or(ViscosityError::NoSignal { wave_number })?;
-        Ok(Self { autocorrelation, fit_from, rate })
+        let line =
+            decay_line(&autocorrelation, fit_from, &autocorrelation).ok_or(ViscosityError::NoSignal { wave_number })?;
+        Ok(Self { autocorrelation, fit_from, rate: -line.slope, amplitude: line.intercept.exp() })
+    }
+
+    /// The exponential at all lags that it was fitted to.
+    fn fit(&self) -> Vec<f64> {
+        let lags = self.fit_from..self.autocorrelation.len();
+        lags.map(|lag| self.amplitude * (-self.rate * lag as f64).exp()).collect()
     }
 
     /// The rates that come out when one block of time origins after the other is left out, over the same lags and with
@@ -412,7 +423,7 @@ impl Decay {
                 for (index, lag) in used.iter().enumerate().skip(1) {
                     replicate[*lag] = mean(index) / power;
                 }
-                decay_rate(&replicate, self.fit_from, &self.autocorrelation)
+                decay_line(&replicate, self.fit_from, &self.autocorrelation).map(|line| -line.slope)
             })
             .collect::<Option<Vec<f64>>>()
             .unwrap_or_default()
@@ -431,7 +442,7 @@ fn products(wave: &[&TransverseMode], lag: usize, from: usize, to: usize) -> f64
 }
 
 /// Minus the slope of log C per lag; `weights_from` is the C that sets the weights.
-fn decay_rate(autocorrelation: &[f64], from: usize, weights_from: &[f64]) -> Option<f64> {
+fn decay_line(autocorrelation: &[f64], from: usize, weights_from: &[f64]) -> Option<Line> {
     let points = (from..autocorrelation.len()).map(|lag| {
         let c = weights_from[lag];
         // Bartlett's variance is positive for 0 < C < 1; a C that noise lifts to 1 gets the weight of one just below.
@@ -439,8 +450,7 @@ fn decay_rate(autocorrelation: &[f64], from: usize, weights_from: &[f64]) -> Opt
         let weight = c * c / (1.0 - c * c + 2.0 * c * c * c.ln());
         (lag as f64, autocorrelation[lag].ln(), weight)
     });
-    let rate = -weighted_line(points)?.slope;
-    rate.is_finite().then_some(rate)
+    weighted_line(points).filter(|line| line.slope.is_finite())
 }
 
 /// The jackknife's standard error from the values with one block left out each.
@@ -456,6 +466,7 @@ pub(super) fn jackknife_error(replicates: &[f64]) -> Option<f64> {
 
 struct Line {
     slope: f64,
+    intercept: f64,
 }
 
 /// The line that minimises Σ w (y - intercept - slope x)² over (x, y, w).
@@ -472,7 +483,7 @@ fn weighted_line(points: impl Iterator<Item = (f64, f64, f64)> + Clone) -> Optio
         spread += point.2 * (point.0 - x).powi(2);
         joint += point.2 * (point.0 - x) * (point.1 - y);
     }
-    (spread > 0.0).then(|| Line { slope: joint / spread })
+    (spread > 0.0).then(|| Line { slope: joint / spread, intercept: y - joint / spread * x })
 }
 
 #[cfg(test)]

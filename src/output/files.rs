@@ -30,6 +30,8 @@ pub const DIFFUSION: &str = "diffusion.csv";
 pub const DIFFUSION_PLOT: &str = "diffusion.png";
 /// Sizes of chains.
 pub const CHAIN_SIZES: &str = "chain_sizes.csv";
+/// The plot of sizes of chains.
+pub const CHAIN_SIZES_PLOT: &str = "chain_sizes.png";
 /// The autocorrelation of transverse momentum waves.
 pub const VISCOSITY: &str = "viscosity.csv";
 /// The plot of the autocorrelation of transverse momentum waves.
@@ -94,7 +96,7 @@ pub const SHEAR_WAVE_PLOT: &str = "shear_wave.png";
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
 /// Every fixed name that a run may write.
-pub const ALL: [&str; 48] = [
+pub const ALL: [&str; 49] = [
     ENERGIES,
     ENERGIES_PLOT,
     SNAPSHOT,
@@ -107,6 +109,7 @@ pub const ALL: [&str; 48] = [
     DIFFUSION,
     DIFFUSION_PLOT,
     CHAIN_SIZES,
+    CHAIN_SIZES_PLOT,
     VISCOSITY,
     VISCOSITY_PLOT,
     VELOCITY_AUTOCORRELATION,

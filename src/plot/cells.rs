@@ -74,17 +74,23 @@ fn check(picture: &CellPicture<'_>) -> Result<(), PlotError> {
 pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme) -> Result<Canvas, PlotError> {
     check(picture)?;
     let inks = inks(theme);
-    let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
-    let page = Page::new(style);
-    let (range, cut) = picture.shown.map_or(([0.0, 1.0], false), |shown| range(shown.values));
-    let subtitle = match picture.subtitle {
-        subtitle if !cut => subtitle.to_owned(),
-        "" => "1 % of the cells are beyond the scale".to_owned(),
-        subtitle => format!("{subtitle}; 1 % of the cells are beyond the scale"),
+    let page = Page::new(style, picture.lengths);
+    let [width, height] = page.pixels();
+    let mut canvas = Canvas::new(width, height, inks.paper)?;
+    let (fitting, cut) = picture.shown.map_or(([0.0, 1.0], false), |shown| range(shown.values));
+    let given = style.range.or(cut.then_some(fitting));
+    let scale = ColorScale::new(ColorMap::Sequential, given, Some(fitting));
+    let beyond = |value: &f64| value.is_finite() && !(scale.bar.low..=scale.bar.high).contains(value);
+    let beyond = picture.shown.map_or(0, |shown| shown.values.iter().filter(|value| beyond(value)).count());
+    // In a film this would flicker; the arrowheads of the scale say it there.
+    let subtitle = match (beyond, picture.subtitle) {
+        (0, subtitle) => subtitle.to_owned(),
+        (_, subtitle) if style.range.is_some() => subtitle.to_owned(),
+        (count, "") => format!("{count} cells are beyond the scale"),
+        (count, subtitle) => format!("{subtitle}; {count} cells are beyond the scale"),
     };
-    let scale = ColorScale::new(ColorMap::Sequential, cut.then_some(range), Some(range));
     let key = match picture.shown {
-        Some(shown) => Key::Scale { name: shown.label, map: scale.bar },
+        Some(shown) => Key::scale(shown.label, [scale.bar.low, scale.bar.high], shown.values),
         None => Key::species(picture.species_names, picture.species, &inks),
     };
     let frame = page.frame(&mut canvas, [picture.title, &subtitle], &key, &inks);
@@ -115,6 +121,9 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     ] {
         canvas.line(from, to, rule, inks.ink);
     }
+    let corner = [outline.left, outline.bottom];
+    page.edge_length(&mut canvas, ("x", width), [corner, [outline.right, outline.bottom]], &inks);
+    page.edge_length(&mut canvas, ("y", height), [corner, [outline.left, outline.top]], &inks);
     page.footer(&mut canvas, &key, &inks, outline, pixels_per_length);
     Ok(canvas)
 }
@@ -233,7 +242,7 @@ mod tests {
         let tessellation = Tessellation::new([4.0, 4.0], &positions);
         let names = ["A".to_owned()];
         let picture = picture([4.0, 4.0], &positions, &tessellation, &[0; 16], &names);
-        let style = Snapshot { width: 190, height: 190, ..Snapshot::default() };
+        let style = Snapshot { width: Some(190), height: Some(190), ..Snapshot::default() };
         let canvas = lay_out(&picture, &style, Theme::Light).unwrap();
         // Cells centred on the left edge show on the right too: 20 of two triangles each. Each of 32 faces once, and once
         // more the 12 that belong to those cells, which have the lower numbers. Four lines are the box.

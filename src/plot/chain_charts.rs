@@ -67,7 +67,7 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
     for moment in taus.chunk_by(|a, b| a == b) {
         let range = first..first + moment.len();
         first = range.end;
-        let mut panel = Panel::new("Cluster", &format!("X at τ = {}", short_number(moment[0])));
+        let mut panel = Panel::new("Number of the cluster", &format!("X/X_{{0}} at τ = {}", short_number(moment[0])));
         panel.x.range = Some([0.0, last]);
         for (points, (_, name)) in all.iter().zip(CHAINS) {
             // One legend is enough.
@@ -231,7 +231,7 @@ mod tests {
         ];
         let chart = chain_profile_chart("t", "s", &table(&columns, &rows));
         assert_eq!(chart.panels.len(), 2);
-        assert_eq!(chart.panels[1].y.label, "X at τ = 10");
+        assert_eq!(chart.panels[1].y.label, "X/X_{0} at τ = 10");
         assert_eq!(chart.panels[1].series[2].points, [[0.0, 9.0], [1.0, 3.5]]);
         assert_eq!(chart.panels[0].series[1].points, [[0.0, 2.0], [1.0, 5.0]]);
     }
@@ -254,6 +254,22 @@ mod tests {
         let names: Vec<&str> = chart.panels[0].series.iter().map(|series| series.name.as_str()).collect();
         assert_eq!(names, ["n = 16", "n = 64", "plateau, from γ* = 0.500"]);
         assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.7]]);
+    }
+
+    /// A plateau, what it tends to and zero were three dashed lines alike.
+    #[test]
+    fn all_lines_of_every_chart_are_told_apart() {
+        use super::super::series_look::assert_all_told_apart;
+        let columns = ["time", "running_friction_16", "running_friction_64", "running_friction_256", "plateau_256"];
+        let memory = chain_memory_chart("memory", "", &table(&columns, &[&[1.0; 5]]));
+        assert_eq!((memory.panels[0].series.len(), memory.panels[0].references.len()), (4, 2));
+        let columns = ["tau", "limit", "micro_correlation", "dpd_correlation", "frictionless_correlation"];
+        let correlation = chain_correlation_chart("correlation", "", &table(&columns, &[&[1.0; 5]]));
+        let columns = ["tau", "micro_exact_separation_variance", "dpd_exact_separation_variance"];
+        let equilibrium = chain_equilibrium_chart("equilibrium", "", &table(&columns, &[&[1.0; 3]]));
+        for chart in [memory, correlation, equilibrium] {
+            assert_all_told_apart(&chart);
+        }
     }
 
     #[test]

@@ -25,13 +25,15 @@ pub struct Panel {
     pub series: Vec<Series>,
     /// Horizontal lines to compare with.
     pub references: Vec<ReferenceLine>,
+    /// From this x on means are taken; what comes before it is shaded.
+    pub averaged_from: Option<f64>,
 }
 
 impl Panel {
     /// An empty panel with two linear axes.
     #[must_use]
     pub fn new(x: &str, y: &str) -> Self {
-        Self { x: Axis::linear(x), y: Axis::linear(y), series: Vec::new(), references: Vec::new() }
+        Self { x: Axis::linear(x), y: Axis::linear(y), ..Self::default() }
     }
 
     /// The panel with one more series.
@@ -61,6 +63,8 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
     /// Names at 0, 1, 2 and so on instead of numbers; empty for an axis of numbers.
     pub categories: Vec<String>,
+    /// What of the data the range follows from where it is left out.
+    pub fit: AxisFit,
 }
 
 impl Axis {
@@ -74,7 +78,7 @@ impl Axis {
     #[must_use]
     pub fn categories(label: &str, names: Vec<String>) -> Self {
         let range = Some([-0.5, names.len().max(1) as f64 - 0.5]);
-        Self { label: label.to_owned(), scale: Scale::Linear, range, categories: names }
+        Self { label: label.to_owned(), scale: Scale::Linear, range, categories: names, ..Self::default() }
     }
 
     /// A logarithmic axis that fits its data; what is not positive is left out and the subtitle says so.
@@ -82,6 +86,17 @@ impl Axis {
     pub fn log(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Log, ..Self::default() }
     }
+}
+
+/// What of the data the range of a y axis follows from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AxisFit {
+    /// All of it (default).
+    #[default]
+    All,
+    /// What the series come to after the start: a transient or a lone outlier that would take more than half of the axis
+    /// leaves the panel, which is marked where it does, and the subtitle says how far. Linear axes only.
+    Settled,
 }
 
 /// How values are laid along an axis.
@@ -107,19 +122,34 @@ pub struct Series {
     pub style: SeriesStyle,
     /// What it is drawn with.
     pub ink: SeriesInk,
+    /// Its mean, drawn over the part of the panel that it was taken from.
+    pub mean: Option<Mean>,
+}
+
+/// The mean of a series.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Mean {
+    /// In units of y.
+    pub value: f64,
+    /// Its standard error, where that is known.
+    pub standard_error: Option<f64>,
+    /// Whether the error may be larger than it says.
+    pub from_few_samples: bool,
+    /// Whether it includes the way to equilibrium.
+    pub unequilibrated: bool,
 }
 
 impl Series {
     /// Points joined by a line.
     #[must_use]
     pub fn line(name: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Line, ink: SeriesInk::Own }
+        Self { name: name.to_owned(), points, ..Self::default() }
     }
 
     /// Separate markers.
     #[must_use]
     pub fn markers(name: &str, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.to_owned(), points, errors: None, style: SeriesStyle::Markers, ink: SeriesInk::Own }
+        Self { name: name.to_owned(), points, style: SeriesStyle::Markers, ..Self::default() }
     }
 
     /// The series drawn with this ink.
@@ -157,6 +187,9 @@ pub enum SeriesInk {
     /// A colour, dashes and markers that tell it from the series around it (default).
     #[default]
     Own,
+    /// The colour, dashes and markers of a number, whichever series stand around it: for a quantity that looks the same
+    /// wherever it is shown. A panel should have numbers for all its series or for none.
+    Numbered(usize),
     /// The colour of a place, 0 to 1, on a scale whose lightness rises evenly: for series in an order of their own.
     Scale {
         /// The place on the scale.

@@ -1,6 +1,6 @@
 //! From the values of a field to colours.
 
-use super::palette::{Colour, scale_colour};
+use super::palette::{Colour, linear, scale_colour};
 use super::ticks::AxisMap;
 use crate::plot::Scale;
 
@@ -123,7 +123,7 @@ fn diverging_colour(fraction: f64) -> Colour {
 }
 
 /// Björn Ottosson's Oklab (2020), in which equal distances look about equally different.
-fn srgb_from_oklab([lightness, a, b]: [f64; 3]) -> Colour {
+pub(super) fn srgb_from_oklab([lightness, a, b]: [f64; 3]) -> Colour {
     let cones = [
         lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b,
         lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b,
@@ -144,10 +144,26 @@ fn srgb_from_oklab([lightness, a, b]: [f64; 3]) -> Colour {
     ]
 }
 
+/// The inverse of [`srgb_from_oklab`].
+pub(super) fn oklab(colour: Colour) -> [f64; 3] {
+    let light = [0, 1, 2].map(|channel| f64::from(linear(colour[channel])));
+    let cone = |weights: [f64; 3]| (0..3).map(|i| weights[i] * light[i]).sum::<f64>().cbrt();
+    let cones = [
+        cone([0.412_221_470_8, 0.536_332_536_3, 0.051_445_992_9]),
+        cone([0.211_903_498_2, 0.680_699_545_1, 0.107_396_956_6]),
+        cone([0.088_302_461_9, 0.281_718_837_6, 0.629_978_700_5]),
+    ];
+    let mixed = |weights: [f64; 3]| (0..3).map(|i| weights[i] * cones[i]).sum::<f64>();
+    [
+        mixed([0.210_454_255_3, 0.793_617_785_0, -0.004_072_046_8]),
+        mixed([1.977_998_495_1, -2.428_592_205_0, 0.450_593_709_9]),
+        mixed([0.025_904_037_1, 0.782_771_766_2, -0.808_675_766_0]),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::super::palette::linear;
     use super::*;
 
     /// CIELAB, which had no part in the making of the scale.

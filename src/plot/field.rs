@@ -39,14 +39,14 @@ pub struct FieldPicture<'a> {
 }
 
 impl<'a> FieldPicture<'a> {
-    /// A field without title or curves, with axes x and y, smooth, on a sequential map that fits it.
+    /// A field without title or curves, with axes x and y in length units, smooth, on a sequential map that fits it.
     #[must_use]
     pub fn new(field: &'a Field) -> Self {
         Self {
             field,
             title: "",
             subtitle: "",
-            axes: ["x", "y"],
+            axes: ["x (length units)", "y (length units)"],
             map: ColorMap::Sequential,
             range: None,
             interpolation: Interpolation::Smooth,
@@ -112,8 +112,9 @@ pub(super) fn lay_out(picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<(
     field.check().map_err(|error| PlotError::Input(error.to_string()))?;
     let scale = ColorScale::new(picture.map, picture.range, field.extrema());
     let inks = inks(style.theme);
+    let style = &PlotStyle { height: Some(page_height(style, field.lengths)), ..style.clone() };
     let mut layout = Layout {
-        canvas: Canvas::new(style.width, style.height, inks.paper)?,
+        canvas: Canvas::new(style.width, style.height(), inks.paper)?,
         picture,
         inks,
         sizes: Sizes::new(style, 1),
@@ -123,6 +124,20 @@ pub(super) fn lay_out(picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<(
     let place = layout.draw();
     let scene = layout.scene(&place);
     Ok((layout.canvas, scene))
+}
+
+/// Height of the page: where the style leaves it out, one on which the image of a flat box, or of a tall one, fills the
+/// width.
+fn page_height(style: &PlotStyle, [wide, high]: [f64; 2]) -> u32 {
+    if let Some(height) = style.height {
+        return height;
+    }
+    let width = f64::from(style.width);
+    let label = 0.02 * style.scale * width;
+    // Ticks, labels and the colour bar beside the image; headings and the axis above and below it.
+    let filled = (width - 11.5 * label).max(0.3 * width) * high / wide + 7.5 * label;
+    let most = 0.75 * width * (high / wide).clamp(1.0, 2.0);
+    2 * (0.5 * filled.clamp(0.35 * width, most)).round() as u32
 }
 
 struct Layout<'a> {

@@ -16,7 +16,7 @@
 //! let chart = Chart { title: "A square root".to_owned(), panels: vec![panel], ..Chart::default() };
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
-//! let style = PlotStyle { width: 640, height: 400, ..PlotStyle::default() };
+//! let style = PlotStyle { width: 640, height: Some(400), ..PlotStyle::default() };
 //! let picture = Plotter::new(gpu.device(), gpu.queue())?.draw_chart(&chart, &style)?;
 //! assert_eq!(picture.dimensions(), (640, 400));
 //! # let directory = tempfile::tempdir()?;
@@ -26,43 +26,57 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod axis_range;
 mod canvas;
 mod cells;
 mod chain_charts;
 mod chart;
+mod chart_axes;
 mod chart_layout;
+mod chart_legend;
+mod chart_series;
+mod coincidence;
 mod color_map;
 mod error;
 mod field;
 mod field_renderer;
+mod numbers;
 mod overlay;
 mod palette;
 mod particles;
 mod periodic_curve;
 mod presets;
+mod quantities;
 mod renderer;
+mod series_look;
 mod series_path;
 mod snapshot_page;
+mod species_colours;
 mod text;
 mod ticks;
+mod transport_charts;
 mod voronoi_charts;
 
 pub use cells::{CellPicture, ShownValues};
 pub use chain_charts::{
     chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
 };
-pub use chart::{Axis, Chart, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
+pub use chart::{Axis, AxisFit, Chart, Mean, Panel, ReferenceLine, Scale, Series, SeriesInk, SeriesStyle};
 pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
-pub use overlay::{Curve, overlay_chart, quantity_label};
+pub use numbers::with_error;
+pub use overlay::{Curve, overlay_chart};
 pub use particles::ParticlePicture;
 pub use presets::{
-    EnergyTable, autocorrelation_chart, circulation_chart, correlation_chart, energies_chart, histogram_chart,
-    radial_distribution_chart, shallow_water_chart,
+    EnergyTable, autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, radial_distribution_chart,
+    shallow_water_chart,
 };
+pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
+pub use text::missing_glyphs;
 pub(crate) use ticks::grouped;
+pub use transport_charts::{ChainKind, Found, chain_sizes_chart, diffusion_chart, viscosity_chart};
 pub use voronoi_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 
 use crate::scene::{PlotStyle, Snapshot, Theme};
@@ -99,7 +113,7 @@ pub fn draw_chart(
 ///     subtitle: "",
 /// };
 /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
-/// let style = scene::Snapshot { width: 400, height: 300, ..scene::Snapshot::default() };
+/// let style = scene::Snapshot { width: Some(400), height: Some(300), ..scene::Snapshot::default() };
 /// let image = plot::draw_particles(gpu.device(), gpu.queue(), &picture, &style, scene::Theme::Light)?;
 /// assert_eq!(image.dimensions(), (400, 300));
 /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
@@ -128,7 +142,7 @@ pub fn draw_particles(
 /// let field = Field::from_function("height", "height h", [16, 8], [std::f64::consts::TAU, 3.0], wave);
 /// let picture = plot::FieldPicture { title: "A wave", ..plot::FieldPicture::new(&field) };
 /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
-/// let style = PlotStyle { width: 400, height: 300, ..PlotStyle::default() };
+/// let style = PlotStyle { width: 400, height: Some(300), ..PlotStyle::default() };
 /// let image = plot::draw_field(gpu.device(), gpu.queue(), &picture, &style)?;
 /// assert_eq!(image.dimensions(), (400, 300));
 /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");

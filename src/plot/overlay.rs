@@ -1,6 +1,7 @@
 //! One quantity of several runs in one chart.
 
-use super::chart::{Chart, Panel, Series, SeriesInk};
+use super::chart::{AxisFit, Chart, Panel, Series, SeriesInk};
+use super::quantities::{TIME, quantity_label};
 
 /// One quantity of one run over time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -32,7 +33,8 @@ const MOST_NAMES: usize = 12;
 /// ```
 #[must_use]
 pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, curves: Vec<Curve>) -> Chart {
-    let mut panel = Panel::new("Time (time units)", &quantity_label(quantity, relative));
+    let mut panel = Panel::new(TIME, &quantity_label(quantity, relative));
+    panel.y.fit = AxisFit::Settled;
     let scaled = |curve: &Curve| matches!(curve.ink, SeriesInk::Scale { .. });
     let on_scale = curves.iter().filter(|curve| scaled(curve)).count();
     let mut place = 0;
@@ -53,33 +55,6 @@ fn is_named(place: usize, count: usize) -> bool {
     let last = count.saturating_sub(1);
     // One that would stand close to the last gives way to it.
     place == last || place.is_multiple_of(every) && (every == 1 || last - place >= every.div_ceil(2))
-}
-
-/// The label of an axis for a column of the table of energies, with its unit.
-///
-/// ```
-/// use mesoscope::plot::quantity_label;
-/// assert_eq!(quantity_label("total_energy", false), "Total energy (energy units)");
-/// assert_eq!(quantity_label("total_energy", true), "Total energy relative to its first value");
-/// ```
-#[must_use]
-pub fn quantity_label(quantity: &str, relative: bool) -> String {
-    let spaced = quantity.replace("center", "centre").replace('_', " ");
-    let mut letters = spaced.chars();
-    let name: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
-    if relative {
-        return format!("{name} relative to its first value");
-    }
-    let unit = if quantity.contains("energy") || quantity.contains("temperature") {
-        "energy units"
-    } else if quantity.contains("velocity") {
-        "velocity units"
-    } else if quantity.contains("momentum") {
-        "momentum units"
-    } else {
-        "reduced units"
-    };
-    format!("{name} ({unit})")
 }
 
 #[cfg(test)]
@@ -115,17 +90,5 @@ mod tests {
         assert_eq!(panel.series.iter().filter(|series| !series.name.is_empty()).count(), 11 + 1);
         assert_eq!(panel.series[30].name, "limit");
         assert_eq!(panel.x.label, "Time (time units)");
-    }
-
-    #[test]
-    fn every_quantity_has_a_unit() {
-        for (quantity, label) in [
-            ("configurational_temperature", "Configurational temperature (energy units)"),
-            ("pressure", "Pressure (reduced units)"),
-            ("momentum_x", "Momentum x (momentum units)"),
-            ("center_of_mass_velocity_y", "Centre of mass velocity y (velocity units)"),
-        ] {
-            assert_eq!(quantity_label(quantity, false), label);
-        }
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Inks {
     pub grid: Colour,
     /// Lines of one chart, most distinct first: colours that stay apart for colour-blind readers.
     pub series: [Colour; 7],
-    /// Species of a snapshot; areas bear lighter colours than lines do.
+    /// The first species of a snapshot; areas bear lighter colours than lines do.
     pub species: [Colour; 8],
 }
 

@@ -1,11 +1,9 @@
 //! Pictures of the particles: what is shown, and its layout around the view of the box.
 
 use super::canvas::{Area, Canvas};
-use super::chart::Scale;
 use super::error::PlotError;
 use super::palette::{Colour, Inks, inks, scale_colour};
 use super::snapshot_page::{Key, Page};
-use super::ticks::AxisMap;
 use crate::scene::{Snapshot, SnapshotColor, Theme};
 use bytemuck::{Pod, Zeroable};
 
@@ -123,17 +121,18 @@ pub(super) fn lay_out(
 ) -> Result<(Canvas, SphereScene), PlotError> {
     check(picture, style)?;
     let inks = inks(theme);
-    let mut canvas = Canvas::new(style.width, style.height, inks.paper)?;
-    let page = Page::new(style);
-    let colouring = Colouring::new(picture, style, &inks);
-    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &colouring.key, &inks);
-
     let mut lengths = picture.lengths;
     if picture.dimension == 2 {
         lengths[2] = 0.0;
     }
     let [right, up, toward] = view(picture.dimension);
     let extent = |axis: [f64; 3]| (0..3).map(|i| axis[i].abs() * lengths[i]).sum::<f64>();
+    let page = Page::new(style, [extent(right), extent(up)]);
+    let [width, height] = page.pixels();
+    let mut canvas = Canvas::new(width, height, inks.paper)?;
+    let colouring = Colouring::new(picture, style, &inks);
+    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &colouring.key, &inks);
+
     // Spheres may stand out of a three-dimensional box; discs of a flat one are cut off at its edge.
     let overhang = if picture.dimension == 3 { 2.0 * picture.radius.min(0.1 * extent(right)) } else { 0.0 };
     let rule = page.rule;
@@ -160,6 +159,10 @@ pub(super) fn lay_out(
     canvas.end_of_background();
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
         canvas.line(project(*from), project(*to), rule, inks.ink);
+    }
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(picture.dimension as usize) {
+        let [from, to] = measured_edge(axis, picture.dimension).map(project);
+        page.edge_length(&mut canvas, (name, lengths[axis]), [from, to], &inks);
     }
     page.footer(&mut canvas, &colouring.key, &inks, outline, pixels_per_length);
 
@@ -208,6 +211,18 @@ fn box_edges(dimension: u32, toward: [f64; 3]) -> Vec<([f64; 3], [f64; 3], bool)
         }
     }
     edges
+}
+
+/// The edge along an axis beside which its length is written: at the outline of the view, below it or to its left.
+fn measured_edge(axis: usize, dimension: u32) -> [[f64; 3]; 2] {
+    let from = match (axis, dimension) {
+        (_, 2) | (0, _) => [0.0; 3],
+        (1, _) => [1.0, 0.0, 0.0],
+        _ => [0.0; 3],
+    };
+    let mut to = from;
+    to[axis] = 1.0;
+    [from, to]
 }
 
 fn instances(
@@ -264,9 +279,9 @@ impl<'a> Colouring<'a> {
     fn new(picture: &ParticlePicture<'a>, style: &Snapshot, inks: &Inks) -> Self {
         if let (SnapshotColor::Speed, Some(speeds)) = (style.color, picture.speeds) {
             let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
-            let high = if fastest > 0.0 { fastest } else { 1.0 };
-            let map = AxisMap { scale: Scale::Linear, low: 0.0, high };
-            return Self { key: Key::Scale { name: "speed", map }, speeds: Some(speeds) };
+            let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
+            let key = Key::scale("speed (length/time)", style.range.unwrap_or(fitting), speeds);
+            return Self { key, speeds: Some(speeds) };
         }
         Self { key: Key::species(picture.species_names, picture.species, inks), speeds: None }
     }

@@ -1,7 +1,8 @@
 //! The charts a run writes, made from its tables.
 
-use super::chart::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::ticks::{grouped, short_number};
+use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::quantities::{Averages, TEMPERATURE, TIME, panel, pressure_label, series, with_set_temperature};
+use super::ticks::grouped;
 
 /// The table of energies: one row per sample.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -20,113 +21,89 @@ impl EnergyTable {
         let cell = |row: &Vec<f64>, index: usize| row.get(index).copied().unwrap_or(f64::NAN);
         Some(self.rows.iter().map(|row| [cell(row, time), cell(row, value) / divisor]).collect())
     }
+
+    /// Dimensions of the box, of which each has a momentum.
+    fn dimension(&self) -> usize {
+        let momenta = self.columns.iter().filter(|name| name.starts_with("momentum_")).count();
+        if momenta == 0 { 3 } else { momenta }
+    }
 }
 
-/// Energies per particle, temperatures and pressures over time; a panel none of whose columns exist is left out.
+/// Energies per particle, temperatures and pressures over time, with their means; a panel none of whose columns exist is left
+/// out.
 ///
 /// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, `bath_energy`, `extended_energy`,
 /// `temperature`, `configurational_temperature`, `pressure` and `pressure_conservative`. `temperature` is the set kT, drawn as a
 /// reference; a value that is not finite leaves it out.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, energies_chart};
+/// use mesoscope::plot::{Averages, EnergyTable, energies_chart};
 ///
 /// let columns = ["time", "kinetic_energy", "temperature"].map(str::to_owned).to_vec();
 /// let table = EnergyTable { columns, rows: vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]] };
-/// let chart = energies_chart("A fluid", &table, 20, 1.0);
+/// let chart = energies_chart("A fluid", &table, 20, 1.0, &Averages::default());
 /// // There is no pressure in the table, and no panel for it.
 /// assert_eq!(chart.panels.len(), 2);
 /// assert_eq!(chart.panels[0].series[0].points, [[0.0, 1.5], [0.5, 1.35]]);
 /// assert_eq!(chart.panels[1].references[0].value, 1.0);
 /// ```
 #[must_use]
-pub fn energies_chart(title: &str, table: &EnergyTable, particle_count: u64, temperature: f64) -> Chart {
+pub fn energies_chart(
+    title: &str,
+    table: &EnergyTable,
+    particle_count: u64,
+    temperature: f64,
+    averages: &Averages,
+) -> Chart {
     let per_particle = particle_count.max(1) as f64;
+    let energies = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
+    let temperatures = ["temperature", "configurational_temperature"];
+    let pressures = ["pressure", "pressure_conservative"];
+    let temperatures = panel(TEMPERATURE, table, &temperatures, 1.0, averages);
     let panels = [
-        (
-            "Energy per particle (energy units)",
-            per_particle,
-            [
-                ("kinetic_energy", "kinetic"),
-                ("potential_energy", "potential"),
-                ("total_energy", "total"),
-                ("bath_energy", "baths"),
-                ("extended_energy", "total with baths"),
-            ]
-            .as_slice(),
-        ),
-        (
-            "Temperature (energy units)",
-            1.0,
-            &[("temperature", "kinetic"), ("configurational_temperature", "configurational")],
-        ),
-        ("Pressure (reduced units)", 1.0, &[("pressure", "total"), ("pressure_conservative", "conservative part")]),
+        panel("Energy per particle (energy units)", table, &energies, per_particle, averages),
+        if temperatures.series.is_empty() { temperatures } else { with_set_temperature(temperatures, temperature) },
+        panel(&pressure_label(table.dimension()), table, &pressures, 1.0, averages),
     ];
-    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    for (label, divisor, columns) in panels {
-        let mut panel = Panel::new("Time (time units)", label);
-        for (column, name) in columns {
-            if let Some(points) = table.points(column, divisor) {
-                panel.series.push(Series::line(name, points));
-            }
-        }
-        if panel.series.is_empty() {
-            continue;
-        }
-        if label.starts_with("Temperature") && temperature.is_finite() {
-            panel = panel.with_reference(&format!("set, kT = {}", short_number(temperature)), temperature);
-        }
-        chart.panels.push(panel);
-    }
     let plural = if particle_count == 1 { "particle" } else { "particles" };
-    chart.subtitle = format!("{} {plural}", grouped(particle_count));
-    chart
+    Chart {
+        title: title.to_owned(),
+        subtitle: format!("{} {plural}", grouped(particle_count)),
+        panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
+    }
 }
 
 /// Energies of shallow water over time, the change of the conserved one relative to its first value, and, in a bath, the
-/// temperature.
+/// temperature; with their means.
 ///
 /// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, and with a bath `bath_energy`,
-/// `extended_energy` and `temperature`, of which `temperature` is the set kT.
+/// `extended_energy` and `temperature`, of which `temperature` is the set kT. Masses are in units of the water that a node
+/// holds at the mean depth.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, shallow_water_chart};
+/// use mesoscope::plot::{Averages, EnergyTable, shallow_water_chart};
 ///
 /// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
-/// let chart = shallow_water_chart("A vortex", &EnergyTable { columns, rows }, None);
+/// let chart = shallow_water_chart("A vortex", &EnergyTable { columns, rows }, None, &Averages::default());
 /// let change = &chart.panels[1].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
 #[must_use]
-pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option<f64>) -> Chart {
-    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    let mut energies = Panel::new("Time (time units)", "Energy (energy units)");
-    for (column, name) in [
-        ("kinetic_energy", "kinetic"),
-        ("potential_energy", "potential"),
-        ("total_energy", "kinetic and potential"),
-        ("bath_energy", "bath"),
-        ("extended_energy", "with the bath"),
-    ] {
-        if let Some(points) = table.points(column, 1.0) {
-            energies.series.push(Series::line(name, points));
-        }
-    }
-    chart.panels.push(energies);
-    if let Some(set) = temperature {
-        let points = table.points("temperature", 1.0).unwrap_or_default();
-        let panel = Panel::new("Time (time units)", "Temperature (energy units)");
-        let panel = panel.with(Series::line("kinetic", points));
-        chart.panels.push(panel.with_reference(&format!("set, kT = {}", short_number(set)), set));
+pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option<f64>, averages: &Averages) -> Chart {
+    let columns = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
+    let unit = "(mass of a node × (length units/time unit)²)";
+    let energies = panel(&format!("Energy {unit}"), table, &columns, 1.0, averages);
+    let second = if let Some(set) = temperature {
+        with_set_temperature(panel(&format!("Temperature {unit}"), table, &["temperature"], 1.0, averages), set)
     } else {
         let points = table.points("total_energy", 1.0).unwrap_or_default();
         let first = points.first().map_or(f64::NAN, |point| point[1]);
         let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
-        let panel = Panel::new("Time (time units)", "Relative change of the energy");
-        chart.panels.push(panel.with(Series::line("energy", change)).with_reference("none", 0.0));
-    }
-    chart
+        let panel = Panel::new(TIME, "Relative change of the energy");
+        panel.with(series("total_energy", change)).with_reference("no change", 0.0)
+    };
+    Chart { title: title.to_owned(), panels: vec![energies, second], ..Chart::default() }
 }
 
 /// Changes of the circulations of material loops over time, relative to their first values unless one of these is 0.
@@ -149,9 +126,12 @@ pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
         .collect();
     let first = |points: &[[f64; 2]]| points.first().map_or(f64::NAN, |point| point[1]);
     let relative = loops.iter().all(|(_, points)| first(points) != 0.0);
-    let label =
-        if relative { "Relative change of the circulation" } else { "Change of the circulation (length²/time)" };
-    let mut panel = Panel::new("Time (time units)", label).with_reference("none", 0.0);
+    let label = if relative {
+        "Relative change of the circulation"
+    } else {
+        "Change of the circulation (length units²/time unit)"
+    };
+    let mut panel = Panel::new(TIME, label).with_reference("no change", 0.0);
     for (name, points) in &loops {
         let first = first(points);
         let scale = if relative { first } else { 1.0 };
@@ -182,47 +162,15 @@ pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64])
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }
 
-/// Mean squared displacement (on logarithmic axes) and velocity autocorrelation over the lag; an empty list leaves its
-/// panel out.
-///
-/// ```
-/// use mesoscope::plot::correlation_chart;
-///
-/// let lags = [0.0, 0.1, 0.2];
-/// let both = correlation_chart("Diffusion", &lags, &[0.0, 0.02, 0.06], &[3.0, 2.2, 1.7]);
-/// let one = correlation_chart("Diffusion", &lags, &[0.0, 0.02, 0.06], &[]);
-/// assert_eq!((both.panels.len(), one.panels.len()), (2, 1));
-/// ```
-#[must_use]
-pub fn correlation_chart(title: &str, lags: &[f64], displacement: &[f64], autocorrelation: &[f64]) -> Chart {
-    let series = |name: &str, values: &[f64], first: f64| {
-        // At lag zero the displacement is zero by definition and has no logarithm.
-        let pairs = lags.iter().zip(values).filter(|(lag, _)| **lag > first || first < 0.0);
-        Series::line(name, pairs.map(|(lag, value)| [*lag, *value]).collect())
-    };
-    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    if !displacement.is_empty() {
-        let mut panel = Panel::new("Lag (time units)", "Mean squared displacement (length units²)");
-        panel.x = Axis::log("Lag (time units)");
-        panel.y = Axis::log("Mean squared displacement (length units²)");
-        chart.panels.push(panel.with(series("displacement", displacement, 0.0)));
-    }
-    if !autocorrelation.is_empty() {
-        let panel = Panel::new("Lag (time units)", "Velocity autocorrelation (velocity units²)");
-        chart.panels.push(panel.with(series("autocorrelation", autocorrelation, -1.0)).with_reference("zero", 0.0));
-    }
-    chart
-}
-
-/// A normalised autocorrelation of a `quantity` over the lag, with its errors and the curve fitted to it, of which an
-/// empty list leaves the curve out.
+/// A normalised autocorrelation of a `quantity` over the lag, given by lags, values and errors, with the curve fitted to it,
+/// given by name and values, of which an empty list leaves the curve out.
 ///
 /// ```
 /// use mesoscope::plot::autocorrelation_chart;
 ///
 /// let (lags, values, errors) = ([0.0, 0.1, 0.2], [1.0, 0.62, 0.35], [0.0, 0.02, 0.02]);
 /// let fit = lags.map(|lag: f64| (-5.0 * lag).exp());
-/// let chart = autocorrelation_chart("A fluid", "velocity", &lags, &values, &errors, &fit);
+/// let chart = autocorrelation_chart("A fluid", "velocity", (&lags, &values, &errors), ("exp(−5t)", &fit));
 /// assert_eq!(chart.panels[0].y.label, "Normalised velocity autocorrelation");
 /// assert_eq!(chart.panels[0].series.len(), 2);
 /// ```
@@ -230,10 +178,8 @@ pub fn correlation_chart(title: &str, lags: &[f64], displacement: &[f64], autoco
 pub fn autocorrelation_chart(
     title: &str,
     quantity: &str,
-    lags: &[f64],
-    values: &[f64],
-    errors: &[f64],
-    fit: &[f64],
+    (lags, values, errors): (&[f64], &[f64], &[f64]),
+    (fit_name, fit): (&str, &[f64]),
 ) -> Chart {
     let points = |values: &[f64]| lags.iter().zip(values).map(|(lag, value)| [*lag, *value]).collect::<Vec<_>>();
     let mut panel = Panel::new("Lag (time units)", &format!("Normalised {quantity} autocorrelation"));
@@ -249,7 +195,7 @@ pub fn autocorrelation_chart(
     if !fit.is_empty() {
         // Over separate points; under a line, which it would hide.
         let ink = SeriesInk::Ink { pattern: usize::from(!few) };
-        panel.series.insert(usize::from(!few), Series::line("fit", points(fit)).with_ink(ink));
+        panel.series.insert(usize::from(!few), Series::line(fit_name, points(fit)).with_ink(ink));
     }
     panel = panel.with_reference("zero", 0.0);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
@@ -277,8 +223,9 @@ pub fn histogram_chart(
     densities: &[f64],
     (name, compared): (&str, &[[f64; 2]]),
 ) -> Chart {
-    let unit = if quantity == "acceleration" { "length units per time unit²" } else { "length units per time unit" };
-    let mut panel = Panel::new(&format!("{} ({unit})", capitalised(quantity)), "Probability density");
+    let unit = if quantity == "acceleration" { "length units/time unit²" } else { "length units/time unit" };
+    let mut panel =
+        Panel::new(&format!("{} ({unit})", capitalised(quantity)), &format!("Probability density (1/({unit}))"));
     let steps = edges.windows(2).zip(densities).flat_map(|(edge, density)| edge.iter().map(|x| [*x, *density]));
     panel.series.push(Series::line("histogram", steps.collect()));
     panel.series.push(Series::line(name, compared.to_vec()).with_ink(SeriesInk::Ink { pattern: 1 }));
@@ -313,7 +260,7 @@ mod tests {
     #[test]
     fn columns_decide_the_panels() {
         let table = table(&["step", "time", "pressure", "kinetic_energy"], &[&[1.0, 0.5, 23.0, 30.0], &[2.0, 1.0]]);
-        let chart = energies_chart("a run", &table, 10, 1.0);
+        let chart = energies_chart("a run", &table, 10, 1.0, &Averages::default());
         assert_eq!(chart.panels.len(), 2);
         assert_eq!(chart.panels[0].series[0].points[0], [0.5, 3.0]);
         assert!(chart.panels[0].series[0].points[1][1].is_nan());
@@ -323,35 +270,62 @@ mod tests {
 
     #[test]
     fn the_set_temperature_is_a_reference() {
-        let chart = energies_chart("a run", &table(&["time", "temperature"], &[&[0.0, 1.1]]), 0, 1.5);
+        let chart =
+            energies_chart("a run", &table(&["time", "temperature"], &[&[0.0, 1.1]]), 0, 1.5, &Averages::default());
         assert_eq!(chart.panels[0].references[0].label, "set, kT = 1.5");
         assert_eq!(chart.panels[0].references[0].value, 1.5);
-        let without = energies_chart("a run", &table(&["time", "temperature"], &[&[0.0, 1.1]]), 0, f64::NAN);
+        let without = energies_chart(
+            "a run",
+            &table(&["time", "temperature"], &[&[0.0, 1.1]]),
+            0,
+            f64::NAN,
+            &Averages::default(),
+        );
         assert!(without.panels[0].references.is_empty());
     }
 
     #[test]
-    fn a_table_without_time_has_no_panels() {
-        assert!(energies_chart("a run", &table(&["pressure"], &[&[1.0]]), 1, 1.0).panels.is_empty());
+    fn all_lines_of_energies_are_told_apart() {
+        use super::super::series_look::assert_all_told_apart;
+        let columns = [
+            "time",
+            "kinetic_energy",
+            "potential_energy",
+            "total_energy",
+            "bath_energy",
+            "extended_energy",
+            "temperature",
+            "configurational_temperature",
+            "pressure",
+            "pressure_conservative",
+            "momentum_x",
+            "momentum_y",
+        ];
+        let table = table(&columns, &[&[1.0; 12]]);
+        let chart = energies_chart("a run", &table, 1, 1.0, &Averages::default());
+        assert_eq!(chart.panels[2].y.label, "Pressure (energy units/length unit²)");
+        assert_all_told_apart(&chart);
+        assert_all_told_apart(&shallow_water_chart("water", &table, Some(1.0), &Averages::default()));
     }
 
     #[test]
-    fn logarithmic_panels_start_after_lag_zero() {
-        let chart = correlation_chart("a run", &[0.0, 1.0], &[0.0, 2.0], &[3.0, 0.1]);
-        assert_eq!(chart.panels[0].series[0].points, [[1.0, 2.0]]);
-        assert_eq!(chart.panels[1].series[0].points.len(), 2);
+    fn a_table_without_time_has_no_panels() {
+        assert!(
+            energies_chart("a run", &table(&["pressure"], &[&[1.0]]), 1, 1.0, &Averages::default()).panels.is_empty()
+        );
     }
 
     #[test]
     fn a_fit_is_a_line_over_points_with_errors() {
-        let chart = autocorrelation_chart("a run", "velocity", &[0.0, 1.0], &[1.0, 0.5], &[0.0, 0.1], &[1.0, 0.6]);
+        let chart =
+            autocorrelation_chart("a run", "velocity", (&[0.0, 1.0], &[1.0, 0.5], &[0.0, 0.1]), ("fit", &[1.0, 0.6]));
         let [fit, measured] = &chart.panels[0].series[..] else { panic!("two series") };
         assert_eq!((fit.style, fit.points[1], &fit.errors), (SeriesStyle::Line, [1.0, 0.6], &None));
         assert_eq!((measured.style, measured.points[1]), (SeriesStyle::Markers, [1.0, 0.5]));
         assert_eq!(measured.errors, Some(vec![0.0, 0.1]));
-        let lone = autocorrelation_chart("a run", "force", &[0.0, 1.0], &[1.0, 0.5], &[f64::NAN; 2], &[]);
+        let lone = autocorrelation_chart("a run", "force", (&[0.0, 1.0], &[1.0, 0.5], &[f64::NAN; 2]), ("", &[]));
         assert_eq!((lone.panels[0].series.len(), &lone.panels[0].series[0].errors), (1, &None));
-        let long = autocorrelation_chart("a run", "force", &[0.0; 100], &[1.0; 100], &[0.1; 100], &[]);
+        let long = autocorrelation_chart("a run", "force", (&[0.0; 100], &[1.0; 100], &[0.1; 100]), ("", &[]));
         assert_eq!(long.panels[0].series[0].style, SeriesStyle::Band);
     }
 

@@ -126,12 +126,11 @@ impl Plotter {
     /// [`PlotError::Size`] if the adapter has no texture that large, [`PlotError::Input`] if a series has errors but
     /// not one per point, [`PlotError::TypeTooLarge`] if `scale` is excessive, and what the device reports.
     pub fn draw_chart(&self, chart: &Chart, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
-        self.check_size(style.width, style.height)?;
         self.paint(&chart_layout::lay_out(chart, style)?, &Content::Nothing)
     }
 
-    /// Draws the particles into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same
-    /// bytes on one adapter and driver.
+    /// Draws the particles into an sRGB image of the size that `style` says, or the box asks for. The same input gives
+    /// the same bytes on one adapter and driver.
     ///
     /// # Errors
     /// [`PlotError::Size`] if the adapter has no texture that large, [`PlotError::Input`] if the lists of the picture
@@ -142,7 +141,6 @@ impl Plotter {
         style: &Snapshot,
         theme: Theme,
     ) -> Result<RgbaImage, PlotError> {
-        self.check_size(style.width, style.height)?;
         let (canvas, scene) = particles::lay_out(picture, style, theme)?;
         self.paint(&canvas, &Content::Particles(&scene))
     }
@@ -159,7 +157,6 @@ impl Plotter {
         style: &Snapshot,
         theme: Theme,
     ) -> Result<RgbaImage, PlotError> {
-        self.check_size(style.width, style.height)?;
         self.paint(&cells::lay_out(picture, style, theme)?, &Content::Nothing)
     }
 
@@ -171,7 +168,6 @@ impl Plotter {
     /// large as the mesh or the parts of the field do not fit together, [`PlotError::TypeTooLarge`] if `scale` is
     /// excessive, and what the device reports.
     pub fn draw_field(&self, picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
-        self.check_size(style.width, style.height)?;
         let limit = self.device.limits().max_texture_dimension_2d;
         let [kx, ky] = picture.field.nodes;
         if kx.max(ky) > limit as usize {
@@ -191,6 +187,7 @@ impl Plotter {
     }
 
     fn paint(&self, canvas: &Canvas, content: &Content<'_>) -> Result<RgbaImage, PlotError> {
+        self.check_size(canvas.width, canvas.height)?;
         let target = checked(&self.device, "picture", || {
             self.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("plot: picture"),

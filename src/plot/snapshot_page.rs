@@ -1,15 +1,26 @@
 //! What stands around the box in a snapshot: headings, the key to the colours, a scale bar.
 
 use super::canvas::{Anchor, Area, Canvas, Type};
+use super::chart::Scale;
 use super::palette::{Colour, Inks, scale_colour};
+use super::species_colours::species_colours;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{AxisMap, grouped, nice_length, short_number, ticks};
 use crate::scene::Snapshot;
 
 /// What the colours of a picture mean.
 pub(super) enum Key<'a> {
-    Species { names: &'a [String], counts: Vec<u64>, colours: [Colour; 8] },
-    Scale { name: &'a str, map: AxisMap },
+    Species {
+        names: &'a [String],
+        counts: Vec<u64>,
+        colours: Vec<Colour>,
+    },
+    /// Values on a scale, and whether some lie beyond its lower and its upper end.
+    Scale {
+        name: &'a str,
+        map: AxisMap,
+        beyond: [bool; 2],
+    },
 }
 
 impl<'a> Key<'a> {
@@ -19,7 +30,16 @@ impl<'a> Key<'a> {
         for species in species {
             counts[*species as usize] += 1;
         }
-        Self::Species { names, counts, colours: inks.species }
+        Self::Species { names, counts, colours: species_colours(inks, names.len()) }
+    }
+
+    /// Values on a scale from the first to the second end of a range.
+    pub(super) fn scale(name: &'a str, [low, high]: [f64; 2], values: &[f64]) -> Self {
+        let any = |outside: &dyn Fn(f64) -> bool| values.iter().any(|value| value.is_finite() && outside(*value));
+        // What an end rounds to does not lie beyond it.
+        let slack = 1e-9 * (high - low);
+        let beyond = [any(&|value| value < low - slack), any(&|value| value > high + slack)];
+        Self::Scale { name, map: AxisMap { scale: Scale::Linear, low, high }, beyond }
     }
 
     /// The colour of a species; on a scale, that of its lower end.
@@ -31,8 +51,15 @@ impl<'a> Key<'a> {
     }
 }
 
-/// Rows of species below a picture, at most.
-const LEGEND_ROWS: usize = 6;
+/// Part of a page that a legend takes, at most, and sizes of its type, of which the largest is taken that fits.
+const LEGEND_PART: f64 = 0.3;
+const LEGEND_SIZES: [f64; 5] = [1.0, 0.85, 0.7, 0.58, 0.48];
+/// The least side of a page with text: nobody could read it on a thumbnail.
+const CAPTIONED: f64 = 200.0;
+/// The longer side of a page whose size is left out.
+const LONGER_SIDE: f64 = 1200.0;
+/// Pages that follow their box are no flatter and no narrower than this.
+const LEAST_RATIO: f64 = 0.4;
 
 /// Sizes of everything around the box, in pixels.
 pub(super) struct Page {
@@ -43,14 +70,16 @@ pub(super) struct Page {
     label: f64,
     pub(super) rule: f64,
     gap: f64,
-    /// A thumbnail has no text: nobody could read it.
     captioned: bool,
 }
 
 impl Page {
-    pub(super) fn new(style: &Snapshot) -> Self {
-        let (width, height) = (f64::from(style.width), f64::from(style.height));
-        let unit = width.min(height) / 1200.0;
+    /// The page of a view with these extents along its width and its height.
+    pub(super) fn new(style: &Snapshot, shape: [f64; 2]) -> Self {
+        let [width, height] = size(style, shape);
+        let exact = style.width.is_some() && style.height.is_some();
+        let side = if exact { width.min(height) } else { width.max(height) };
+        let unit = side / LONGER_SIDE;
         Self {
             width,
             height,
@@ -59,7 +88,7 @@ impl Page {
             label: (32.0 * unit).max(6.0),
             rule: (3.0 * unit).max(1.0),
             gap: 14.0 * unit,
-            captioned: width.min(height) >= 200.0,
+            captioned: width.min(height) >= CAPTIONED,
         }
     }
 
@@ -69,10 +98,55 @@ impl Page {
 
     /// Writes the headings; returns the place of the box between them and the footer.
     pub(super) fn frame(&self, canvas: &mut Canvas, headings: [&str; 2], key: &Key<'_>, inks: &Inks) -> Area {
-        let top = if self.captioned { self.headings(canvas, headings, inks) } else { self.margin };
-        let footer = if self.captioned { self.footer_height(canvas, key) } else { 0.0 };
-        let bottom = self.height - self.margin - footer;
-        Area { left: self.margin, top, right: self.width - self.margin, bottom }
+        if !self.captioned {
+            let [right, bottom] = [self.width, self.height].map(|side| side - self.margin);
+            return Area { left: self.margin, top: self.margin, right, bottom };
+        }
+        let top = self.headings(canvas, headings, inks);
+        let bottom = self.height - self.margin - self.footer_height(canvas, key) - self.beside();
+        let aside = self.margin + self.beside();
+        Area { left: aside, top, right: self.width - aside, bottom }
+    }
+
+    /// Room for the lengths of edges beside the box.
+    fn beside(&self) -> f64 {
+        1.3 * self.label
+    }
+
+    /// Writes the length of an edge of the box outside it, at its middle: below an edge that leads down from the view, else to
+    /// its left.
+    pub(super) fn edge_length(
+        &self,
+        canvas: &mut Canvas,
+        (name, length): (&str, f64),
+        [from, to]: [[f64; 2]; 2],
+        inks: &Inks,
+    ) {
+        if !self.captioned {
+            return;
+        }
+        let style = Type { size: 0.85 * self.label, ..self.text(inks.muted) };
+        let text = format!("L_{{{name}}} = {}", short_number(format!("{length:.4e}").parse().unwrap_or(length)));
+        let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
+        let off = 0.45 * self.label;
+        if (to[0] - from[0]).abs() < 1e-6 * (to[1] - from[1]).abs() {
+            canvas.text_upwards(&text, [middle[0] - off, middle[1]], Anchor::Middle, style);
+            return;
+        }
+        // Clear of an edge that rises to the right or to the left, or lies flat.
+        let rise = (to[1] - from[1]) / (to[0] - from[0]);
+        let (anchor, shift) = match rise {
+            rise if rise > 0.05 => (Anchor::End, -off),
+            rise if rise < -0.05 => (Anchor::Start, off),
+            _ => (Anchor::Middle, 0.0),
+        };
+        let baseline = middle[1] + 0.7 * off + CAPITAL_HEIGHT * style.size;
+        canvas.text(&text, [middle[0] + shift, baseline], anchor, style);
+    }
+
+    /// Width and height in pixels.
+    pub(super) fn pixels(&self) -> [u32; 2] {
+        [self.width, self.height].map(|side| side.round() as u32)
     }
 
     fn headings(&self, canvas: &mut Canvas, [title, subtitle]: [&str; 2], inks: &Inks) -> f64 {
@@ -94,16 +168,56 @@ impl Page {
         1.35 * self.label
     }
 
-    /// Species in rows that leave room for the scale bar beside the first.
-    fn legend_rows(&self, canvas: &Canvas, names: &[String], counts: &[u64]) -> Vec<Vec<(String, f64)>> {
-        let room = 0.66 * (self.width - 2.0 * self.margin);
+    /// Species in rows, the first of which leave room for the scale bar beside them, and the size of their type.
+    fn legend(&self, canvas: &Canvas, names: &[String], counts: &[u64]) -> (f64, Vec<Vec<(String, f64)>>) {
+        let most = (LEGEND_PART * self.height).max(2.0 * self.line());
+        let rows_of = |size: f64| {
+            let texts: Vec<(String, f64)> =
+                names.iter().zip(counts).map(|(name, count)| self.legend_entry(canvas, name, *count, size)).collect();
+            let whole = texts.iter().zip(names).all(|((text, _), name)| text.starts_with(name.as_str()));
+            (self.legend_rows(texts, size), whole)
+        };
+        // A legend must not crowd out the picture, and names are better small than cut.
+        let fits = |size: &f64| {
+            let (rows, whole) = rows_of(*size);
+            rows.len() as f64 * 1.35 * size <= most && whole
+        };
+        let sizes = LEGEND_SIZES.map(|part| part * self.label);
+        let size = sizes.into_iter().find(fits).unwrap_or(sizes[sizes.len() - 1]);
+        let (mut rows, _) = rows_of(size);
+        let room = ((most / (1.35 * size)) as usize).max(1);
+        let left_out: usize = rows.iter().skip(room).map(Vec::len).sum();
+        rows.truncate(room);
+        if left_out > 0
+            && let Some(last) = rows.last_mut()
+        {
+            // Its place is that of the last species.
+            let replaced = usize::from(last.pop().is_some());
+            last.push((format!("and {} more species", left_out + replaced), 0.0));
+        }
+        (size, rows)
+    }
+
+    /// The name of a species with its count, and the room that it needs.
+    fn legend_entry(&self, canvas: &Canvas, name: &str, count: u64, size: f64) -> (String, f64) {
+        let room = self.legend_room(0, size) - 1.2 * size;
+        let text = format!("{name} ({})", grouped(count));
+        let text = canvas.typesetter.shorten(&text, Weight::Regular, size, room);
+        let width = canvas.typesetter.width(&text, Weight::Regular, size) + 2.2 * size;
+        (text, width)
+    }
+
+    /// Width of a row of the legend: the scale bar stands beside the first.
+    fn legend_room(&self, row: usize, size: f64) -> f64 {
+        let beside_the_bar = row as f64 * 1.35 * size < 2.0 * self.line();
+        (if beside_the_bar { 0.66 } else { 1.0 }) * (self.width - 2.0 * self.margin)
+    }
+
+    fn legend_rows(&self, entries: Vec<(String, f64)>, size: f64) -> Vec<Vec<(String, f64)>> {
         let mut rows: Vec<Vec<(String, f64)>> = Vec::new();
         let mut used = f64::INFINITY;
-        for (name, count) in names.iter().zip(counts) {
-            let text = format!("{name} ({})", grouped(*count));
-            let text = canvas.typesetter.shorten(&text, Weight::Regular, self.label, room - 1.2 * self.label);
-            let width = canvas.typesetter.width(&text, Weight::Regular, self.label) + 2.2 * self.label;
-            if used + width > room {
+        for (text, width) in entries {
+            if rows.is_empty() || used + width > self.legend_room(rows.len() - 1, size) {
                 rows.push(Vec::new());
                 used = 0.0;
             }
@@ -112,25 +226,18 @@ impl Page {
                 row.push((text, width));
             }
         }
-        // A legend must not crowd out the picture.
-        let left_out: usize = rows.iter().skip(LEGEND_ROWS).map(Vec::len).sum();
-        rows.truncate(LEGEND_ROWS);
-        if left_out > 0
-            && let Some(last) = rows.last_mut()
-        {
-            // Its place is that of the last species.
-            let replaced = usize::from(last.pop().is_some());
-            last.push((format!("and {} more species", left_out + replaced), 0.0));
-        }
         rows
     }
 
     fn footer_height(&self, canvas: &Canvas, key: &Key<'_>) -> f64 {
-        let lines = match key {
-            Key::Species { names, counts, .. } => self.legend_rows(canvas, names, counts).len().max(1) as f64,
-            Key::Scale { .. } => 1.0,
+        let legend = match key {
+            Key::Species { names, counts, .. } => {
+                let (size, rows) = self.legend(canvas, names, counts);
+                rows.len() as f64 * 1.35 * size
+            }
+            Key::Scale { .. } => 0.0,
         };
-        self.gap + (lines * self.line()).max(2.0 * self.line())
+        self.gap + legend.max(2.0 * self.line())
     }
 
     /// Draws the key to the colours and a scale bar below a box with this outline.
@@ -150,31 +257,45 @@ impl Page {
         match key {
             Key::Species { names, counts, colours } => {
                 let mut species = 0;
-                for (row, entries) in self.legend_rows(canvas, names, counts).into_iter().enumerate() {
-                    let y = top + (row as f64 + 0.5) * self.line();
+                let (size, rows) = self.legend(canvas, names, counts);
+                let style = Type { size, ..style };
+                for (row, entries) in rows.into_iter().enumerate() {
+                    let y = top + (row as f64 + 0.5) * 1.35 * size;
                     let mut x = self.margin;
                     for (text, width) in entries {
                         if width > 0.0 {
-                            let radius = 0.36 * self.label;
+                            let radius = 0.36 * size;
                             canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
                         }
-                        canvas.text_centred(&text, [x + 1.1 * self.label, y], Anchor::Start, style);
+                        canvas.text_centred(&text, [x + 1.1 * size, y], Anchor::Start, style);
                         x += width;
                         species += 1;
                     }
                 }
             }
-            Key::Scale { name, map } => self.colour_bar(canvas, name, map, top, style),
+            Key::Scale { name, map, beyond } => self.colour_bar(canvas, (name, map, *beyond), top, style),
         }
         self.scale_bar(canvas, top, outline, pixels_per_length, style);
     }
 
-    fn colour_bar(&self, canvas: &mut Canvas, name: &str, map: &AxisMap, top: f64, style: Type) {
+    fn colour_bar(&self, canvas: &mut Canvas, (name, map, beyond): (&str, &AxisMap, [bool; 2]), top: f64, style: Type) {
         let y = top + 0.5 * self.line();
-        let left = self.margin + canvas.typesetter.width(name, style.weight, style.size) + self.gap;
-        let width = 0.42 * (self.width - 2.0 * self.margin);
         let height = 0.8 * self.label;
-        canvas.text_centred(name, [self.margin, y], Anchor::Start, style);
+        let inner = self.width - 2.0 * self.margin;
+        let name = canvas.typesetter.shorten(name, style.weight, style.size, 0.42 * inner);
+        // Arrowheads at the ends have their place whether there are any or not.
+        let arrowhead = 0.9 * height;
+        let left = self.margin + canvas.typesetter.width(&name, style.weight, style.size) + self.gap + arrowhead;
+        let room = self.margin + 0.7 * inner - left - arrowhead;
+        let width = (0.4 * inner).min(room).max(0.15 * inner);
+        canvas.text_centred(&name, [self.margin, y], Anchor::Start, style);
+        for (shown, end, direction, fraction) in [(beyond[0], left, -1.0, 0.0), (beyond[1], left + width, 1.0, 1.0)] {
+            if shown {
+                let radius = 0.58 * height;
+                let angle = if direction < 0.0 { std::f64::consts::PI } else { 0.0 };
+                canvas.polygon([end + direction * 0.55 * radius, y], radius, 3, angle, scale_colour(fraction));
+            }
+        }
         let columns = width.ceil().max(1.0) as u32;
         for column in 0..columns {
             let from = left.round() + f64::from(column);
@@ -191,7 +312,7 @@ impl Page {
             canvas.text(text, [x, baseline], Anchor::Middle, style);
         }
         if let Some(multiplier) = &marks.multiplier {
-            canvas.text_centred(multiplier, [left + width + self.gap, y], Anchor::Start, style);
+            canvas.text_centred(multiplier, [left + width + self.gap + arrowhead, y], Anchor::Start, style);
         }
     }
 
@@ -210,5 +331,77 @@ impl Page {
             canvas.vertical_rule(x, y - 0.55 * self.gap, y + 0.55 * self.gap, self.rule, style.colour);
         }
         canvas.text(&text, [middle, y + self.gap + CAPITAL_HEIGHT * self.label], Anchor::Middle, style);
+    }
+}
+
+/// Width and height of the page: what the style says, and else what the shape of the view asks for.
+fn size(style: &Snapshot, shape: [f64; 2]) -> [f64; 2] {
+    let given = [style.width, style.height].map(|side| side.map(f64::from));
+    if let [Some(width), Some(height)] = given {
+        return [width, height];
+    }
+    let longer = given[0].or(given[1]).unwrap_or(LONGER_SIDE);
+    let unit = longer / LONGER_SIDE;
+    // Headings of two lines, the footer and margins, as on a page of this unit; a thumbnail has margins alone.
+    let captions = longer >= CAPTIONED;
+    let [beside, above] = if captions { [140.0 * unit, 300.0 * unit] } else { [56.0 * unit; 2] };
+    let ratio = (shape[1] / shape[0]).clamp(1e-3, 1e3);
+    let height_of = |width: f64| (width - beside).max(1.0) * ratio + above;
+    let width_of = |height: f64| (height - above).max(1.0) / ratio + beside;
+    let [width, height] = match given {
+        [Some(width), None] => [width, height_of(width).clamp(LEAST_RATIO * width, width / LEAST_RATIO)],
+        [None, Some(height)] => [width_of(height).clamp(LEAST_RATIO * height, height / LEAST_RATIO), height],
+        _ if height_of(longer) <= longer => [longer, height_of(longer).max(LEAST_RATIO * longer)],
+        _ => [width_of(longer).max(LEAST_RATIO * longer), longer],
+    };
+    // Codecs of films want even sides.
+    let even = |side: f64, given: Option<f64>| given.unwrap_or(2.0 * (0.5 * side).round());
+    [even(width, given[0]), even(height, given[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pixels(width: Option<u32>, height: Option<u32>, shape: [f64; 2]) -> [u32; 2] {
+        Page::new(&Snapshot { width, height, ..Snapshot::default() }, shape).pixels()
+    }
+
+    #[test]
+    fn pages_follow_the_shape_of_the_box() {
+        assert_eq!(pixels(Some(640), Some(480), [2.0, 1.0]), [640, 480], "both sides are given");
+        for (shape, wide) in [([2.0, 1.0], true), ([3.0, 1.0], true), ([1.0, 2.0], false), ([1.0, 5.0], false)] {
+            let [width, height] = pixels(None, None, shape);
+            assert_eq!(width.max(height), 1200);
+            assert!(if wide { height < 900 } else { width < 900 }, "{shape:?}: {width} x {height}");
+            assert!(width.is_multiple_of(2) && height.is_multiple_of(2));
+        }
+        // The box fills the page but for what is written around it.
+        let [width, height] = pixels(Some(800), None, [2.0, 1.0]);
+        assert_eq!(width, 800);
+        assert!((500..=600).contains(&height), "{height}");
+        assert_eq!(pixels(None, Some(150), [1.0, 1.0]), [150, 150], "a thumbnail");
+        let [width, height] = pixels(None, None, [1000.0, 1.0]);
+        assert_eq!((width, height), (1200, 480), "room for the captions");
+    }
+
+    #[test]
+    fn all_of_thirty_species_are_in_the_legend() {
+        let names: Vec<String> = (0..30).map(|number| format!("species {number}")).collect();
+        let counts = vec![1234; 30];
+        for [width, height] in [[1200, 1200], [640, 640], [300, 900]] {
+            let style = Snapshot { width: Some(width), height: Some(height), ..Snapshot::default() };
+            let page = Page::new(&style, [1.0, 1.0]);
+            let Ok(canvas) = Canvas::new(width, height, [255; 4]) else { continue };
+            let (size, rows) = page.legend(&canvas, &names, &counts);
+            let found: Vec<String> = rows.iter().flatten().map(|(text, _)| text.clone()).collect();
+            let expected: Vec<String> = names.iter().map(|name| format!("{name} (1234)")).collect();
+            assert_eq!(found, expected, "{width} x {height}");
+            assert!(rows.len() as f64 * 1.35 * size <= LEGEND_PART * f64::from(height) + 1.0);
+            for (number, row) in rows.iter().enumerate() {
+                let used: f64 = row.iter().map(|(_, width)| width).sum();
+                assert!(used <= page.legend_room(number, size), "row {number} of {width} x {height}");
+            }
+        }
     }
 }

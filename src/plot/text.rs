@@ -14,6 +14,8 @@ const ATLAS_MAXIMUM_HEIGHT: u32 = 8192;
 /// Size of an index or exponent relative to its base.
 const SCRIPT_SIZE: f64 = 0.7;
 
+const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular.otf");
+
 /// Stroke weight of the type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Weight {
@@ -57,7 +59,7 @@ impl Typesetter {
     pub(super) fn new() -> Result<Self, PlotError> {
         let read = |bytes: &'static [u8]| FontRef::try_from_slice(bytes).map_err(|e| PlotError::Font(e.to_string()));
         Ok(Self {
-            regular: read(include_bytes!("../../assets/fonts/Inter-Regular.otf"))?,
+            regular: read(REGULAR)?,
             semi_bold: read(include_bytes!("../../assets/fonts/Inter-SemiBold.otf"))?,
             entries: HashMap::new(),
             coverage: Vec::new(),
@@ -213,17 +215,61 @@ impl Typesetter {
     }
 }
 
+/// Characters that the font lacks, and the nearest that it has.
+const SUBSTITUTES: [(&[char], char); 14] = [
+    (&['⟨', '〈', '⟪'], '‹'),
+    (&['⟩', '〉', '⟫'], '›'),
+    (&['⋅', '∙', '•', '∗'], '·'),
+    (&['∕', '⁄'], '/'),
+    (&['∼', '∿'], '~'),
+    (&['′', '＇'], '\''),
+    (&['″', '＂'], '"'),
+    (&['ϵ'], 'ε'),
+    (&['ϕ'], 'φ'),
+    (&['ϑ'], 'θ'),
+    (&['ℓ'], 'l'),
+    (&['∆'], 'Δ'),
+    (&['‐', '‑', '‒', '―'], '–'),
+    (&['\t', '\u{a0}', '\u{2002}', '\u{2003}', '\u{2009}', '\u{202f}', '\u{3000}'], ' '),
+];
+
+/// Stands for a character that the font has nothing like.
+const HOLLOW_BOX: char = '□';
+
+/// The glyph of a character, or of the nearest that the font has.
+fn known_glyph(font: &FontRef<'static>, character: char) -> Option<GlyphId> {
+    let substitute = SUBSTITUTES.iter().find(|(characters, _)| characters.contains(&character)).map(|(_, near)| *near);
+    [Some(character), substitute].into_iter().flatten().map(|c| font.glyph_id(c)).find(|glyph| glyph.0 != 0)
+}
+
 /// The glyph of a character, or of the nearest that the font has; a hollow box stands for all others.
 fn glyph_of(font: &FontRef<'static>, character: char) -> GlyphId {
-    let substitute = match character {
-        '⟨' => '‹',
-        '⟩' => '›',
-        '⋅' | '∙' => '·',
-        '∕' => '/',
-        '\t' | '\u{2009}' | '\u{202f}' => ' ',
-        _ => '□',
-    };
-    [character, substitute].into_iter().map(|c| font.glyph_id(c)).find(|glyph| glyph.0 != 0).unwrap_or(GlyphId(0))
+    known_glyph(font, character).unwrap_or_else(|| font.glyph_id(HOLLOW_BOX))
+}
+
+/// The characters of a text that pictures show as hollow boxes, each once, in their order: the font that they are set in has
+/// the letters of European languages, Greek and the common signs of mathematics.
+///
+/// ```
+/// use mesoscope::plot::missing_glyphs;
+/// assert_eq!(missing_glyphs("Ménage à trois: ⟨α²⟩ ≈ ½ ± 10⁻³"), "");
+/// assert_eq!(missing_glyphs("水 and 水, ok 🙂"), "水🙂");
+/// ```
+#[must_use]
+pub fn missing_glyphs(text: &str) -> String {
+    if text.is_ascii() {
+        return String::new();
+    }
+    // The font is part of the program; one that cannot be read has no glyph at all.
+    let font = FontRef::try_from_slice(REGULAR).ok();
+    let mut missing = String::new();
+    for character in text.chars().filter(|character| !character.is_control()) {
+        let known = font.as_ref().is_some_and(|font| known_glyph(font, character).is_some());
+        if !known && !missing.contains(character) {
+            missing.push(character);
+        }
+    }
+    missing
 }
 
 struct Run<'a> {
@@ -279,11 +325,27 @@ mod tests {
     #[test]
     fn the_signs_of_physics_are_in_the_font() {
         let setter = Typesetter::new().unwrap();
-        for sign in "ABCxyz0189−×·±≈≤≥√∞⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂αβγδελμνρστφωΔΣΩ→°½äöüéñ–—…()[]/‹›□".chars()
+        for sign in "ABCxyz0189−×·±≈≤≥√∞†⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂αβγδελμνρστφωΔΣΩ→°½äöüéñ–—…()[]/‹›□".chars()
         {
             for weight in [Weight::Regular, Weight::SemiBold] {
                 assert_ne!(setter.font(weight).glyph_id(sign), GlyphId(0), "no glyph for {sign}");
             }
+        }
+    }
+
+    #[test]
+    fn every_substitute_is_in_the_font_and_every_box_is_named() {
+        let setter = Typesetter::new().unwrap();
+        for (characters, near) in SUBSTITUTES {
+            assert_ne!(setter.regular.glyph_id(near), GlyphId(0), "{near}");
+            for character in characters {
+                assert_eq!(missing_glyphs(&character.to_string()), "", "{character}");
+            }
+        }
+        let hollow = setter.regular.glyph_id(HOLLOW_BOX);
+        for character in "∇水ملح🙂זé√α".chars() {
+            let boxed = glyph_of(&setter.regular, character) == hollow;
+            assert_eq!(missing_glyphs(&character.to_string()).contains(character), boxed, "{character}");
         }
     }
 

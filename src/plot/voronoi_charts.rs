@@ -2,38 +2,33 @@
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
 use super::presets::EnergyTable;
+use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
 
-/// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures, and what has
-/// been added to the energies of a cell since the first row.
+/// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures with their
+/// means, and what has been added to the energies of a cell since the first row.
 ///
 /// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, energetic_cells_chart};
+/// use mesoscope::plot::{Averages, EnergyTable, energetic_cells_chart};
 ///
 /// let columns = ["time", "temperature", "internal_temperature", "kinetic_energy", "internal_energy", "total_energy"];
 /// let rows = vec![vec![0.0, 1.0, 1.0, 100.0, 500.0, 650.0], vec![0.1, 1.1, 0.98, 110.0, 490.0, 650.0]];
 /// let table = EnergyTable { columns: columns.map(str::to_owned).to_vec(), rows };
-/// let chart = energetic_cells_chart("Hot and cold", &table, 100);
+/// let chart = energetic_cells_chart("Hot and cold", &table, 100, &Averages::default());
 /// // What each cell has gained.
 /// assert_eq!(chart.panels[1].series[0].points[1], [0.1, 1.1 - 1.0]);
 /// ```
 #[must_use]
-pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64) -> Chart {
-    let time = "Time (time units)";
-    let temperature = |column: &str| table.points(column, 1.0).unwrap_or_default();
-    let temperatures = Panel::new(time, "Temperature (energy units)")
-        .with(Series::line("of the motion", temperature("temperature")))
-        .with(Series::line("inside", temperature("internal_temperature")));
-    let change = |column: &str| {
+pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64, averages: &Averages) -> Chart {
+    let columns = ["temperature", "internal_temperature"];
+    let temperatures = panel(TEMPERATURE, table, &columns, 1.0, averages);
+    let mut changes = Panel::new(TIME, "Change of energy per cell (energy units)");
+    for column in ["kinetic_energy", "internal_energy", "total_energy"] {
         let points = table.points(column, particle_count.max(1) as f64).unwrap_or_default();
         let first = points.first().map_or(f64::NAN, |point| point[1]);
-        points.iter().map(|point| [point[0], point[1] - first]).collect()
-    };
-    let changes = Panel::new(time, "Change of energy per cell (energy units)")
-        .with(Series::line("kinetic", change("kinetic_energy")))
-        .with(Series::line("internal", change("internal_energy")))
-        .with(Series::line("total", change("total_energy")));
+        changes.series.push(series(column, points.iter().map(|point| [point[0], point[1] - first]).collect()));
+    }
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
 }
 
@@ -87,7 +82,9 @@ pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
     Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
-/// The amplitude of a shear wave over time, with the exponential decay fitted to it: on a linear axis, and its magnitude on a
+const MAGNITUDE: &str = "Its magnitude (length units/time unit)";
+
+/// The amplitude of a shear wave over time, with the exponential decay of this name fitted to it: on a linear axis, and its magnitude on a
 /// logarithmic one.
 ///
 /// The columns are `time`, `amplitude` and `fit`.
@@ -97,28 +94,28 @@ pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
 ///
 /// let columns = ["time", "amplitude", "fit"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 0.5, 0.5], vec![1.0, -0.02, 0.01]];
-/// let chart = shear_wave_chart("A wave", "", &EnergyTable { columns, rows });
+/// let chart = shear_wave_chart("A wave", "", "exponential decay", &EnergyTable { columns, rows });
 /// // A logarithmic axis shows the magnitude.
 /// assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.02]);
 /// ```
 #[must_use]
-pub fn shear_wave_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &EnergyTable) -> Chart {
     let [amplitude, fit] = ["amplitude", "fit"].map(|column| table.points(column, 1.0).unwrap_or_default());
     let fitted = fit.iter().any(|point| point[1].is_finite());
     let magnitude = amplitude.iter().map(|[time, value]| [*time, value.abs()]).collect();
     let mut panels = Vec::new();
-    for (label, points) in [("Amplitude of the velocity", amplitude), ("Its magnitude", magnitude)] {
+    for (label, points) in [("Amplitude of the velocity (length units/time unit)", amplitude), (MAGNITUDE, magnitude)] {
         // One legend is enough.
-        let name = |name: &'static str| if panels.is_empty() { name } else { "" };
-        let mut panel = Panel::new("Time (time units)", label).with(Series::line(name("measured"), points));
+        let name = |name: &str| if panels.is_empty() { name.to_owned() } else { String::new() };
+        let mut panel = Panel::new(TIME, label).with(Series::line(&name("measured"), points));
         if fitted {
-            let fit = Series::line(name("exponential decay"), fit.clone());
+            let fit = Series::line(&name(fit_name), fit.clone());
             panel.series.push(fit.with_ink(SeriesInk::Ink { pattern: 1 }));
         }
         panels.push(panel);
     }
     panels[0].references.push(super::chart::ReferenceLine { label: String::new(), value: 0.0 });
-    panels[1].y = Axis::log("Its magnitude");
+    panels[1].y = Axis::log(MAGNITUDE);
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
 }
 
@@ -151,10 +148,10 @@ mod tests {
     #[test]
     fn a_wave_has_its_fit_beside_it() {
         let columns = ["time", "amplitude", "fit"];
-        let chart = shear_wave_chart("t", "s", &table(&columns, &[&[0.0, 1.0, 1.0], &[1.0, -0.5, 0.6]]));
+        let chart = shear_wave_chart("t", "s", "decay", &table(&columns, &[&[0.0, 1.0, 1.0], &[1.0, -0.5, 0.6]]));
         assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.5]);
         assert_eq!(chart.panels[1].series[1].points[1], [1.0, 0.6]);
-        let without = shear_wave_chart("t", "s", &table(&columns, &[&[0.0, 1.0, f64::NAN]]));
+        let without = shear_wave_chart("t", "s", "decay", &table(&columns, &[&[0.0, 1.0, f64::NAN]]));
         assert_eq!(without.panels[0].series.len(), 1);
     }
 
@@ -163,7 +160,7 @@ mod tests {
         let columns =
             ["time", "kinetic_energy", "internal_energy", "temperature", "internal_temperature", "total_energy"];
         let rows: [&[f64]; 2] = [&[0.0, 8.0, 92.0, 1.0, 1.0, 100.0], &[1.0, 6.0, 94.0, 1.0, 2.0, 100.0]];
-        let chart = energetic_cells_chart("t", &table(&columns, &rows), 4);
+        let chart = energetic_cells_chart("t", &table(&columns, &rows), 4, &Averages::default());
         let last: Vec<f64> = chart.panels[1].series.iter().map(|series| series.points[1][1]).collect();
         assert_eq!(last, [-0.5, 0.5, 0.0]);
         assert_eq!(chart.panels[0].series[1].points[1], [1.0, 2.0]);

@@ -34,9 +34,11 @@
 //! ```
 
 mod analyses;
+mod analysis_charts;
 mod cells;
 mod chain;
 mod circulations;
+mod colour_ranges;
 mod conservation;
 mod energies;
 mod error;
@@ -54,8 +56,8 @@ mod simulation;
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use interrupt::Interrupt;
-pub use pictures::redraw;
-pub(crate) use pictures::{save, show_settled};
+pub(crate) use pictures::save;
+pub use pictures::{lettering, redraw};
 pub use simulation::{Outcome, Simulation, adapter_for};
 
 use crate::gpu::AdapterDescription;

@@ -1,22 +1,22 @@
 //! The pictures of a run, drawn from its tables and states.
 
 use super::RunError;
+use super::analysis_charts::{analysis_chart, mean};
+use super::colour_ranges::{self, ColourRanges};
 use super::shown_field::{ShownField, closed_loops};
 use super::simulation::{mesh_depth, open_adapter, plan_for};
 use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
 use crate::model::{Model, ShallowWater, Voronoi};
-use crate::output::{OutputError, RunDirectory, Summary, Table, checkpoint, files, read_table, write_npy};
+use crate::output::{OutputError, RunDirectory, Summary, checkpoint, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
-    Axis, CellPicture, Chart, EnergyTable, FieldPicture, Panel, ParticlePicture, PeriodicCurve, PlotError, Plotter,
-    Series, ShownValues, autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart,
-    chain_profile_chart, chain_pulse_chart, circulation_chart, correlation_chart, energetic_cells_chart,
-    energies_chart, grouped, histogram_chart, neighbours_chart, radial_distribution_chart, shallow_water_chart,
-    shear_wave_chart,
+    Averages, CellPicture, Chart, EnergyTable, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
+    ShownValues, averages_note, energetic_cells_chart, energies_chart, grouped, missing_glyphs, shallow_water_chart,
+    with_error,
 };
-use crate::scene::{self, Scene, SnapshotColor};
+use crate::scene::{self, FieldQuantity, Scene, Snapshot, SnapshotColor};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use image::{
@@ -43,12 +43,12 @@ pub fn redraw(
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
-    let mut pictures = Pictures::new(&gpu, directory, &scene);
+    let mut pictures = Pictures::new(&gpu, directory, &scene, &checkpoint.sections);
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
-    pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model)?;
+    pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
     for (name, plot) in ANALYSES {
-        if directory.file(name).exists() && pictures.analysis(name)? {
+        if directory.file(name).exists() && pictures.analysis(name, plot, &summary)? {
             written.push(plot);
         }
     }
@@ -69,13 +69,14 @@ pub fn redraw(
 }
 
 /// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 16] = [
+const ANALYSES: [(&str, &str); 17] = [
     (files::CHAIN_PROFILES, files::CHAIN_PROFILES_PLOT),
     (files::CHAIN_PULSE, files::CHAIN_PULSE_PLOT),
     (files::CHAIN_CORRELATION, files::CHAIN_CORRELATION_PLOT),
     (files::CHAIN_MEMORY, files::CHAIN_MEMORY_PLOT),
     (files::CHAIN_EQUILIBRIUM, files::CHAIN_EQUILIBRIUM_PLOT),
     (files::CIRCULATION, files::CIRCULATION_PLOT),
+    (files::CHAIN_SIZES, files::CHAIN_SIZES_PLOT),
     (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
     (files::DIFFUSION, files::DIFFUSION_PLOT),
     (files::VISCOSITY, files::VISCOSITY_PLOT),
@@ -93,123 +94,84 @@ pub(super) struct Pictures<'a> {
     gpu: &'a Gpu,
     directory: &'a RunDirectory,
     scene: &'a Scene,
+    ranges: ColourRanges,
     plotter: Option<Plotter>,
 }
 
 impl<'a> Pictures<'a> {
-    pub(super) fn new(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene) -> Self {
-        Self { gpu, directory, scene, plotter: None }
+    /// Begins the pictures of a run, or goes on from the sections of a checkpoint.
+    pub(super) fn new(
+        gpu: &'a Gpu,
+        directory: &'a RunDirectory,
+        scene: &'a Scene,
+        sections: &[(String, Vec<u8>)],
+    ) -> Self {
+        Self { gpu, directory, scene, ranges: ColourRanges::restored(sections), plotter: None }
     }
 
-    pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model) -> Result<(), RunError> {
-        if let Some(water) = &model.shallow_water {
+    /// What a checkpoint has to keep.
+    pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
+        self.ranges.sections()
+    }
+
+    /// Draws the table of energies with the means of a summary.
+    pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model, summary: &Summary) -> Result<(), RunError> {
+        let averages = averages(summary);
+        let (title, particles) = (&self.scene.title, model.particle_count());
+        let mut chart = if let Some(water) = &model.shallow_water {
             let set = water.bath.is_some().then_some(model.temperature);
-            let mut chart = shallow_water_chart(&self.scene.title, table, set);
+            let mut chart = shallow_water_chart(title, table, set, &averages);
+            let [columns, rows] = water.mesh;
             chart.subtitle = format!(
-                "{} particles, mesh {} × {}, time step {}",
+                "{} particles, mesh {columns} × {rows}, wave speed {}, rotation {}",
                 grouped(water.carriers),
-                water.mesh[0],
-                water.mesh[1],
-                model.time_step
+                with_error(water.wave_speed, None),
+                with_error(water.rotation, None)
             );
-            return self.chart(files::ENERGIES_PLOT, &chart);
-        }
-        if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
-            let mut chart = energetic_cells_chart(&self.scene.title, table, model.particle_count());
-            chart.subtitle = format!("{} cells, time step {}", grouped(model.particle_count()), model.time_step);
-            return self.chart(files::ENERGIES_PLOT, &chart);
-        }
-        let mut chart = energies_chart(&self.scene.title, table, model.particle_count(), model.temperature);
+            chart
+        } else if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
+            let mut chart = energetic_cells_chart(title, table, particles, &averages);
+            chart.subtitle = format!("{} cells", grouped(particles));
+            chart
+        } else {
+            energies_chart(title, table, particles, model.temperature, &averages)
+        };
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
-        let temperatures = chart.panels.iter_mut().find(|panel| panel.y.label.starts_with("Temperature"));
-        // Cells that warm up from rest are what their scene is about.
-        if model.voronoi.is_none() && temperatures.is_some_and(show_settled) {
-            chart.subtitle.push_str("; temperatures at the start are off the scale");
+        let note = averages_note(&averages);
+        if !note.is_empty() {
+            chart.subtitle = format!("{}; {note}", chart.subtitle);
         }
         self.chart(files::ENERGIES_PLOT, &chart)
     }
 
-    /// Draws the plots of all analyses whose tables are there.
-    pub(super) fn analyses(&mut self) -> Result<(), RunError> {
-        for (name, _) in ANALYSES {
+    /// Draws the plots of all analyses whose tables are there, with the results of a summary.
+    pub(super) fn analyses(&mut self, summary: &Summary) -> Result<(), RunError> {
+        for (name, plot) in ANALYSES {
             if self.directory.file(name).exists() {
-                self.analysis(name)?;
+                self.analysis(name, plot, summary)?;
             }
         }
         Ok(())
     }
 
     /// Draws the plot of one table; returns false when there is nothing in it.
-    fn analysis(&mut self, name: &str) -> Result<bool, RunError> {
+    fn analysis(&mut self, name: &str, plot: &str, summary: &Summary) -> Result<bool, RunError> {
         let table = read_table(&self.directory.file(name))?;
         if table.rows.is_empty() {
             return Ok(false);
         }
-        let column = |name: &str| table.column(name).unwrap_or_default();
-        let title = &self.scene.title;
-        if let Some((plot, chart)) = self.chain_chart(name, &table) {
-            self.analysis_chart(name, &table, plot, &chart)?;
-            return Ok(true);
-        }
-        let plot_of = |name: &str| ANALYSES.iter().find(|(table, _)| *table == name).map_or("", |(_, plot)| plot);
-        let (plot, chart) = match name {
-            files::RADIAL_DISTRIBUTION => (
-                files::RADIAL_DISTRIBUTION_PLOT,
-                radial_distribution_chart(title, &column("distance"), &column("radial_distribution")),
-            ),
-            files::DIFFUSION => {
-                let [displacement, velocity] = ["mean_squared_displacement", "velocity_autocorrelation"].map(column);
-                (files::DIFFUSION_PLOT, correlation_chart(title, &column("time"), &displacement, &velocity))
-            }
-            files::CIRCULATION => {
-                let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
-                (files::CIRCULATION_PLOT, circulation_chart(title, &table))
-            }
-            files::VELOCITY_AUTOCORRELATION | files::FORCE_AUTOCORRELATION => {
-                let quantity = if name == files::FORCE_AUTOCORRELATION { "force" } else { "velocity" };
-                let [lags, values, errors, fit] =
-                    ["time", "autocorrelation", "autocorrelation_error", "fit"].map(column);
-                (plot_of(name), autocorrelation_chart(title, quantity, &lags, &values, &errors, &fit))
-            }
-            files::VELOCITY_HISTOGRAM | files::SPEED_HISTOGRAM | files::ACCELERATION_HISTOGRAM => {
-                (plot_of(name), density_chart(title, &table))
-            }
-            files::NEIGHBOURS => (plot_of(name), neighbours_chart(title, &copied(&table))),
-            files::SHEAR_WAVE => {
-                let subtitle = "velocity along x, projected on the wave that it started with";
-                (plot_of(name), shear_wave_chart(title, subtitle, &copied(&table)))
-            }
-            _ => (files::VISCOSITY_PLOT, viscosity_chart(title, &table)),
-        };
-        self.analysis_chart(name, &table, plot, &chart)?;
-        Ok(true)
-    }
-
-    /// Draws what a table with rows has to show: nothing, if its columns are not those that the run wrote.
-    fn analysis_chart(&mut self, name: &str, table: &Table, plot: &str, chart: &Chart) -> Result<(), RunError> {
+        let columns = table.columns.join(",");
+        let table = EnergyTable { columns: table.columns, rows: table.rows };
+        let chart = analysis_chart(name, &table, self.scene, &summary.results);
+        // Nothing, if its columns are not those that the run wrote.
         if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
             let problem = format!(
-                "found the columns `{}`, none of which the run wrote; restore the file, or run the scene anew with --force",
-                table.columns.join(",")
+                "found the columns `{columns}`, none of which the run wrote; restore the file, or run the scene anew with --force"
             );
             return Err(OutputError::Line { path: self.directory.file(name), line: 1, problem }.into());
         }
-        self.chart(plot, chart)
-    }
-
-    /// The plot of a table of harmonic chains, if it is one.
-    fn chain_chart(&self, name: &str, table: &Table) -> Option<(&'static str, Chart)> {
-        let (plot, chart): (_, fn(&str, &str, &EnergyTable) -> Chart) = match name {
-            files::CHAIN_PROFILES => (files::CHAIN_PROFILES_PLOT, chain_profile_chart),
-            files::CHAIN_PULSE => (files::CHAIN_PULSE_PLOT, chain_pulse_chart),
-            files::CHAIN_CORRELATION => (files::CHAIN_CORRELATION_PLOT, chain_correlation_chart),
-            files::CHAIN_MEMORY => (files::CHAIN_MEMORY_PLOT, chain_memory_chart),
-            files::CHAIN_EQUILIBRIUM => (files::CHAIN_EQUILIBRIUM_PLOT, chain_equilibrium_chart),
-            _ => return None,
-        };
-        let subtitle = super::chain::subtitle(name, self.scene);
-        let table = EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() };
-        Some((plot, chart(&self.scene.title, &subtitle, &table)))
+        self.chart(plot, &chart)?;
+        Ok(true)
     }
 
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
@@ -229,7 +191,12 @@ impl<'a> Pictures<'a> {
         };
         let speeds: Option<Vec<f64>> = by_speed.then(|| state.momenta.iter().zip(&state.species).map(speed).collect());
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
-        let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+        let subtitle = at_time(state, model);
+        let asked = &self.scene.output.snapshot;
+        let range = speeds.as_ref().map(|speeds| {
+            let begin = || colour_ranges::of_speeds(speeds, model.temperature, lightest(model));
+            self.ranges.of("speed", asked.range, begin)
+        });
         let picture = ParticlePicture {
             dimension: units.dimension as u32,
             lengths: units.lengths,
@@ -241,9 +208,9 @@ impl<'a> Pictures<'a> {
             title: &self.scene.title,
             subtitle: &subtitle,
         };
-        let style = &self.scene.output.snapshot;
+        let style = Snapshot { range, ..asked.clone() };
         let theme = self.scene.output.plot.theme;
-        let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, style, theme));
+        let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, &style, theme));
         self.save(name, drawn)
     }
 
@@ -260,19 +227,37 @@ impl<'a> Pictures<'a> {
         let all = 0..state.masses.len().min(state.len());
         let shown: Option<(&str, Vec<f64>)> = match self.scene.output.snapshot.color {
             SnapshotColor::Species => None,
-            SnapshotColor::Speed => Some(("speed", all.map(|id| square(id).sqrt() / mass(id)).collect())),
+            SnapshotColor::Speed => Some(("speed (length/time)", all.map(|id| square(id).sqrt() / mass(id)).collect())),
             SnapshotColor::Temperature if cells.keeps_energy() => {
                 let internal =
                     |id: usize| f64::from(state.energies[id]) * cells.energy_unit - square(id) / (2.0 * mass(id));
                 let temperature = |id: usize| cells.molecular_mass * internal(id) / mass(id);
-                Some(("temperature (kT)", all.map(temperature).collect()))
+                Some(("temperature (energy)", all.map(temperature).collect()))
             }
             SnapshotColor::Density | SnapshotColor::Temperature => {
                 Some(("density (mass/area)", all.map(|id| mass(id) / tessellation.cells[id].volume).collect()))
             }
         };
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
-        let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+        let subtitle = at_time(state, model);
+        let asked = &self.scene.output.snapshot;
+        let temperature = model.temperature;
+        let cell_mass = (0..state.len()).map(mass).sum::<f64>() / state.len().max(1) as f64;
+        let begin = |label: &str, values: &[f64]| match label.split(' ').next() {
+            Some("speed") => colour_ranges::of_speeds(values, temperature, lightest(model)),
+            Some("temperature") => colour_ranges::of_temperatures(values, temperature),
+            _ => {
+                let mean = cell_mass * state.len() as f64 / units.volume();
+                colour_ranges::of_densities(values, mean, cell_mass / cells.molecular_mass, temperature > 0.0)
+            }
+        };
+        // A picture alone has the colours that fit it best.
+        let range = match &shown {
+            Some((label, values)) if asked.every > 0 => {
+                Some(self.ranges.of(label, asked.range, || begin(label, values)))
+            }
+            _ => asked.range,
+        };
         let picture = CellPicture {
             lengths,
             positions: &positions,
@@ -283,9 +268,9 @@ impl<'a> Pictures<'a> {
             title: &self.scene.title,
             subtitle: &subtitle,
         };
-        let style = &self.scene.output.snapshot;
+        let style = Snapshot { range, ..asked.clone() };
         let theme = self.scene.output.plot.theme;
-        let drawn = self.plotter().and_then(|plotter| plotter.draw_cells(&picture, style, theme));
+        let drawn = self.plotter().and_then(|plotter| plotter.draw_cells(&picture, &style, theme));
         self.save(name, drawn)
     }
 
@@ -303,14 +288,23 @@ impl<'a> Pictures<'a> {
         let curves: Vec<PeriodicCurve<'_>> =
             loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
         let mut written = Vec::new();
-        for quantity in self.scene.output.fields.clone().unwrap_or_default().quantities {
+        let asked = self.scene.output.fields.clone().unwrap_or_default();
+        for quantity in asked.quantities {
             let shown = ShownField::new(quantity, &flow, depth);
             let field = shown.field(model, water);
-            let subtitle = format!("t = {}", rounded(state.step as f64 * model.time_step));
+            let subtitle = at_time(state, model);
+            let given = asked.ranges.of(quantity);
+            let from_zero = quantity == FieldQuantity::Speed;
+            let range = if asked.every > 0 {
+                Some(self.ranges.of(shown.stem, given, || colour_ranges::of_field(field.extrema(), from_zero)))
+            } else {
+                given
+            };
             let picture = FieldPicture {
                 title: &self.scene.title,
                 subtitle: &subtitle,
                 map: shown.map,
+                range,
                 curves: &curves,
                 ..FieldPicture::new(&field)
             };
@@ -347,11 +341,6 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// A table as charts take it.
-fn copied(table: &Table) -> EnergyTable {
-    EnergyTable { columns: table.columns.clone(), rows: table.rows.clone() }
-}
-
 /// Writes a picture, which appears complete or not at all.
 pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
     let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
@@ -365,26 +354,45 @@ pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage
     Ok(())
 }
 
-/// The part of a run after which temperatures are expected to have settled.
-const SETTLED: f64 = 0.1;
+/// The means of a summary, as charts take them.
+fn averages(summary: &Summary) -> Averages {
+    let means = summary.means.iter().filter_map(|(column, value)| {
+        let unequilibrated = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
+        Some((column.clone(), Mean { unequilibrated, ..mean(value)? }))
+    });
+    let time = &summary.scene.time;
+    let from = (time.equilibration > 0).then_some(time.equilibration as f64 * time.step);
+    Averages { from, means: means.collect() }
+}
 
-/// Gives a panel of temperatures the range that they have once the run has settled: where particles start at random
-/// places, the configurational temperature begins at tens of kT, and on its scale nothing else could be read. Returns
-/// whether anything is off that scale.
-pub(crate) fn show_settled(panel: &mut Panel) -> bool {
-    let points = || panel.series.iter().flat_map(|series| &series.points).filter(|point| point[1].is_finite());
-    let end = points().map(|point| point[0]).fold(0.0, f64::max);
-    let settled = points().filter(|point| point[0] >= SETTLED * end).map(|point| point[1]);
-    let references = panel.references.iter().map(|reference| reference.value);
-    let [low, high] =
-        settled.chain(references).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
-    let margin = 0.25 * (high - low);
-    let range = [low - margin, high + margin];
-    let off = points().any(|point| !(range[0]..=range[1]).contains(&point[1]));
-    if off && margin > 0.0 {
-        panel.y.range = Some(range);
-    }
-    off && margin > 0.0
+/// What to know about letters of a scene that no picture shows.
+///
+/// ```
+/// use mesoscope::{run, scene};
+///
+/// let scene = scene::load("dpd-fluid", &["title=Flow of ∇水".to_owned()])?;
+/// assert!(run::lettering(&scene).is_some_and(|warning| warning.contains("∇水")));
+/// assert_eq!(run::lettering(&scene::load("dpd-fluid", &[])?), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn lettering(scene: &Scene) -> Option<String> {
+    let names = scene.particles.iter().map(|group| group.species.as_str());
+    let text: String = std::iter::once(scene.title.as_str()).chain(names).collect();
+    let missing = missing_glyphs(&text);
+    (!missing.is_empty())
+        .then(|| format!("the font of the pictures has no `{missing}`: `title` and names show hollow boxes there"))
+}
+
+/// The time of a state.
+fn at_time(state: &State, model: &Model) -> String {
+    format!("t = {} time units", rounded(state.step as f64 * model.time_step))
+}
+
+/// Mass of the lightest species that has particles.
+fn lightest(model: &Model) -> f64 {
+    let masses = model.species.iter().filter(|species| species.count > 0).map(|species| species.mass);
+    masses.fold(f64::INFINITY, f64::min)
 }
 
 /// A third of the cutoff, or, without one, of the distance between neighbours.
@@ -401,49 +409,9 @@ fn rounded(time: f64) -> f64 {
     format!("{time:.12e}").parse().unwrap_or(time)
 }
 
-/// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
-fn density_chart(title: &str, table: &Table) -> Chart {
-    let column = |index: usize| table.rows.iter().map(move |row| row.get(index).copied().unwrap_or(f64::NAN));
-    let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
-    let centres: Vec<f64> = column(0).collect();
-    // A single bin does not tell its width, but its density does, unless nothing was counted.
-    let width = match centres.as_slice() {
-        [first, .., last] => (last - first) / (centres.len() - 1) as f64,
-        _ => 1.0 / column(1).sum::<f64>(),
-    };
-    let first = centres.first().map_or(0.0, |first| first - 0.5 * width);
-    let edges: Vec<f64> = if width.is_finite() && width > 0.0 {
-        (0..=centres.len()).map(|edge| first + edge as f64 * width).collect()
-    } else {
-        Vec::new()
-    };
-    let compared: Vec<[f64; 2]> = centres.iter().zip(column(3)).map(|(centre, density)| [*centre, density]).collect();
-    let densities: Vec<f64> = column(1).collect();
-    let label = match name(3) {
-        "maxwell" => "Maxwell's density",
-        _ => "Gaussian of the same variance",
-    };
-    histogram_chart(title, name(0), &edges, &densities, (label, &compared))
-}
-
-/// Autocorrelations of the transverse waves; on a logarithmic axis a viscous decay is a straight line.
-fn viscosity_chart(title: &str, table: &Table) -> Chart {
-    let mut panel = Panel::new("Lag (time units)", "Autocorrelation of transverse momentum waves");
-    panel.y = Axis::log("Autocorrelation of transverse momentum waves");
-    for wave in table.rows.chunk_by(|a, b| a[0] == b[0]) {
-        let points = wave.iter().map(|row| [row[1], row[2]]).collect();
-        panel.series.push(Series::line(&format!("k = {:.4}", wave[0][0]), points));
-    }
-    // A single series has no legend.
-    let subtitle = match panel.series.as_slice() {
-        [only] => only.name.clone(),
-        _ => String::new(),
-    };
-    Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
-}
-
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic)]
     use super::*;
 
     #[test]
@@ -454,27 +422,14 @@ mod tests {
     }
 
     #[test]
-    fn a_hot_start_does_not_set_the_scale() {
-        let columns = ["time", "temperature"].map(str::to_owned).to_vec();
-        let rows =
-            (0..100).map(|row| vec![f64::from(row), if row == 0 { 30.0 } else { 1.0 + 0.1 * f64::from(row % 2) }]);
-        let mut table = EnergyTable { columns, rows: rows.collect() };
-        let mut chart = energies_chart("hot", &table, 1, 1.0);
-        assert!(show_settled(&mut chart.panels[0]));
-        assert_eq!(chart.panels[0].y.range, Some([1.0 - 0.25 * (1.1 - 1.0), 1.1 + 0.25 * (1.1 - 1.0)]));
-        table.rows[0][1] = 1.0;
-        let mut chart = energies_chart("settled", &table, 1, 1.0);
-        assert!(!show_settled(&mut chart.panels[0]));
-        assert_eq!(chart.panels[0].y.range, None);
-    }
-
-    #[test]
-    fn every_wave_is_a_series() {
-        let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
-        let rows = vec![vec![0.5, 0.0, 1.0], vec![0.5, 1.0, 0.8], vec![0.9, 0.0, 1.0]];
-        let chart = viscosity_chart("waves", &Table { columns, rows });
-        let series: Vec<(&str, usize)> =
-            chart.panels[0].series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
-        assert_eq!(series, [("k = 0.5000", 2), ("k = 0.9000", 1)]);
+    fn means_of_a_summary_stand_in_the_chart() {
+        let scene = scene::load("dpd-fluid", &[]).unwrap();
+        let mut summary = Summary::new(scene, crate::output::summary::AdapterSummary::default(), 10);
+        summary.add_mean("temperature", crate::measure::statistics::estimate(&[0.75, 1.25]).as_ref());
+        summary.add_mean("pressure", None);
+        let averages = averages(&summary);
+        assert_eq!(averages.from, Some(20.0));
+        let [(column, mean)] = &averages.means[..] else { panic!("{averages:?}") };
+        assert_eq!((column.as_str(), mean.value, mean.from_few_samples), ("temperature", 1.0, true));
     }
 }

@@ -9,7 +9,7 @@ use super::exchange_tally::{self, ExchangeTally};
 use super::interrupt::Interrupt;
 use super::kept_sums::{self, KeptSums};
 use super::pace::Pace;
-use super::pictures::Pictures;
+use super::pictures::{self, Pictures};
 use super::schedule::Schedule;
 use super::sections::Sections;
 use super::{Event, Progress, RunError};
@@ -216,6 +216,7 @@ impl Task {
         let mut warnings = self.notices.clone();
         warnings.extend(scene::warnings(&self.scene).iter().map(ToString::to_string));
         warnings.extend(run.kept_sums.warning());
+        warnings.extend(pictures::lettering(&self.scene));
         let saved_step = run.saved_step;
         run.conclude(warnings, pace.done()).map_err(|error| self.stopped(error, saved_step))
     }
@@ -349,7 +350,7 @@ impl<'a> Run<'a> {
             tally,
             kept_sums: KeptSums::new(model, &start.state, &sections)?,
             trajectory,
-            pictures: Pictures::new(gpu, directory, scene),
+            pictures: Pictures::new(gpu, directory, scene, &start.sections),
             notices: &[],
             saved_step: step,
             saved_at: Instant::now(),
@@ -460,6 +461,7 @@ impl<'a> Run<'a> {
         }
         sections.extend(self.cells.sections());
         sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
+        sections.extend(self.pictures.sections());
         if self.model.voronoi.is_some() {
             sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
         }
@@ -524,8 +526,8 @@ impl<'a> Run<'a> {
         summary.not_conserved = not_conserved(self.model, &changed);
         // Numbers first: they are worth more than pictures if the disk is full.
         summary.save(&self.directory.file(files::SUMMARY))?;
-        self.pictures.energies(&self.energies.table(), self.model)?;
-        self.pictures.analyses()?;
+        self.pictures.energies(&self.energies.table(), self.model, &summary)?;
+        self.pictures.analyses(&summary)?;
         let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }

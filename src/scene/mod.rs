@@ -6,6 +6,7 @@
 mod builtin;
 mod chains;
 mod coloured_noise;
+mod colours;
 mod couplings;
 mod error;
 pub(crate) mod harmonic_chain;

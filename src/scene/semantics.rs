@@ -21,6 +21,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Problem> {
     check_number_of_particles(scene, &mut problems);
     check_interactions(scene, &mut problems);
     check_durations(scene, &mut problems);
+    super::colours::check(scene, &mut problems);
     // What follows from a model or a start needs a scene that makes sense.
     if problems.is_empty() {
         super::couplings::check_motion(scene, &mut problems);

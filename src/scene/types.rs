@@ -831,18 +831,60 @@ pub struct ShearWave {
 }
 
 /// Fields on the mesh, as pictures and arrays.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Fields {
     /// Steps between two numbered pictures and arrays; zero writes them only at the end.
     pub every: u64,
     /// Which fields.
     pub quantities: Vec<FieldQuantity>,
+    /// Ranges of colours.
+    pub ranges: FieldRanges,
 }
 
 impl Default for Fields {
     fn default() -> Self {
-        Self { every: 0, quantities: vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity] }
+        let quantities = vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity];
+        Self { every: 0, quantities, ranges: FieldRanges::default() }
+    }
+}
+
+/// The lowest and the highest value on the scale of colours of each field, of all pictures of the run. What is left out
+/// follows from the first of several numbered pictures, or fits the only one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FieldRanges {
+    /// Of the depth, in mean depths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<[f64; 2]>,
+    /// Of the potential vorticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub potential_vorticity: Option<[f64; 2]>,
+    /// Of the vorticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vorticity: Option<[f64; 2]>,
+    /// Of the speed of the flow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<[f64; 2]>,
+}
+
+impl FieldRanges {
+    /// The range of a field, if it is given.
+    ///
+    /// ```
+    /// use mesoscope::scene::{FieldQuantity, FieldRanges};
+    /// let ranges = FieldRanges { depth: Some([0.8, 1.2]), ..FieldRanges::default() };
+    /// assert_eq!(ranges.of(FieldQuantity::Depth), Some([0.8, 1.2]));
+    /// assert_eq!(ranges.of(FieldQuantity::Speed), None);
+    /// ```
+    #[must_use]
+    pub fn of(&self, quantity: FieldQuantity) -> Option<[f64; 2]> {
+        match quantity {
+            FieldQuantity::Depth => self.depth,
+            FieldQuantity::PotentialVorticity => self.potential_vorticity,
+            FieldQuantity::Vorticity => self.vorticity,
+            FieldQuantity::Speed => self.speed,
+        }
     }
 }
 
@@ -882,9 +924,10 @@ pub struct PlotStyle {
     /// Width of a plot in pixels.
     #[schemars(range(min = 320, max = 8192))]
     pub width: u32,
-    /// Height of a plot in pixels.
+    /// Height of a plot in pixels; left out, three quarters of the width, and for fields what the shape of the box asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 240, max = 8192))]
-    pub height: u32,
+    pub height: Option<u32>,
     /// Factor on every type size and line width.
     #[schemars(range(min = 0.25, max = 8.0))]
     pub scale: f64,
@@ -894,7 +937,21 @@ pub struct PlotStyle {
 
 impl Default for PlotStyle {
     fn default() -> Self {
-        Self { width: 1600, height: 1200, scale: 1.0, theme: Theme::Light }
+        Self { width: 1600, height: None, scale: 1.0, theme: Theme::Light }
+    }
+}
+
+impl PlotStyle {
+    /// Height of a plot in pixels.
+    ///
+    /// ```
+    /// use mesoscope::scene::PlotStyle;
+    /// assert_eq!(PlotStyle { width: 800, ..PlotStyle::default() }.height(), 600);
+    /// assert_eq!(PlotStyle { height: Some(500), ..PlotStyle::default() }.height(), 500);
+    /// ```
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height.unwrap_or(self.width * 3 / 4)
     }
 }
 
@@ -910,29 +967,29 @@ pub enum Theme {
 }
 
 /// Pictures of the particles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Snapshot {
     /// Steps between two numbered pictures `snapshot-<number>.png`; zero writes only `snapshot.png` at the end.
     pub every: u64,
-    /// Width of a picture in pixels.
+    /// Width of a picture in pixels; left out, what the shape of the box asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 64, max = 8192))]
-    pub width: u32,
-    /// Height of a picture in pixels.
+    pub width: Option<u32>,
+    /// Height of a picture in pixels; left out, what the shape of the box asks for. Without both the longer side has 1200.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 64, max = 8192))]
-    pub height: u32,
+    pub height: Option<u32>,
     /// Radius of the drawn discs in units of length; left out, a third of the cutoff.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
     /// What the colour of a particle shows; left out, the species, or the density of Voronoi cells of one species.
     pub color: SnapshotColor,
-}
-
-impl Default for Snapshot {
-    fn default() -> Self {
-        Self { every: 0, width: 1200, height: 1200, radius: None, color: SnapshotColor::Species }
-    }
+    /// The lowest and the highest value on the scale of colours, of all pictures of the run; left out, they follow from the
+    /// first picture and the temperature of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
 }
 
 /// What the colour of a particle shows.

@@ -132,11 +132,7 @@ pub(super) fn draw(
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
         }
-        let mut chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
-        let hot = quantity.contains("temperature") && !look.relative;
-        if hot && chart.panels.iter_mut().any(run::show_settled) {
-            chart.subtitle.push_str("; the start is off the scale");
-        }
+        let chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
         let name = files::plot(quantity);
         run::save(&place, &name, plotter.draw_chart(&chart, style))?;
         written.push(name);

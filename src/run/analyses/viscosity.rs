@@ -39,10 +39,12 @@ fn transverse_modes(model: &Model) -> Vec<TransverseMode> {
 }
 
 fn autocorrelations(found: &ShearViscosity, interval: f64) -> Vec<Vec<f64>> {
-    let row = |wave_number: f64, (lag, value): (usize, &f64)| vec![wave_number, lag as f64 * interval, *value];
     let wave = |wave: &WaveViscosity| {
-        let wave_number = wave.wave_number;
-        wave.autocorrelation.iter().enumerate().map(|point| row(wave_number, point)).collect::<Vec<_>>()
+        let fit = |lag: usize| lag.checked_sub(wave.fit_from).and_then(|place| wave.fit.get(place)).copied();
+        let row = |(lag, value): (usize, &f64)| {
+            vec![wave.wave_number, lag as f64 * interval, *value, fit(lag).unwrap_or(f64::NAN)]
+        };
+        wave.autocorrelation.iter().enumerate().map(row).collect::<Vec<_>>()
     };
     found.waves.iter().flat_map(wave).collect()
 }
@@ -78,7 +80,7 @@ impl Analysis for Viscosity {
     fn conclude(&self) -> Conclusion {
         let found = shear_viscosity(&self.modes, self.density, self.interval, self.window);
         let found = found.map_err(|error| error.to_string());
-        let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
+        let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
         let rows = found.iter().flat_map(|found| autocorrelations(found, self.interval)).collect();
         let result = found.map(|found| {
             let wave = |wave: &WaveViscosity| json!({ "wave_number": wave.wave_number, "modes": wave.modes, "viscosity": wave.viscosity });

@@ -1,0 +1,203 @@
+//! Places and draws the legends of panels.
+
+use super::canvas::{Anchor, Area};
+use super::chart::{Series, SeriesStyle};
+use super::chart_layout::{Layout, Placed, Sizes};
+use super::numbers::with_error;
+use super::palette::with_alpha;
+use super::quantities::{FEW_SAMPLES, UNEQUILIBRATED};
+use super::series_look::{Look, reference_look};
+use super::series_path::{clipped, runs, segments, thinned};
+use super::text::{LINE_HEIGHT, Weight};
+
+/// One line of a legend.
+pub(super) struct Entry {
+    text: String,
+    /// How the points are drawn; a reference has none.
+    style: Option<SeriesStyle>,
+    look: Look,
+}
+
+/// The name of a series, with its mean.
+fn entry_text(series: &Series) -> String {
+    match series.mean {
+        Some(mean) => {
+            let few = if mean.from_few_samples { FEW_SAMPLES } else { "" };
+            let way = if mean.unequilibrated { UNEQUILIBRATED } else { "" };
+            format!("{} {}{few}{way}", series.name, with_error(mean.value, mean.standard_error)).trim_start().to_owned()
+        }
+        None => series.name.clone(),
+    }
+}
+
+impl Layout<'_> {
+    pub(super) fn entries(&self, index: usize) -> Vec<Entry> {
+        let panel = self.prepared[index].panel;
+        let series = panel.series.iter().enumerate().map(|(number, series)| Entry {
+            text: entry_text(series),
+            style: Some(series.style),
+            look: self.look(number, series),
+        });
+        let references = panel.references.iter().enumerate().map(|(number, reference)| Entry {
+            text: reference.label.clone(),
+            style: None,
+            look: reference_look(number, panel, &self.inks),
+        });
+        series.chain(references).filter(|entry| !entry.text.is_empty()).collect()
+    }
+
+    /// A legend of one entry says no more than the axis, unless it holds a mean.
+    pub(super) fn has_legend(&self, index: usize) -> bool {
+        let means = self.prepared[index].panel.series.iter().any(|series| series.mean.is_some());
+        self.entries(index).len() > usize::from(!means)
+    }
+
+    fn sample_width(&self) -> f64 {
+        5.2 * self.sizes.gap
+    }
+
+    fn entry_width(&self, entry: &Entry) -> f64 {
+        let text = self.canvas.typesetter.width(&entry.text, Weight::Regular, self.sizes.label);
+        self.sample_width() + 0.7 * self.sizes.gap + text
+    }
+
+    fn legend_line(&self) -> f64 {
+        1.25 * self.sizes.label
+    }
+
+    /// The emptiest place inside a panel that its legend fits into without touching data; corners are preferred.
+    pub(super) fn legend_spot(&self, index: usize, place: &Placed) -> Option<Area> {
+        let entries = self.entries(index);
+        if !self.has_legend(index) {
+            return None;
+        }
+        let gap = self.sizes.gap;
+        let width = entries.iter().map(|entry| self.entry_width(entry)).fold(0.0, f64::max) + 1.6 * gap;
+        let height = entries.len() as f64 * self.legend_line() + gap;
+        let inner = place.area.grown(-0.6 * gap);
+        if width > 0.6 * inner.width() || height > 0.75 * inner.height() {
+            return None;
+        }
+        let obstacles = self.obstacles(index, place);
+        let columns = [1.0, 0.0, 0.5, 0.75, 0.25];
+        let rows = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+        for row in rows {
+            for column in columns {
+                let left = inner.left + column * (inner.width() - width);
+                let top = inner.top + row * (inner.height() - height);
+                let spot = Area { left, top, right: left + width, bottom: top + height };
+                let kept_clear = spot.grown(0.4 * gap);
+                if !obstacles.iter().any(|(from, to)| clipped(*from, *to, &kept_clear).is_some()) {
+                    return Some(spot);
+                }
+            }
+        }
+        None
+    }
+
+    /// Everything a legend must not cover, as segments.
+    fn obstacles(&self, index: usize, place: &Placed) -> Vec<([f64; 2], [f64; 2])> {
+        let panel = self.prepared[index].panel;
+        let mut obstacles = Vec::new();
+        for series in &panel.series {
+            for run in runs(&series.points, |point| place.pixel(point)) {
+                let run = thinned(&run);
+                if series.style == SeriesStyle::Markers {
+                    obstacles.extend(run.iter().map(|point| (*point, *point)));
+                } else {
+                    obstacles.extend(segments(&run, &place.area, &[]));
+                }
+            }
+            for (point, error) in series.points.iter().zip(series.errors.iter().flatten()) {
+                obstacles.extend(place.bar(*point, *error).map(|[low, high]| (low, high)));
+            }
+        }
+        let means = panel.series.iter().filter_map(|series| series.mean).map(|mean| mean.value);
+        let references = panel.references.iter().map(|reference| reference.value).chain(means);
+        let references = references.filter_map(|value| place.y_pixel(value));
+        obstacles.extend(references.map(|y| ([place.area.left, y], [place.area.right, y])));
+        obstacles
+    }
+
+    pub(super) fn legend_inside(&mut self, index: usize, spot: Area) {
+        let gap = self.sizes.gap;
+        self.canvas.rectangle(spot, with_alpha(self.inks.paper, 215));
+        for number in 0..self.entries(index).len() {
+            let y = spot.top + 0.5 * gap + (number as f64 + 0.5) * self.legend_line();
+            self.legend_entry(index, number, [spot.left + 0.8 * gap, y]);
+        }
+    }
+
+    /// How many entries go into each row of a legend of this width.
+    pub(super) fn legend_rows(&self, index: usize, width: f64) -> Vec<usize> {
+        let entries = self.entries(index);
+        let mut rows = Vec::new();
+        if !self.has_legend(index) {
+            return rows;
+        }
+        let mut used = f64::INFINITY;
+        for entry in &entries {
+            let needed = self.entry_width(entry) + 2.0 * self.sizes.gap;
+            if used + needed > width {
+                rows.push(0);
+                used = 0.0;
+            }
+            used += needed;
+            if let Some(last) = rows.last_mut() {
+                *last += 1;
+            }
+        }
+        rows
+    }
+
+    pub(super) fn legend_above(&mut self, index: usize, area: Area) {
+        let Sizes { label, gap, .. } = self.sizes;
+        let rows = self.legend_rows(index, (f64::from(self.canvas.width) - 3.2 * gap) * 0.8);
+        let mut number = 0;
+        for (row, count) in rows.iter().enumerate() {
+            let widths: Vec<f64> =
+                self.entries(index)[number..number + count].iter().map(|entry| self.entry_width(entry)).collect();
+            let total = widths.iter().sum::<f64>() + 2.0 * gap * (count.saturating_sub(1)) as f64;
+            let from_below = (rows.len() - row) as f64 - 0.5;
+            let y = area.top - from_below * LINE_HEIGHT * label - 0.2 * gap;
+            let mut x = area.right - total;
+            for width in widths {
+                self.legend_entry(index, number, [x, y]);
+                x += width + 2.0 * gap;
+                number += 1;
+            }
+        }
+    }
+
+    /// A sample of the line and its name; `at` is the middle of the left edge.
+    fn legend_entry(&mut self, index: usize, number: usize, at: [f64; 2]) {
+        let several = self.prepared[index].panel.series.len() > 1;
+        let Some(Entry { text, style, look }) = self.entries(index).into_iter().nth(number) else { return };
+        let width = self.sample_width();
+        let middle = [at[0] + 0.5 * width, at[1]];
+        let run = [at, [at[0] + width, at[1]]];
+        let around = Placed::empty(Area { left: at[0], top: at[1], right: at[0] + width, bottom: at[1] });
+        let rough = self.rough;
+        match style {
+            None => self.stroke(&run, &around, look.dashes, look.colour, 0.75 * self.sizes.line),
+            Some(style) => {
+                if style == SeriesStyle::Band {
+                    let height = 1.1 * self.sizes.gap;
+                    let band = Area { left: at[0], top: at[1] - height, right: at[0] + width, bottom: at[1] + height };
+                    self.canvas.rectangle(band, with_alpha(look.colour, 64));
+                }
+                if style != SeriesStyle::Markers {
+                    let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
+                    self.stroke(&run, &around, dashes, look.colour, self.sizes.line);
+                }
+                let marked = matches!(style, SeriesStyle::Markers | SeriesStyle::LineMarkers);
+                if marked || (rough && several && look.marker.is_some()) {
+                    self.marker(middle, self.marker_radius(), look);
+                }
+            }
+        }
+        let style = self.text_style(self.inks.ink);
+        let x = at[0] + width + 0.7 * self.sizes.gap;
+        self.canvas.text_centred(&text, [x, at[1]], Anchor::Start, style);
+    }
+}

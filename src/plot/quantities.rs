@@ -1,0 +1,185 @@
+//! What the quantities of a run are called, what they are measured in, and how they look, wherever they are shown.
+
+use super::chart::{Axis, AxisFit, Mean, Panel, Series, SeriesInk};
+use super::presets::EnergyTable;
+use super::ticks::short_number;
+
+/// The label of an axis of time.
+pub(super) const TIME: &str = "Time (time units)";
+/// The label of an axis of temperatures.
+pub(super) const TEMPERATURE: &str = "Temperature (energy units)";
+
+/// Columns of the table of energies, their names in legends, and the numbers of their inks: what moves has the first,
+/// what the configuration holds the second, and so on, in every panel.
+const COLUMNS: [(&str, &str, usize); 11] = [
+    ("kinetic_energy", "kinetic", 0),
+    ("potential_energy", "potential", 1),
+    ("total_energy", "total", 2),
+    ("bath_energy", "bath", 3),
+    ("extended_energy", "total with bath", 4),
+    ("internal_energy", "internal", 5),
+    ("temperature", "kinetic", 0),
+    ("configurational_temperature", "configurational", 1),
+    ("internal_temperature", "internal", 5),
+    ("pressure", "total", 2),
+    ("pressure_conservative", "conservative part", 1),
+];
+
+/// A mean is a lower bound of its error where it comes from few samples; its name in a legend ends in this.
+pub(super) const FEW_SAMPLES: &str = "*";
+/// The name of a mean that includes the way to equilibrium ends in this.
+pub(super) const UNEQUILIBRATED: &str = "†";
+
+/// Means of columns of the table of energies, taken over the end of a run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Averages {
+    /// Time from which on they are taken; left out, all of the run.
+    pub from: Option<f64>,
+    /// Means by the name of their column, in the units of the table.
+    pub means: Vec<(String, Mean)>,
+}
+
+impl Averages {
+    /// The mean of a column over a divisor.
+    fn of(&self, column: &str, divisor: f64) -> Option<Mean> {
+        let (_, mean) = self.means.iter().find(|(name, _)| name == column)?;
+        Some(Mean { value: mean.value / divisor, standard_error: mean.standard_error.map(|e| e / divisor), ..*mean })
+    }
+}
+
+/// A series of a column in its own ink.
+pub(super) fn series(column: &str, points: Vec<[f64; 2]>) -> Series {
+    match COLUMNS.iter().find(|(known, _, _)| *known == column) {
+        Some((_, name, number)) => Series::line(name, points).with_ink(SeriesInk::Numbered(*number)),
+        None => Series::line(column, points),
+    }
+}
+
+/// A panel over time of those columns that a table has, over a divisor, with their means; one without any is empty.
+pub(super) fn panel(label: &str, table: &EnergyTable, columns: &[&str], divisor: f64, averages: &Averages) -> Panel {
+    let mut panel = Panel::new(TIME, label);
+    panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(label) };
+    panel.averaged_from = averages.from;
+    for column in columns {
+        if let Some(points) = table.points(column, divisor) {
+            panel.series.push(Series { mean: averages.of(column, divisor), ..series(column, points) });
+        }
+    }
+    panel
+}
+
+/// The panel with the set temperature to compare with, if that is known.
+pub(super) fn with_set_temperature(panel: Panel, temperature: f64) -> Panel {
+    if !temperature.is_finite() {
+        return panel;
+    }
+    panel.with_reference(&format!("set, kT = {}", short_number(temperature)), temperature)
+}
+
+/// What to say below the title about the means that a chart shows; nothing if it shows none.
+#[must_use]
+pub fn averages_note(averages: &Averages) -> String {
+    if averages.means.is_empty() {
+        return String::new();
+    }
+    let few = averages.means.iter().any(|(_, mean)| mean.from_few_samples);
+    let few = if few { format!(", {FEW_SAMPLES} from few samples") } else { String::new() };
+    let way = averages.means.iter().any(|(_, mean)| mean.unequilibrated);
+    let way = if way { format!(", {UNEQUILIBRATED} with the way to equilibrium") } else { String::new() };
+    let few = few + &way;
+    match averages.from {
+        Some(_) => format!("means ± errors after equilibration (shaded){few}"),
+        None => format!("means ± errors of the whole run{few}"),
+    }
+}
+
+/// A power of a unit of length: nothing, the unit, its square, its cube.
+fn per_volume(dimension: usize) -> &'static str {
+    match dimension {
+        1 => "/length unit",
+        2 => "/length unit²",
+        _ => "/length unit³",
+    }
+}
+
+/// The label of an axis of pressures in a number of dimensions.
+pub(super) fn pressure_label(dimension: usize) -> String {
+    format!("Pressure (energy units{})", per_volume(dimension))
+}
+
+/// The label of an axis for a column of the table of energies, with its unit.
+///
+/// ```
+/// use mesoscope::plot::quantity_label;
+/// assert_eq!(quantity_label("total_energy", false), "Total energy (energy units)");
+/// assert_eq!(quantity_label("total_energy", true), "Total energy relative to its first value");
+/// ```
+#[must_use]
+pub fn quantity_label(quantity: &str, relative: bool) -> String {
+    let spaced = quantity.replace("center", "centre").replace('_', " ");
+    let mut letters = spaced.chars();
+    let name: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
+    if relative {
+        return format!("{name} relative to its first value");
+    }
+    let unit = match quantity {
+        "volume_error" => "part of the volume",
+        "mean_neighbours" | "limited_exchanges" | "solver_iterations" => "number",
+        "solver_residual" => "part of the right side",
+        "mass" => "mass units",
+        "bath_square" => "square of its unit",
+        _ if quantity.contains("energy") || quantity.contains("temperature") => "energy units",
+        _ if quantity.contains("velocity") => "length units/time unit",
+        _ if quantity.contains("momentum") => "mass units × length units/time unit",
+        _ if quantity.contains("pressure") => "energy units/volume",
+        _ => "reduced units",
+    };
+    format!("{name} ({unit})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quantity_has_a_unit() {
+        for (quantity, label) in [
+            ("configurational_temperature", "Configurational temperature (energy units)"),
+            ("pressure", "Pressure (energy units/volume)"),
+            ("momentum_x", "Momentum x (mass units × length units/time unit)"),
+            ("center_of_mass_velocity_y", "Centre of mass velocity y (length units/time unit)"),
+        ] {
+            assert_eq!(quantity_label(quantity, false), label);
+        }
+    }
+
+    #[test]
+    fn a_quantity_looks_the_same_beside_all_others_and_alone() {
+        let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
+        let table = EnergyTable { columns, rows: vec![vec![0.0, 1.0, 2.0, 3.0]] };
+        let all =
+            panel("E", &table, &["kinetic_energy", "potential_energy", "total_energy"], 1.0, &Averages::default());
+        let ideal = panel("E", &table, &["kinetic_energy", "total_energy"], 1.0, &Averages::default());
+        assert_eq!(ideal.series[1].ink, all.series[2].ink);
+        assert_ne!(ideal.series[1].ink, all.series[1].ink);
+        for (index, (column, name, number)) in COLUMNS.iter().enumerate() {
+            let family = |column: &str| column.rsplit('_').next().unwrap_or_default().to_owned();
+            for (other, other_name, other_number) in &COLUMNS[..index] {
+                let alike = number == other_number || name == other_name;
+                assert!(!alike || family(column) != family(other), "{column} and {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn means_are_those_of_the_panel() {
+        let columns = ["time", "kinetic_energy"].map(str::to_owned).to_vec();
+        let table = EnergyTable { columns, rows: vec![vec![0.0, 30.0]] };
+        let mean = Mean { value: 30.0, standard_error: Some(2.0), from_few_samples: true, unequilibrated: true };
+        let averages = Averages { from: Some(4.0), means: vec![("kinetic_energy".to_owned(), mean)] };
+        let panel = panel("E", &table, &["kinetic_energy"], 20.0, &averages);
+        assert_eq!(panel.series[0].mean, Some(Mean { value: 1.5, standard_error: Some(0.1), ..mean }));
+        assert_eq!(panel.averaged_from, Some(4.0));
+        assert!(averages_note(&averages).ends_with("(shaded), * from few samples, † with the way to equilibrium"));
+    }
+}

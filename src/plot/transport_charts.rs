@@ -1,0 +1,216 @@
+//! Charts of transport: what is measured over lags, with the fits made to it and what they give.
+
+use super::chart::{Axis, AxisFit, Chart, Mean, Panel, Series, SeriesInk};
+use super::numbers::with_error;
+use super::presets::EnergyTable;
+use super::quantities::TIME;
+
+const LAG: &str = "Lag (time units)";
+
+/// A number that a fit gave, with its standard error where that is known.
+pub type Found = (f64, Option<f64>);
+
+/// Mean squared displacement (on logarithmic axes) and velocity autocorrelation over the lag, with what they say of diffusion;
+/// a column that is not in the table leaves its panel out.
+///
+/// The columns are `time`, `mean_squared_displacement` and `velocity_autocorrelation`. `einstein` is the diffusion coefficient
+/// that a line through the second half of the displacements gave in so many dimensions, `green_kubo` the one from the integral
+/// of the autocorrelation.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, diffusion_chart};
+///
+/// let columns = ["time", "mean_squared_displacement"].map(str::to_owned).to_vec();
+/// // ⟨Δr²⟩ = 6 D t - 0.1 with D = ½.
+/// let rows = (0..20).map(|lag| vec![0.1 * f64::from(lag), 0.3 * f64::from(lag) - 0.1]).collect();
+/// let chart = diffusion_chart("A fluid", &EnergyTable { columns, rows }, 3, Some((0.5, Some(0.02))), None);
+/// let fit = &chart.panels[0].series[1];
+/// assert!(fit.name.contains("D = 0.500 ± 0.020"), "{}", fit.name);
+/// assert!((fit.points[0][1] - 2.9).abs() < 1e-9);
+/// ```
+#[must_use]
+pub fn diffusion_chart(
+    title: &str,
+    table: &EnergyTable,
+    dimension: usize,
+    einstein: Option<Found>,
+    green_kubo: Option<Found>,
+) -> Chart {
+    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
+    if let Some(points) = table.points("mean_squared_displacement", 1.0) {
+        let mut panel = Panel::new(LAG, "Mean squared displacement (length units²)");
+        (panel.x, panel.y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
+        // At lag zero the displacement is zero by definition and has no logarithm.
+        let shown = points.iter().copied().filter(|point| point[0] > 0.0).collect();
+        panel.series.push(Series::line("displacement", shown));
+        if let Some((coefficient, error)) = einstein {
+            let slope = 2.0 * dimension as f64 * coefficient;
+            let name = format!("{} D t + b, D = {}", 2 * dimension, with_error(coefficient, error));
+            let line = Series::line(&name, displacement_line(&points, slope));
+            panel.series.push(line.with_ink(SeriesInk::Ink { pattern: 1 }));
+        }
+        chart.panels.push(panel);
+    }
+    if let Some(points) = table.points("velocity_autocorrelation", 1.0) {
+        let panel = Panel::new(LAG, "Velocity autocorrelation (length units²/time unit²)");
+        let name = green_kubo.map_or_else(
+            || "autocorrelation".to_owned(),
+            |(coefficient, error)| format!("autocorrelation; from its integral D = {}", with_error(coefficient, error)),
+        );
+        chart.panels.push(panel.with(Series::line(&name, points)).with_reference("zero", 0.0));
+    }
+    chart
+}
+
+/// The line of a slope through the second half of mean squared displacements, with weights 1/t² as in
+/// [`diffusion_from_displacement`](crate::measure::correlation::diffusion_from_displacement).
+fn displacement_line(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
+    let late = &points[points.len().div_ceil(2).max(1).min(points.len())..];
+    let weigh = |sums: [f64; 2], [time, value]: &[f64; 2]| {
+        let weight = 1.0 / (time * time);
+        [sums[0] + weight, sums[1] + weight * (value - slope * time)]
+    };
+    let [weight, sum] = late.iter().fold([0.0; 2], weigh);
+    late.iter().map(|[time, _]| [*time, slope * time + sum / weight]).collect()
+}
+
+/// Autocorrelations of transverse waves of momentum over the lag, on a logarithmic axis where a viscous decay is a straight
+/// line, with the decay fitted to each wave.
+///
+/// The columns are `wave_number`, `time`, `autocorrelation` and `fit`. `viscosities` are those of the waves in order, and that
+/// of all of them.
+///
+/// ```
+/// use mesoscope::plot::{EnergyTable, viscosity_chart};
+///
+/// let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
+/// let rows = vec![vec![0.5, 0.0, 1.0, f64::NAN], vec![0.5, 1.0, 0.8, 0.79], vec![0.9, 0.0, 1.0, f64::NAN]];
+/// let chart = viscosity_chart("Waves", &EnergyTable { columns, rows }, &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
+/// assert_eq!(chart.panels[0].series[0].name, "k = 0.5/length unit, η = 0.90 ± 0.10");
+/// assert_eq!(chart.subtitle, "shear viscosity η = 0.90 ± 0.10");
+/// ```
+#[must_use]
+pub fn viscosity_chart(title: &str, table: &EnergyTable, viscosities: &[Found], all: Option<Found>) -> Chart {
+    let label = "Normalised autocorrelation of transverse momentum waves";
+    let mut panel = Panel::new(LAG, label);
+    panel.y = Axis::log(label);
+    let cell = |row: &Vec<f64>, index: usize| row.get(index).copied().unwrap_or(f64::NAN);
+    let mut fits = Vec::new();
+    for (number, wave) in table.rows.chunk_by(|a, b| cell(a, 0) == cell(b, 0)).enumerate() {
+        let column = |index: usize| wave.iter().map(|row| [cell(row, 1), cell(row, index)]).collect::<Vec<_>>();
+        let mut name = format!("k = {}/length unit", with_error(cell(&wave[0], 0), None));
+        if let Some((value, error)) = viscosities.get(number) {
+            name = format!("{name}, η = {}", with_error(*value, *error));
+        }
+        panel.series.push(Series::line(&name, column(2)));
+        let fit: Vec<[f64; 2]> = column(3).into_iter().filter(|point| point[1].is_finite()).collect();
+        if !fit.is_empty() {
+            let name = if fits.is_empty() { "exponential decays fitted" } else { "" };
+            fits.push(Series::line(name, fit).with_ink(SeriesInk::Ink { pattern: 1 }));
+        }
+    }
+    panel.series.extend(fits);
+    let subtitle = all.map(|(value, error)| format!("shear viscosity η = {}", with_error(value, error)));
+    Chart { title: title.to_owned(), subtitle: subtitle.unwrap_or_default(), panels: vec![panel] }
+}
+
+/// A kind of chains: the name of its species, the number of beads, and the means of its squared end-to-end distance and of
+/// its squared radius of gyration.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ChainKind {
+    /// Name of the species.
+    pub species: String,
+    /// Beads in a chain.
+    pub beads: u64,
+    /// Mean of the squared distance of the ends; none of a ring.
+    pub end_to_end: Option<Mean>,
+    /// Mean of the squared radius of gyration.
+    pub gyration: Option<Mean>,
+}
+
+/// Sizes of chains over time, with their means: squared end-to-end distances and squared radii of gyration.
+///
+/// The columns are `time` and, for each kind with its number, `end_to_end_squared_0` and `radius_of_gyration_squared_0`.
+///
+/// ```
+/// use mesoscope::plot::{ChainKind, EnergyTable, Mean, chain_sizes_chart};
+///
+/// let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
+/// let table = EnergyTable { columns, rows: vec![vec![0.0, 6.1, 1.0], vec![1.0, 5.9, 1.1]] };
+/// let end_to_end = Some(Mean { value: 6.0, ..Mean::default() });
+/// let kind = ChainKind { species: "decamer".to_owned(), beads: 10, end_to_end, ..ChainKind::default() };
+/// let chart = chain_sizes_chart("A melt", &table, &[kind]);
+/// assert_eq!(chart.panels[0].series[0].name, "decamer, 10 beads");
+/// assert_eq!(chart.panels[1].series[0].points, [[0.0, 1.0], [1.0, 1.1]]);
+/// ```
+#[must_use]
+pub fn chain_sizes_chart(title: &str, table: &EnergyTable, kinds: &[ChainKind]) -> Chart {
+    let mut panels = Vec::new();
+    for (column, label) in [
+        ("end_to_end_squared", "Squared end-to-end distance (length units²)"),
+        ("radius_of_gyration_squared", "Squared radius of gyration (length units²)"),
+    ] {
+        let mut panel = Panel::new(TIME, label);
+        panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(label) };
+        for (number, kind) in kinds.iter().enumerate() {
+            let ends = column.starts_with("end");
+            let mean = if ends { kind.end_to_end } else { kind.gyration };
+            // The ends of a ring are neighbours.
+            if ends && mean.is_none() {
+                continue;
+            }
+            let Some(points) = table.points(&format!("{column}_{number}"), 1.0) else { continue };
+            let series = Series::line(&format!("{}, {} beads", kind.species, kind.beads), points);
+            panel.series.push(Series { mean, ..series.with_ink(SeriesInk::Numbered(number)) });
+        }
+        if !panel.series.is_empty() {
+            panels.push(panel);
+        }
+    }
+    let subtitle = "means over all chains of a kind, and ± errors over time after equilibration".to_owned();
+    Chart { title: title.to_owned(), subtitle, panels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::series_look::assert_all_told_apart;
+    use super::*;
+
+    #[test]
+    fn every_wave_is_a_series_with_its_fit() {
+        let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
+        let row = |wave: f64, lag: f64, fit: f64| vec![wave, lag, (-lag).exp(), fit];
+        let rows = vec![row(0.5, 0.0, f64::NAN), row(0.5, 1.0, 0.4), row(0.9, 0.0, f64::NAN), row(0.9, 1.0, 0.3)];
+        let chart = viscosity_chart("waves", &EnergyTable { columns, rows }, &[], None);
+        let series: Vec<(&str, usize)> =
+            chart.panels[0].series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
+        assert_eq!(
+            series,
+            [("k = 0.5/length unit", 2), ("k = 0.9/length unit", 2), ("exponential decays fitted", 1), ("", 1)]
+        );
+        assert_all_told_apart(&chart);
+        // A table without fits.
+        let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
+        let chart = viscosity_chart("waves", &EnergyTable { columns, rows: vec![vec![0.5, 0.0, 1.0]] }, &[], None);
+        assert_eq!(chart.panels[0].series.len(), 1);
+    }
+
+    #[test]
+    fn rings_have_no_ends() {
+        let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
+        let table = EnergyTable { columns, rows: vec![vec![0.0, 1.0, 2.0]] };
+        let ring = ChainKind { gyration: Some(Mean::default()), ..ChainKind::default() };
+        let chart = chain_sizes_chart("rings", &table, &[ring]);
+        assert_eq!(chart.panels.len(), 1);
+        assert!(chart.panels[0].y.label.contains("gyration"));
+    }
+
+    #[test]
+    fn a_line_follows_the_second_half() {
+        let points: Vec<[f64; 2]> = (0..40).map(|lag| f64::from(lag) * 0.1).map(|t| [t, 3.0 * t + 0.5]).collect();
+        let line = displacement_line(&points, 3.0);
+        assert_eq!(line.len(), 20);
+        assert!(line.iter().all(|[t, value]| (value - 3.0 * t - 0.5).abs() < 1e-9));
+        assert!(displacement_line(&[], 1.0).is_empty());
+    }
+}
