@@ -229,8 +229,8 @@ fn a_resumed_trajectory_has_the_bytes_of_a_whole_one() {
     {
         scene.output.trajectory = serde_json::from_value(serde_json::json!({"every": 25, "format": format})).unwrap();
         scene.time.steps = 200;
-        (scene.output.plot.width, scene.output.plot.height) = (320, 240);
-        (scene.output.snapshot.width, scene.output.snapshot.height) = (64, 64);
+        (scene.output.plot.width, scene.output.plot.height) = (320, Some(240));
+        (scene.output.snapshot.width, scene.output.snapshot.height) = (Some(64), Some(64));
         let name = if format == "gsd" { files::TRAJECTORY_GSD } else { files::TRAJECTORY_XYZ };
         let root = tempfile::tempdir().unwrap();
         let [whole, parts] = ["whole", "parts"].map(|name| root.path().join(name));
