@@ -180,3 +180,15 @@ fn the_margin_of_a_list_is_no_wider_than_the_box_allows() {
     let bytes = run(&scene, Options::default(), 8);
     assert!(same(&bytes, &run(&scene, Options::default(), 1)));
 }
+
+/// Of workgroups of one lane there are more than a dispatch has in one dimension, those whose number depends on the step too.
+#[test]
+fn folded_dispatches_give_the_same_bytes() {
+    let scene = fluid(&["space.box=[28,28,28]", COUPLED, "output.energies.every=1"]);
+    assert!(Model::new(&scene).particle_count() > 65_535);
+    let bytes = |workgroup_size| {
+        let options = Options { listed: true, workgroup_size: Some(workgroup_size), ..Options::default() };
+        bytes::run(&scene, options, 3, 3)
+    };
+    assert!(same(&bytes(64), &bytes(1)));
+}

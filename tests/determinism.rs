@@ -13,7 +13,9 @@ use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 use support::bytes::{self, Bytes, harvest};
-use support::{COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, gpu, reference, start};
+use support::{
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, hardware, reference, start,
+};
 
 const STEPS: u64 = 24;
 const TWO_DIMENSIONS: &str = "space.box=[12,9]";
@@ -50,7 +52,7 @@ fn scenes() -> Vec<Scene> {
 /// Every way to visit pairs that this adapter has.
 fn traversals() -> Vec<Traversal> {
     let mut traversals = vec![Traversal::Rows];
-    if gpu().subgroup_size() == Some(8) {
+    if hardware().takes_eights() {
         traversals.push(Traversal::Clusters);
     }
     traversals
@@ -102,6 +104,11 @@ fn traversals_segments_scans_and_workgroup_sizes_give_the_same_bytes() {
         }
         let roomy = Options { copies: Some(u64::from(u32::MAX)), ..Options::default() };
         assert!(plain == run(&scene, roomy, 8), "room for copies");
+        // Distances counted by a hundred dispatches, and by two.
+        for pairs in [10_000, 500_000] {
+            let options = Options { pairs_in_dispatch: Some(pairs), ..Options::default() };
+            assert!(plain == run(&scene, options, 8), "{options:?}");
+        }
     }
 }
 

@@ -6,13 +6,13 @@ mod support;
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::measure::{Observables, observables_of};
 use mesoscope::model::Model;
-use mesoscope::plan::{self, Hardware, Options, Traversal};
+use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::reference::Reference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use support::{
-    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, gpu, largest_difference, observables,
-    reference, start,
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, hardware, largest_difference,
+    observables, reference, start,
 };
 
 const EVERY_STEP: &str = "output.energies.every=1";
@@ -37,7 +37,7 @@ fn options(traversal: Traversal) -> Options {
 /// Every way to visit pairs that this adapter has.
 fn traversals() -> Vec<Traversal> {
     let mut traversals = vec![Traversal::Rows];
-    if gpu().subgroup_size() == Some(8) {
+    if hardware().takes_eights() {
         traversals.push(Traversal::Clusters);
     }
     traversals
@@ -624,7 +624,7 @@ fn copies(scene: &Scene, state: &State) -> u64 {
 }
 
 fn planned(scene: &Scene, options: Options) -> plan::Plan {
-    plan::plan(&Model::new(scene), 0, &scene.output, Hardware::from(gpu()), options)
+    plan::plan(&Model::new(scene), 0, &scene.output, hardware(), options)
 }
 
 #[test]

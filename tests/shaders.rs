@@ -1,6 +1,8 @@
 //! Every shader variant that any scene can ask for: linked, validated, and held against the plans and the host structs.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[path = "shaders/compilers.rs"]
+mod compilers;
 mod support;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -52,7 +54,7 @@ fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] 
 fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
     PLANS.get_or_init(|| {
-        let kinds = [fluid_plans, water_plans, coupled_plans, noise_plans, bond_plans, voronoi_plans];
+        let kinds = [fluid_plans, long_range_plans, water_plans, coupled_plans, noise_plans, bond_plans, voronoi_plans];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
             kinds.into_iter().flat_map(|plans| plans.join().unwrap()).collect()
@@ -102,6 +104,21 @@ fn fluid_plans() -> Vec<(String, Plan)> {
                 let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
                 let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
                 plans.extend(plans_of(&name, &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+/// The same where one dispatch does not look at all pairs of a radial distribution function.
+fn long_range_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
+        for integrator in INTEGRATORS {
+            for listed in [false, true].into_iter().filter(|listed| !listed || !integrator.contains("splitting")) {
+                let scene = fluid(&[SAMPLERS, &[space, integrator]].concat());
+                let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
+                plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
             }
         }
     }
@@ -464,6 +481,19 @@ fn every_constant_without_default_has_a_value_that_fits() {
         }
     }
     report(&complaints);
+}
+
+/// DirectX does not tell it to kernels whose number of workgroups a buffer says.
+#[test]
+fn no_kernel_asks_for_the_number_of_workgroups() {
+    let asks = |shader: &LinkedShader| {
+        let arguments = shader.module.entry_points.iter().flat_map(|entry| &entry.function.arguments);
+        let workgroups = naga::Binding::BuiltIn(naga::BuiltIn::NumWorkGroups);
+        arguments.into_iter().any(|argument| argument.binding.as_ref() == Some(&workgroups))
+    };
+    let kernels: BTreeSet<&Vec<&str>> =
+        linked().iter().filter(|(_, linked)| linked.as_ref().is_ok_and(asks)).map(|(modules, _)| modules).collect();
+    assert!(kernels.is_empty(), "{} kernels: {kernels:?}", kernels.len());
 }
 
 #[test]

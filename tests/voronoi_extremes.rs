@@ -268,7 +268,7 @@ fn a_crowd_is_tessellated_or_given_up() {
     }
     let mut engine = engine(&scene, &state, Options::default());
     match engine.advance(1, 1).and_then(|()| engine.finish()) {
-        Ok(_) => assert_eq!(engine.state().unwrap().total_momentum(), state.total_momentum()),
+        Ok(_) => assert_eq!(engine.reported().unwrap().total_momentum(), state.total_momentum()),
         Err(EngineError::GaveUp { step, adapter }) => {
             assert_eq!(adapter, support::gpu().description().name);
             let message = EngineError::GaveUp { step, adapter }.to_string();

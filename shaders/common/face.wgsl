@@ -15,7 +15,7 @@ fn image_of(word: u32) -> vec2<i32> {
 }
 fn face_word(slot: u32, image: vec2<i32>) -> u32 {
     let code = vec2<u32>(image + 1);
-    return slot | (code.x + 3u * code.y) << 28u;
+    return slot | ((code.x + 3u * code.y) << 28u);
 }
 
 // From the neighbour's image to me, r_k - r_l.

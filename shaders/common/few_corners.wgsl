@@ -58,8 +58,8 @@ fn cuts(there: Site, squared: f32) -> bool {
     let direction = there.away * scale() * inverse;
     let half = 0.5 * squared * inverse;
     let all = beyond_of(xs.a, ys.a, blurs.a, direction, half)
-        | beyond_of(xs.b, ys.b, blurs.b, direction, half) << 4u
-        | beyond_of(xs.c, ys.c, blurs.c, direction, half) << 8u;
+        | (beyond_of(xs.b, ys.b, blurs.b, direction, half) << 4u)
+        | (beyond_of(xs.c, ys.c, blurs.c, direction, half) << 8u);
     doubtful = doubtful || all >= 65536u;
     beyond = all & 4095u;
     return all != 0u;

@@ -2,7 +2,11 @@
 const RADIX = 4u;
 alias Legs = array<vec2<f32>, 4>;
 
-fn transformed(v: Legs) -> Legs { return fourier4(v[0], v[1], v[2], v[3]); }
+// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not valid.
+fn transformed(v: Legs) -> Legs {
+    let t = fourier4(v[0], v[1], v[2], v[3]);
+    return Legs(t[0], t[1], t[2], t[3]);
+}
 
 fn gathered(site: Site) -> Legs {
     let a = load_pair(site, 0u);

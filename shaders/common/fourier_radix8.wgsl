@@ -2,7 +2,11 @@
 const RADIX = 8u;
 alias Legs = array<vec2<f32>, 8>;
 
-fn transformed(v: Legs) -> Legs { return fourier8(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]); }
+// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not valid.
+fn transformed(v: Legs) -> Legs {
+    let t = fourier8(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
+    return Legs(t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7]);
+}
 
 fn gathered(site: Site) -> Legs {
     let a = load_pair(site, 0u);

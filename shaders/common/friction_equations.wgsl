@@ -3,12 +3,11 @@
 override VISCOSITY: f32; // times the time step
 @group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>;       // W, residual
 @group(0) @binding(22) var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
-@group(0) @binding(23) var<storage, read_write> searches: array<vec4<f32>>;        // preconditioned residual; place
+@group(0) @binding(23) var<storage, read_write> searches: array<Search>;
 
 // The image of the preconditioned residual.
-fn image_of_search(slot: u32, mine: vec4<f32>) -> Vector {
-    var image = preconditioners[slot].w * mine.xy;
-    let place = bitcast<vec2<u32>>(mine.zw);
+fn image_of_search(slot: u32, mine: Search) -> Vector {
+    var image = preconditioners[slot].w * mine.residual;
     let count = face_counts[slot];
     for (var number = 0u; number < count; number++) {
         let face = number * PARTICLES + slot;
@@ -16,25 +15,25 @@ fn image_of_search(slot: u32, mine: vec4<f32>) -> Vector {
         let other = neighbour_of(word);
         if (other == slot) { continue; }
         let theirs = searches[other];
-        let apart = separation(place, bitcast<vec2<u32>>(theirs.zw), word);
+        let apart = separation(mine.place, theirs.place, word);
         let square = dot(apart, apart);
-        let v = mine.xy - theirs.xy;
+        let v = mine.residual - theirs.residual;
         image += VISCOSITY * face_lengths[face] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
     }
     return image;
 }
 // What a cell adds to the sums of an iteration.
-fn products_of(slot: u32, mine: vec4<f32>, image: Vector) -> vec4<f32> {
-    return vec4<f32>(dot(estimates[slot].zw, mine.xy), dot(image, mine.xy), 0.0, 0.0);
+fn products_of(slot: u32, mine: Search, image: Vector) -> vec4<f32> {
+    return vec4<f32>(dot(estimates[slot].zw, mine.residual), dot(image, mine.residual), 0.0, 0.0);
 }
 // A step along the direction of search, from the last one with its image, which is returned.
 fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
     let search = searches[slot];
     // What is left of an earlier step need not be a number.
-    let direction = vec4<f32>(search.xy, image) + select(vec4<f32>(0.0), solver.turn * last, solver.turn != 0.0);
+    let direction = vec4<f32>(search.residual, image) + select(vec4<f32>(0.0), solver.turn * last, solver.turn != 0.0);
     let length = vec4<f32>(vec2<f32>(solver.step_length), vec2<f32>(-solver.step_length));
     let estimate = estimates[slot] + length * direction;
     estimates[slot] = estimate;
-    searches[slot] = vec4<f32>(preconditioned(preconditioners[slot].xyz, estimate.zw), search.zw);
+    searches[slot] = Search(preconditioned(preconditioners[slot].xyz, estimate.zw), search.place);
     return direction;
 }

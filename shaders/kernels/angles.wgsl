@@ -17,9 +17,8 @@ struct Corner {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let angle = group * WORKGROUP + lane;
     if (angle < ANGLES) { visit(angle); }
     finish_angles(group, lane);

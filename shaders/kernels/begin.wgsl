@@ -10,7 +10,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     for (var word = lane; word < 3u * CONDITIONAL; word += 64u) {
         demands[3u * CONDITIONAL + word] = select(0u, demands[word], demanded);
     }
-    workgroupBarrier();
+    storageBarrier();
     if (lane == 0u) {
         atomicStore(&control.demand, 0u);
         begin_step();

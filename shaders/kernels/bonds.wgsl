@@ -7,9 +7,8 @@ const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the s
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let bond = group * WORKGROUP + lane;
     if (bond < BONDS) { visit(bond); }
     finish_bonds(group, lane);

@@ -7,9 +7,8 @@ override START_STREAM_Y: u32;
 @group(0) @binding(27) var<storage, read_write> came_from: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     let key = threefry2x32(clock_step(), vec2<u32>(START_STREAM_X, START_STREAM_Y));
     let me = particle_at(slot);

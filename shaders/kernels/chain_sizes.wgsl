@@ -6,9 +6,8 @@ override CHAIN_LENGTH: f32; // squared length over its quantum
 @group(0) @binding(44) var<storage, read> chain_starts: array<vec4<u32>>; // first bead, beads, group
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let number = group * WORKGROUP + lane;
     var chain = vec4<u32>(0u, 0u, QUANTITIES, 0u);
     if (number < CHAINS) { chain = chain_starts[number]; }
@@ -29,5 +28,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let own = chain.z == quantity / 2u;
         reduce_quantity(group, lane, quantity, select(Sum64(0u), sizes[quantity & 1u], own));
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
 }

@@ -2,9 +2,8 @@
 override PARITY: u32; // of the iteration, for nobody may change the number that others still read
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     let done = iteration.done[PARITY];
     if (index == 0u) { iteration.done[1u - PARITY] = done + 1u; }
     let column = index % NODES_X;

@@ -6,9 +6,8 @@ override SHARES: u32; // workgroups that share all parts of all rows, as many of
 const WORDS: u32 = 32u;
 
 @compute @workgroup_size(8)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(subgroup_invocation_id) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_invocation_id) lane: u32) {
+    let group = linear_workgroup(workgroup);
     var masks: array<u32, WORDS>;
     // Loops are left at their ends: software adapters execute what follows a `break` for nobody, once more in every loop.
     var part = group * (rows() * SEGMENTS) / SHARES;
@@ -63,7 +62,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         part++;
         if (part >= last_part) { break; }
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
     pass_finish(group, lane);
 }
 

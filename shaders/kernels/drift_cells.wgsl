@@ -4,9 +4,8 @@ override PARTICLES: u32;
 @group(0) @binding(5) var<storage, read_write> counts: array<atomic<u32>>; // particles in each grid cell
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     let me = stored_particle(slot);
     let position = drifted(me, velocity_of(me));

@@ -5,9 +5,8 @@ const STRIP: u32 = 4u; // rows
 var<private> lane_of_eight: u32;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(subgroup_id) subgroup: u32, @builtin(subgroup_invocation_id) lane: u32) {
-    let strip = linear_workgroup(workgroup, workgroups) * (WORKGROUP / 8u) + subgroup;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_id) subgroup: u32, @builtin(subgroup_invocation_id) lane: u32) {
+    let strip = linear_workgroup(workgroup) * (WORKGROUP / 8u) + subgroup;
     let row = strip / (CELLS_X / 8u) * STRIP;
     if (row >= CELLS_Y) { return; }
     lane_of_eight = lane;
@@ -19,5 +18,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     visit_cell((row + 2u) * CELLS_X + column);
     visit_cell((row + 3u) * CELLS_X + column);
     end_strip(column, row);
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
 }

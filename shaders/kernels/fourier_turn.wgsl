@@ -1,8 +1,7 @@
 // Where the Fourier transform turns back: last pass forth, smoothing, first pass back; one invocation a butterfly.
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= LINES * (LENGTH / RADIX)) { return; }
     let site = site_of(index);
     let waves_there = transformed(twisted(gathered(site), site.place, LENGTH));

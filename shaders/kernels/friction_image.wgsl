@@ -3,9 +3,8 @@ override PARTICLES: u32;
 @group(0) @binding(24) var<storage, read_write> images: array<vec2<f32>>;
 
 @compute @workgroup_size(LANES)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * LANES + lane;
     var products = vec4<f32>(0.0);
     if (slot < PARTICLES) {

@@ -2,12 +2,11 @@
 override PARTICLES: u32;
 @group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>;       // W, residual
 @group(0) @binding(22) var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
-@group(0) @binding(23) var<storage, read_write> searches: array<vec4<f32>>;        // preconditioned residual; place
+@group(0) @binding(23) var<storage, read_write> searches: array<Search>;
 
 @compute @workgroup_size(LANES)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * LANES + lane;
     var square = 0.0;
     if (slot < PARTICLES) { square = set_up(slot); }
@@ -43,7 +42,7 @@ fn set_up(slot: u32) -> f32 {
     let residual = friction + noise;
     preconditioners[slot] = vec4<f32>(inverse, inertia);
     estimates[slot] = vec4<f32>(velocity, residual);
-    searches[slot] = vec4<f32>(preconditioned(inverse, residual), bitcast<vec2<f32>>(me.position.xy));
+    searches[slot] = Search(preconditioned(inverse, residual), me.position.xy);
     let right = inertia * velocity + noise;
     return dot(right, preconditioned(inverse, right));
 }

@@ -15,12 +15,11 @@ var<workgroup> local_counts: array<atomic<u32>, COUNTS>;
 var<workgroup> local_moments: array<atomic<u32>, 2u * MOMENTS>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     for (var entry = lane; entry < COUNTS; entry += WORKGROUP) { atomicStore(&local_counts[entry], 0u); }
     for (var word = lane; word < 2u * MOMENTS; word += WORKGROUP) { atomicStore(&local_moments[word], 0u); }
     workgroupBarrier();
-    let group = linear_workgroup(workgroup, workgroups);
+    let group = linear_workgroup(workgroup);
     // The dispatch may be folded, and then has a few workgroups too many.
     if (group < GROUPS) {
         for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) { count(sampled(id)); }

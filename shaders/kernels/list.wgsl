@@ -10,9 +10,8 @@ override SPAN_Z: u32;
 fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     let position = position_at(slot);
     let fraction = fraction_of(position);
@@ -38,5 +37,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
     }
     put_next_neighbour_word(slot, min(count, LIST_CAPACITY));
     raise(select(0u, FAILURE_FRAMES, count > LIST_CAPACITY));
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
 }

@@ -10,9 +10,8 @@ override BATH_RESPONSE: f32;    // per unit of integer mass
 const BATH_LIMIT: f32 = 1e30; // which any number is below
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let node = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let node = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (node >= CELLS_X * CELLS_Y) { return; }
     var s = node_bath[node];
     let mass = node_masses[node];

@@ -5,9 +5,8 @@ override PARTICLES: u32;
 @group(0) @binding(40) var<storage, read_write> reported: array<array<vec4<u32>, 2>>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) { observe(slot); }
     total_reduce(group, lane);

@@ -22,9 +22,8 @@ fn taken_number(cell: u32, lane: u32) -> u32 {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) lane_of_eight: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) lane_of_eight: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     // All lanes stay to the end, as all are asked for their cells.
     let inside = index < PARTICLES;
     let cell = cell_of(stored_position(min(index, max(PARTICLES, 1u) - 1u)));

@@ -10,11 +10,10 @@ override SPAN_Z: u32;
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     for (var bin = lane; bin < BINS; bin += WORKGROUP) { atomicStore(&local_bins[bin], 0u); }
     workgroupBarrier();
-    let share = linear_workgroup(workgroup, workgroups);
+    let share = share_of(linear_workgroup(workgroup));
     let group = share / PARTS;
     let row = group / SEGMENTS;
     if (row < rows()) {
@@ -32,7 +31,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             if (before + found < before) { atomicAdd(&histogram[2u * bin + 1u], 1u); }
         }
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
 }
 
 fn count_pairs(row: u32, part: u32, position: vec4<u32>) {

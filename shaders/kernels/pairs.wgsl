@@ -5,9 +5,8 @@ override PARTICLES: u32;
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) { visit(slot); }
     finish_pairs(group, lane);

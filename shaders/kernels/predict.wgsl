@@ -4,9 +4,8 @@ override PARTICLES: u32;
 @group(0) @binding(18) var<storage, read_write> predictions: array<vec4<f32>>; // velocity, pressure, volume
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     prepare_noise();
     let me = stored_particle(slot);

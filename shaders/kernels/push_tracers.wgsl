@@ -4,9 +4,8 @@ override CLOSES: u32; // 1 from before the closing kick
 @group(0) @binding(19) var<storage, read_write> tracers: array<Water>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= TRACERS) { return; }
     var tracer = tracers[index];
     let x = place_along(tracer.position.x, CELLS_X);

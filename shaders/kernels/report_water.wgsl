@@ -8,9 +8,8 @@ const QUANTITIES: u32 = 6u;
 @group(0) @binding(12) var<storage, read_write> node_masses: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let cell = group * WORKGROUP + lane;
     var kinetic = Sum64(0u);
     var momentum_x = Sum64(0u);
@@ -43,7 +42,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
         let s = surface_at(cell) - depths[cell];
         bath = sum64_of_f32(BATH_SQUARE * s * s);
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
     reduce_quantity(group, lane, 0u, kinetic);
     reduce_quantity(group, lane, 1u, momentum_x);
     reduce_quantity(group, lane, 2u, momentum_y);

@@ -5,9 +5,8 @@ override SEGMENTS: u32; // workgroups that share a row
 const WORDS: u32 = 32u;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let row = group / SEGMENTS;
     if (row < rows()) {
         let end = row_end(row);
@@ -16,7 +15,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) wo
             visit(row, index);
         }
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
     pass_finish(group, lane);
 }
 

@@ -2,9 +2,8 @@
 @group(0) @binding(8) var<storage, read_write> row_sums: array<vec2<u32>>; // one a row, then one a block of 256 rows
 
 @compute @workgroup_size(SCAN_LANES)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let block = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let block = linear_workgroup(workgroup);
     let row = block * SCAN_LANES + lane;
     var own = vec2<u32>(0u);
     if (row < rows()) { own = row_totals(row); }

@@ -5,9 +5,8 @@ override CAPACITY: u32; // of the sorted array, frames included
 @group(0) @binding(5) var<storage, read_write> counts: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
     if (index >= PARTICLES) { return; }
     let particle = copied(index);

@@ -4,9 +4,8 @@ override GRADIENT: f32; // square of the force per square of an impulse, over it
 @group(0) @binding(39) var<storage, read_write> forces: array<vec4<i32>>;
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) {
         let force = Vector(steps_of(forces[slot]));

@@ -3,6 +3,7 @@
 //
 // Particles of a subgroup go on together from one step of the work to the next: looking for a bisector that may cut, cutting,
 // and, rarely, deciding exactly.
+override GROUPS: u32; // workgroups that share the cells in doubt
 
 // How far a particle may be beside its grid cell, as a fraction of the box.
 const STRAY: f32 = 3e-5;
@@ -121,14 +122,16 @@ fn make_cell(slot: u32) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let lanes = workgroups.x * workgroups.y * WORKGROUP;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let count = atomicLoad(&places.doubtful);
-    for (var entry = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane; entry < count; entry += lanes) {
-        make_cell(places.elements[PARTICLES + entry].x);
+    // The dispatch may be folded, and then has a few workgroups too many.
+    if (group < GROUPS) {
+        for (var entry = group * WORKGROUP + lane; entry < count; entry += GROUPS * WORKGROUP) {
+            make_cell(places.elements[PARTICLES + entry].x);
+        }
     }
-    report_turns(workgroups.x >> 16u);
+    report_turns(workgroup.x >> 16u);
 }
 
 fn store_faces(slot: u32) {

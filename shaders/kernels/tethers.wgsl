@@ -6,9 +6,8 @@ override TETHER: f32; // impulse of half a step per length
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) {
         let position = stored_position(slot);

@@ -4,9 +4,8 @@ override PARTICLES: u32;
 const QUANTITIES: u32 = 2u * DIMENSION * (DIMENSION - 1u);
 
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup, workgroups);
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
     let id = group * WORKGROUP + lane;
     var quantity = 0u;
     for (var axis = 0u; axis < DIMENSION; axis++) {

@@ -38,6 +38,9 @@ impl Stage {
 /// The buffer that holds the workgroups of kernels whose number depends on the step.
 pub(super) const DEMANDS: &str = "demands";
 
+/// The constant by which kernels of a folded dispatch number their workgroups.
+const FOLD: &str = "FOLD";
+
 /// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.
 pub(super) fn stages(
     gpu: &Gpu,
@@ -71,7 +74,9 @@ fn stage(
     // What a kernel sets for itself goes before what holds for all.
     let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
     let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
-    let (pipeline, linked) = gpu.compile(kernel.name, &kernel.modules, constants.copied())?;
+    let [width, height] = folded(kernel.workgroups);
+    let fold = (height > 1).then_some((FOLD, f64::from(width)));
+    let (pipeline, linked) = gpu.compile(kernel.name, &kernel.modules, constants.copied().chain(fold))?;
     let bound = linked.bindings.iter().map(|binding| {
         let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
         let name = renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer);
@@ -93,7 +98,7 @@ fn stage(
     })?;
     let size = match (kernel.demand, buffers.get(DEMANDS)) {
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
-        _ => Size::Fixed(folded(kernel.workgroups)),
+        _ => Size::Fixed([width, height]),
     };
     Ok(Stage { pipeline, bindings, size })
 }

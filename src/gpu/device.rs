@@ -13,6 +13,48 @@ pub struct Requirements {
     pub largest_buffer: u64,
     /// The most storage buffers that one kernel binds.
     pub storage_buffers: u32,
+    /// Whether to leave alone what only some adapters have, subgroups and the serial memory of software adapters: plans are
+    /// then the ones for any GPU.
+    pub portable: bool,
+}
+
+/// A limit of an adapter below what is needed.
+#[derive(Debug, PartialEq, Eq)]
+struct Shortage {
+    quantity: &'static str,
+    allowed: u64,
+    needed: u64,
+}
+
+impl Shortage {
+    fn of(self, adapter: String) -> GpuError {
+        let Self { quantity, allowed, needed } = self;
+        GpuError::TooSmall { adapter, quantity, allowed, needed }
+    }
+}
+
+/// Lanes of the largest workgroup, and the bytes that one shares: what every adapter has that computes.
+const LANES: u32 = 256;
+const SHARED_BYTES: u32 = 16_384;
+
+/// The limits to ask for, as far as an adapter has them.
+fn limits(offered: &wgpu::Limits, requirements: Requirements) -> Result<wgpu::Limits, Shortage> {
+    let mut limits = wgpu::Limits::default().or_worse_values_from(offered);
+    let enough = |quantity, allowed: u64, needed: u64| match allowed < needed {
+        true => Err(Shortage { quantity, allowed, needed }),
+        false => Ok(()),
+    };
+    let bytes = requirements.largest_buffer;
+    let buffers = requirements.storage_buffers;
+    enough("bytes in a storage buffer", offered.max_storage_buffer_binding_size, bytes)?;
+    enough("bytes in a buffer", offered.max_buffer_size, bytes)?;
+    enough("storage buffers in a kernel", offered.max_storage_buffers_per_shader_stage.into(), buffers.into())?;
+    enough("lanes in a workgroup", offered.max_compute_invocations_per_workgroup.into(), LANES.into())?;
+    enough("bytes shared by a workgroup", offered.max_compute_workgroup_storage_size.into(), SHARED_BYTES.into())?;
+    limits.max_storage_buffer_binding_size = limits.max_storage_buffer_binding_size.max(bytes);
+    limits.max_buffer_size = limits.max_buffer_size.max(bytes);
+    limits.max_storage_buffers_per_shader_stage = limits.max_storage_buffers_per_shader_stage.max(buffers);
+    Ok(limits)
 }
 
 /// What kernels use where lanes load and store one after the other: eight bytes at a time, and textures that are loaded from
@@ -45,7 +87,8 @@ impl Gpu {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
     }
 
-    /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it.
+    /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it. What no kernel needs, such as
+    /// the size of textures, may be less.
     ///
     /// ```
     /// use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements, list_adapters};
@@ -110,47 +153,20 @@ impl Gpu {
         let adapter = adapter::choose(choice)?;
         let info = adapter.get_info();
         let offered = adapter.limits();
-        let mut limits = wgpu::Limits::default();
-        if requirements.largest_buffer > limits.max_storage_buffer_binding_size {
-            for (quantity, allowed) in [
-                ("bytes in a storage buffer", offered.max_storage_buffer_binding_size),
-                ("bytes in a buffer", offered.max_buffer_size),
-            ] {
-                if requirements.largest_buffer > allowed {
-                    return Err(GpuError::TooSmall {
-                        adapter: info.name,
-                        quantity,
-                        allowed,
-                        needed: requirements.largest_buffer,
-                    });
-                }
-            }
-            limits.max_storage_buffer_binding_size = requirements.largest_buffer;
-            limits.max_buffer_size = limits.max_buffer_size.max(requirements.largest_buffer);
-        }
-        if requirements.storage_buffers > limits.max_storage_buffers_per_shader_stage {
-            if requirements.storage_buffers > offered.max_storage_buffers_per_shader_stage {
-                return Err(GpuError::TooSmall {
-                    adapter: info.name,
-                    quantity: "storage buffers in a kernel",
-                    allowed: offered.max_storage_buffers_per_shader_stage.into(),
-                    needed: requirements.storage_buffers.into(),
-                });
-            }
-            limits.max_storage_buffers_per_shader_stage = requirements.storage_buffers;
-        }
+        let mut limits = limits(&offered, requirements).map_err(|shortage| shortage.of(info.name.clone()))?;
         let texels = |format| {
             let flags = adapter.get_texture_format_features(format).flags;
             flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE)
         };
-        let serial_memory = info.device_type == wgpu::DeviceType::Cpu
+        let serial_memory = !requirements.portable
+            && info.device_type == wgpu::DeviceType::Cpu
             && adapter.features().contains(SERIAL_FEATURES)
             && offered.max_storage_textures_per_shader_stage >= STORAGE_TEXTURES
             && [wgpu::TextureFormat::Rgba32Uint, wgpu::TextureFormat::Rg32Uint].into_iter().all(texels);
         if serial_memory {
             limits.max_storage_textures_per_shader_stage = STORAGE_TEXTURES;
         }
-        let subgroups = adapter.features().contains(wgpu::Features::SUBGROUP);
+        let subgroups = !requirements.portable && adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -253,5 +269,41 @@ impl Gpu {
 fn record(note: &Mutex<Option<String>>, message: String) {
     if let Ok(mut slot) = note.lock() {
         slot.get_or_insert(message);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_adapters_open_and_large_scenes_need_large_ones() {
+        let usual = wgpu::Limits::default();
+        let none = Requirements::default();
+        assert_eq!(limits(&usual, none), Ok(usual.clone()));
+        // As the graphics processor of a Raspberry Pi: textures of 4096 texels, which computing does not need.
+        let small = wgpu::Limits { max_texture_dimension_2d: 4096, max_texture_dimension_1d: 4096, ..usual.clone() };
+        assert_eq!(limits(&small, none), Ok(small.clone()));
+
+        let shortage = |offered: &wgpu::Limits, requirements| limits(offered, requirements).unwrap_err();
+        let bytes = usual.max_storage_buffer_binding_size;
+        let large = Requirements { largest_buffer: bytes + 1, ..none };
+        let (quantity, allowed, needed) = ("bytes in a storage buffer", bytes, bytes + 1);
+        assert_eq!(shortage(&usual, large), Shortage { quantity, allowed, needed });
+        let roomy =
+            wgpu::Limits { max_storage_buffer_binding_size: 2 * bytes, max_buffer_size: 4 * bytes, ..usual.clone() };
+        let raised = limits(&roomy, large).unwrap();
+        assert_eq!(
+            (raised.max_storage_buffer_binding_size, raised.max_buffer_size),
+            (bytes + 1, usual.max_buffer_size)
+        );
+        assert_eq!(limits(&roomy, none), Ok(usual.clone()), "no more than is needed");
+
+        let nine = Requirements { storage_buffers: 9, ..none };
+        let (quantity, allowed, needed) = ("storage buffers in a kernel", 8, 9);
+        assert_eq!(shortage(&usual, nine), Shortage { quantity, allowed, needed });
+        let narrow = wgpu::Limits { max_compute_invocations_per_workgroup: 128, ..usual };
+        let (quantity, allowed, needed) = ("lanes in a workgroup", 128, 256);
+        assert_eq!(shortage(&narrow, none), Shortage { quantity, allowed, needed });
     }
 }

@@ -92,6 +92,23 @@ pub struct Hardware {
     pub serial_memory: bool,
 }
 
+impl Hardware {
+    /// Whether particles and cells are worth taking in eights: where every subgroup has eight lanes, of an adapter whose lanes
+    /// are those of a processor's vectors. Lanes of GPUs need not keep step behind a loop that they leave at different times.
+    ///
+    /// ```
+    /// use mesoscope::plan::Hardware;
+    ///
+    /// let processor = Hardware { subgroup_size: Some(8), serial_memory: true };
+    /// assert!(processor.takes_eights());
+    /// assert!(!Hardware { serial_memory: false, ..processor }.takes_eights());
+    /// ```
+    #[must_use]
+    pub fn takes_eights(&self) -> bool {
+        self.subgroup_size == Some(8) && self.serial_memory
+    }
+}
+
 /// Choices that change how a scene is computed but not a bit of its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Options {
@@ -112,6 +129,8 @@ pub struct Options {
     pub listed: bool,
     /// How often the room for the pairs of a particle in the list has been doubled.
     pub list_growth: u32,
+    /// Pairs that one dispatch looks at for a radial distribution function, at most; about a second's work if `None`.
+    pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
 }

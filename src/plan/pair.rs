@@ -26,11 +26,11 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force.as_ref().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff, particles);
-    let traversal = match (model.pair_force.is_some(), options.traversal, hardware.subgroup_size) {
-        (false, _, _) => Traversal::Alone,
-        (true, Some(traversal), _) => traversal,
-        (true, None, Some(8)) => Traversal::Clusters,
-        (true, None, _) => Traversal::Rows,
+    let traversal = match (model.pair_force.is_some(), options.traversal) {
+        (false, _) => Traversal::Alone,
+        (true, Some(traversal)) => traversal,
+        (true, None) if hardware.takes_eights() => Traversal::Clusters,
+        (true, None) => Traversal::Rows,
     };
     let mut builder = Builder {
         model,
@@ -534,8 +534,7 @@ impl Builder<'_> {
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
         let mut modules = space(&self.model.units, self.predicted());
         modules.extend(self.sorted());
-        let histogram =
-            PairHistogram { units: &self.model.units, grid: &self.grid, workgroup: self.workgroup_size(), asked };
+        let histogram = PairHistogram { units: &self.model.units, grid: &self.grid, options: self.options, asked };
         // Where a report moves the particles on, distances are counted there too.
         let needs_report = self.splits();
         let first = self.equilibration;

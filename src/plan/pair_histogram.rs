@@ -2,12 +2,19 @@
 
 use super::recording::record_histogram;
 use super::serial_memory::TURNS;
-use super::{Grid, Kernel, Plan, Sampler};
+use super::{Grid, Kernel, Options, Plan, Sampler};
 use crate::scene::RadialDistribution;
 use crate::state::Units;
 
 /// Histograms kept on the device between two readbacks.
 const CAPACITY: u64 = 16;
+
+/// Pairs that one dispatch looks at, at most: a second's work of a small adapter. Systems that watch over their displays end
+/// what takes seconds.
+const PAIRS: u64 = 1 << 30;
+
+/// The most dispatches that share a histogram.
+const MOST_DISPATCHES: u64 = 1 << 12;
 
 /// Enough workgroups to fill an adapter.
 const ENOUGH: u64 = 8192;
@@ -16,8 +23,7 @@ const ENOUGH: u64 = 8192;
 pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
     pub grid: &'a Grid,
-    /// Lanes of a workgroup.
-    pub workgroup: u64,
+    pub options: Options,
     pub asked: &'a RadialDistribution,
 }
 
@@ -37,8 +43,11 @@ impl PairHistogram<'_> {
         modules.extend(["common/contact", span, "common/turns_endless", "kernels/pair_histogram"]);
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
-        let workgroups = self.grid.rows() * segments * parts;
-        kernels.push(plan.add_kernel(Kernel::new("pair_histogram", modules, workgroups).with(vec![
+        let shares = self.grid.rows() * segments * parts;
+        let dispatches = self.dispatches(plan.particles, spans).min(shares);
+        modules.push(if dispatches > 1 { "common/shares_in_turn" } else { "common/shares_at_once" });
+        let shares = shares.div_ceil(dispatches);
+        let mut constants = vec![
             ("BINS", bins as f64),
             ("HISTOGRAM_RANGE", self.asked.range),
             ("SPAN_X", spans[0] as f64),
@@ -46,7 +55,19 @@ impl PairHistogram<'_> {
             ("SPAN_Z", spans[2] as f64),
             ("SEGMENTS", segments as f64),
             ("PARTS", parts as f64),
-        ])));
+        ];
+        if dispatches > 1 {
+            constants.push(("SHARES", shares as f64));
+        }
+        let count = plan.add_kernel(Kernel::new("pair_histogram", modules, shares).with(constants));
+        if dispatches > 1 {
+            let next = Kernel::new("next_dispatch", vec!["kernels/next_dispatch"], 1);
+            let next = plan.add_kernel(next.with(vec![("DISPATCHES", dispatches as f64)]));
+            kernels.extend([count, next].repeat(dispatches as usize));
+            plan.add_buffer("dispatches_done", "dispatches of a histogram that have run", 4);
+        } else {
+            kernels.push(count);
+        }
         kernels.push(plan.add_kernel(record_histogram(bins).renamed(vec![("samples", "histogram_samples")])));
         plan.add_buffer("histogram", "pairs by distance", 8 * bins);
         plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + CAPACITY * (1 + bins)));
@@ -72,6 +93,15 @@ impl PairHistogram<'_> {
         (2 * (self.asked.range / width).ceil() as u64 + 1).min(self.grid.cells[axis].into())
     }
 
+    /// Dispatches that share the pairs.
+    fn dispatches(&self, particles: u64, spans: [u64; 3]) -> u64 {
+        let cells_around = spans.iter().product::<u64>();
+        let candidates =
+            u128::from(particles) * u128::from(particles) * u128::from(cells_around) / u128::from(self.grid.count());
+        let at_once = self.options.pairs_in_dispatch.unwrap_or(PAIRS).max(1);
+        candidates.div_ceil(at_once.into()).clamp(1, MOST_DISPATCHES.into()) as u64
+    }
+
     /// Workgroups that share the particles of a row, and those that share the rows around each of these: enough to fill the
     /// adapter, and so many that no lane makes more turns than it should.
     fn shares(&self, particles: u64, spans: [u64; 3]) -> (u64, u64) {
@@ -81,7 +111,7 @@ impl PairHistogram<'_> {
         let in_cell = (particles / self.grid.count()).max(1);
         let turns_of_cell = in_cell + 2 * in_cell.isqrt() + 2;
         let candidates = turns_of_cell.saturating_mul(spans[0]).saturating_mul(rows_around);
-        let rounds = (particles / rows).div_ceil(self.workgroup).max(1);
+        let rounds = (particles / rows).div_ceil(self.options.workgroup()).max(1);
         // Of all particles of a lane, if one workgroup took the row.
         let turns = rounds.saturating_mul(candidates);
         let segments = rounds.min((ENOUGH / rows).max(turns.div_ceil(TURNS)).max(1));
@@ -103,7 +133,7 @@ mod tests {
             let particles = (density * edge * edge * edge) as u64;
             let grid = Grid::new(&units, 1.0, particles);
             let asked = RadialDistribution { every: 1, range, bins: 10 };
-            let histogram = PairHistogram { units: &units, grid: &grid, workgroup: 64, asked: &asked };
+            let histogram = PairHistogram { units: &units, grid: &grid, options: Options::default(), asked: &asked };
             let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
             let (segments, parts) = histogram.shares(particles, spans);
             // A lane's particles, the rows of cells that it visits around each, the cells of these, and the particles in the

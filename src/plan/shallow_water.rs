@@ -52,7 +52,7 @@ pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
 /// Whether the lanes of a subgroup take eight cells side by side, row after row of a strip, share what they load and store for
 /// them, and take their particles whichever their cells.
 fn takes_eights(water: &ShallowWater, hardware: Hardware, options: Options) -> bool {
-    let worthwhile = hardware.subgroup_size == Some(8) && water.nodes() >= FEWEST_NODES;
+    let worthwhile = hardware.takes_eights() && water.nodes() >= FEWEST_NODES;
     let wanted = options.traversal.map_or(worthwhile, |asked| asked == Traversal::Clusters);
     let strips = water.mesh[0].is_multiple_of(8) && u64::from(water.mesh[1]).is_multiple_of(STRIP);
     wanted && strips && water.spline_order == 3 && options.workgroup() >= 8

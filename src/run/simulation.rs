@@ -244,14 +244,14 @@ pub(super) fn open_adapter(
         let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
-        Gpu::open(choice, Requirements { largest_buffer, storage_buffers }).map_err(|error| {
-            match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
+        Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() }).map_err(
+            |error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
                 Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
                     RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
                 }
                 _ => error.into(),
-            }
-        })
+            },
+        )
     };
     match open(Hardware::default()) {
         // What the plan for any adapter needs this one may not: some get by with smaller buffers.

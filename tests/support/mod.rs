@@ -14,18 +14,30 @@ use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference,
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-/// The adapter of the tests: the one named by `MESOSCOPE_ADAPTER`, or the best.
+/// The adapter of the tests: the one named by `MESOSCOPE_ADAPTER`, or the best. With `MESOSCOPE_PLAN=gpu` nothing is used of it
+/// that only some adapters have: plans are the ones for any GPU, on software adapters too.
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| {
         let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-        Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements::default()).expect("an adapter")
+        let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
+            Err(_) => false,
+            Ok("gpu") => true,
+            Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
+        };
+        let requirements = Requirements { portable, ..Requirements::default() };
+        Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements).expect("an adapter")
     })
+}
+
+/// What plans may use of it.
+pub fn hardware() -> Hardware {
+    Hardware::from(gpu())
 }
 
 /// Cells of a mesh in eights, on small meshes too, where the adapter has subgroups for it.
 pub fn in_eights() -> Options {
-    Options { traversal: (gpu().subgroup_size() == Some(8)).then_some(Traversal::Clusters), ..Options::default() }
+    Options { traversal: hardware().takes_eights().then_some(Traversal::Clusters), ..Options::default() }
 }
 
 /// A scene from its JSON text.
@@ -121,8 +133,7 @@ pub fn start(scene: &Scene) -> (Model, State) {
 /// An engine for a scene, with options.
 pub fn engine(scene: &Scene, state: &State, options: Options) -> Engine<'static> {
     let model = Model::new(scene);
-    let hardware = Hardware::from(gpu());
-    let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
+    let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware(), options);
     Engine::new(gpu(), plan, state).expect("an engine")
 }
 

@@ -49,8 +49,7 @@ impl Builder<'_> {
         }
         let sorted = ["common/particles", self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
         let modules = [&self.space()[..], &sorted].concat();
-        let histogram =
-            PairHistogram { units: &self.model.units, grid: &self.grid, workgroup: self.options.workgroup(), asked };
+        let histogram = PairHistogram { units: &self.model.units, grid: &self.grid, options: self.options, asked };
         histogram.add(&mut self.plan, modules, kernels, self.equilibration, false);
     }
 }

@@ -67,6 +67,7 @@ impl Builder<'_> {
         self.plan.kernels[exactly].constants = vec![
             ("SPACING", self.spacing()),
             ("CORNERS", self.face_capacity() as f64),
+            ("GROUPS", groups as f64),
             ("WEIGHT_X_LOW", low(x_weight)),
             ("WEIGHT_X_HIGH", high(x_weight)),
             ("WEIGHT_Y_LOW", low(y_weight)),
