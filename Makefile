@@ -26,14 +26,21 @@ help: ## this list
 run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
 
+# Those of the device, short enough to be run a second time with the plans that every GPU gets.
+ON_GPU_PLANS := reference_and_device couplings_determinism voronoi_determinism harmonic_chain smoothing tessellation
+
 test: cargo adapter ## formatting, lints, all tests, documentation
+	@sh .ci/spirv.sh
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
 	cargo test --locked
+	MESOSCOPE_PLAN=gpu cargo test --locked $(addprefix --test ,$(ON_GPU_PLANS))
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
 
-validate: cargo adapter ## the long physics and conservation tests
-	cargo test --release --locked -- --ignored --show-output
+validate: cargo adapter ## the long tests, and all tests on other drivers
+	@sh .ci/spirv.sh
+	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
+	bash .ci/drivers.sh
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

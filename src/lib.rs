@@ -48,6 +48,7 @@ pub mod printable;
 pub mod reference;
 pub mod run;
 pub mod scene;
+pub mod self_test;
 pub mod state;
 pub mod sweep;
 pub mod tessellation;

@@ -186,9 +186,11 @@ fn the_margin_of_a_list_is_no_wider_than_the_box_allows() {
 fn folded_dispatches_give_the_same_bytes() {
     let scene = fluid(&["space.box=[28,28,28]", COUPLED, "output.energies.every=1"]);
     assert!(Model::new(&scene).particle_count() > 65_535);
-    let bytes = |workgroup_size| {
+    let run = |workgroup_size| {
         let options = Options { listed: true, workgroup_size: Some(workgroup_size), ..Options::default() };
-        bytes::run(&scene, options, 3, 3)
+        bytes::run(&scene, options, 2, 2)
     };
-    assert!(same(&bytes(64), &bytes(1)));
+    // Sums over so many workgroups take a single lane more turns than software adapters make.
+    let (wide, narrow) = (run(64), run(1));
+    assert!(wide.state == narrow.state && wide.reported == narrow.reported);
 }

@@ -43,8 +43,10 @@ fn check_statics(edge: f64, rates: &[f64], steps: u64, changes: &[&str], [allowa
         let mut run = Device::from_state(&scene, &state, Options::default());
         run.step(200);
         let [kinetic, configurational, pressure] = equilibrium(&run.series(10, steps / 10));
-        kinetic.assert(&format!("kinetic temperature, rate {rate}"), 1.0, 0.01, 0.01);
-        configurational.assert(&format!("configurational temperature, rate {rate}"), 1.0, 0.01, 0.016);
+        // Of 375 particles the temperature varies by √(2/3N) = .042; of 150 samples some 25 are independent, which makes an
+        // error of .008, and from so few blocks it is itself found within a factor of two only.
+        kinetic.assert(&format!("kinetic temperature, rate {rate}"), 1.0, 0.01, 0.016);
+        configurational.assert(&format!("configurational temperature, rate {rate}"), 1.0, 0.01, 0.024);
         pressure.assert(&format!("pressure, rate {rate}"), 23.635, allowance, error);
     }
 }

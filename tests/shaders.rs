@@ -427,9 +427,10 @@ fn every_module_is_embedded_and_can_be_asked_for() {
 }
 
 #[test]
-fn the_shaders_of_pictures_are_valid() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders/plot");
-    let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+fn the_shaders_of_pictures_and_checks_are_valid() {
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let folders = ["plot", "check"].map(|folder| std::fs::read_dir(shaders.join(folder)).unwrap());
+    let files: Vec<_> = folders.into_iter().flatten().map(|entry| entry.unwrap().path()).collect();
     assert!(!files.is_empty());
     let complaints: Vec<String> = (files.into_iter())
         .filter_map(|file| {

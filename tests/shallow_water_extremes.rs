@@ -372,6 +372,8 @@ fn a_bath_that_is_too_stiff_is_caught() {
 
 #[test]
 fn a_time_step_far_beyond_stability_is_caught_and_the_suggested_one_works() {
+    // Just beyond stability what grows is rounding, from whatever an adapter makes of the last digit.
+    const STEPS: u64 = 500;
     for step in [0.45, 10.1, 1e6] {
         for changes in [
             &[][..],
@@ -383,13 +385,13 @@ fn a_time_step_far_beyond_stability_is_caught_and_the_suggested_one_works() {
             let (_, state) = start(&scene);
             let mut suggestions = Vec::new();
             for storage in STORAGES {
-                let error = failure(&scene, &state, stored(storage), 200);
+                let error = failure(&scene, &state, stored(storage), STEPS);
                 if matches!(error, EngineError::Crowded { .. }) {
                     assert_eq!(storage, Storage::Bins);
                     continue;
                 }
                 let (at, quantity, suggested) = unstable(&error);
-                assert!(at < 200 && !quantity.is_empty(), "{error}");
+                assert!(at < STEPS && !quantity.is_empty(), "{error}");
                 let message = error.to_string();
                 assert!(
                     message.contains(&format!("at step {at}: ")) && message.contains(&suggested.to_string()),

@@ -8,6 +8,7 @@ mod texels;
 mod timing;
 
 pub use error::EngineError;
+pub(crate) use readback::read as read_back;
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};

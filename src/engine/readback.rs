@@ -104,7 +104,7 @@ fn arrived(
 }
 
 /// Waits for the device and reads as many bytes as `copy` records to be copied into a buffer.
-pub(super) fn read(
+pub(crate) fn read(
     gpu: &Gpu,
     size: u64,
     copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),

@@ -1,0 +1,301 @@
+//! One step of every family of models against the reference in double precision, and the sums that no step may change.
+
+use super::Finding;
+use crate::engine::{Engine, EngineError};
+use crate::gpu::Gpu;
+use crate::model::Model;
+use crate::plan::{Hardware, Options, plan};
+use crate::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
+use crate::scene::{self, Scene};
+use crate::state::State;
+
+/// A scene with its name in words.
+struct Case {
+    name: &'static str,
+    scene: &'static str,
+    changes: &'static [&'static str],
+    /// Whether the plan for any adapter is run beside that of the adapter, where they are two.
+    twice: bool,
+}
+
+const FLUID: &str = r#"{
+    "title": "check", "space": {"box": [6, 6, 6]}, "time": {"step": 0.04, "steps": 1}, "temperature": 1,
+    "particles": [{"species": "A", "number_density": 2}, {"species": "B", "number_density": 1, "mass": 2.5}],
+    "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5,
+        "pairs": [{"between": ["A", "B"], "repulsion": 40, "friction": 9}]}],
+    "output": {"energies": {"every": 1000}}
+}"#;
+const CHAINS: &str = r#"{
+    "title": "check", "space": {"box": [6, 6, 6]}, "time": {"step": 0.02, "steps": 1}, "temperature": 1,
+    "integrator": {"type": "cotter-reich"},
+    "particles": [{"species": "A", "count": 600, "chain": {"beads": 3}}],
+    "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5},
+        {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 9}, "friction": 2,
+            "bath": {"type": "memory", "rate": 3}},
+        {"type": "angles", "stiffness": 2}],
+    "output": {"energies": {"every": 1000}}
+}"#;
+const CELLS: &str = r#"{
+    "title": "check", "space": {"box": [20, 20]}, "time": {"step": 0.02, "steps": 1}, "temperature": 1,
+    "particles": [{"species": "A", "count": 400, "mass": 5, "placement": {"type": "lattice", "jitter": 0.25}}],
+    "interactions": [{"type": "voronoi"}], "output": {"energies": {"every": 1000}}
+}"#;
+const WATER: &str = r#"{
+    "title": "check", "space": {"box": [6.283185307179586, 6.283185307179586]}, "time": {"step": 0.02, "steps": 1},
+    "temperature": 0, "integrator": {"type": "gyro"},
+    "particles": [{"species": "water", "count": 4096, "placement": {"type": "lattice"}, "velocities": {"type": "geostrophic"}}],
+    "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6.283185307179586,
+        "rotation": 6.283185307179586, "smoothing": {"length": 0.8},
+        "surface": [{"type": "wave", "periods": [1, 2], "amplitude": 0.05}]}],
+    "output": {"energies": {"every": 1000}}
+}"#;
+
+const CASES: [Case; 11] = [
+    Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
+    Case {
+        name: "pairs, Groot and Warren with Gaussian noise",
+        scene: FLUID,
+        changes: &[r#"integrator={"type":"groot-warren"}"#, r#"noise={"distribution":"gaussian"}"#],
+        twice: false,
+    },
+    Case {
+        name: "pairs, Groot and Warren with prediction",
+        scene: FLUID,
+        changes: &[r#"integrator={"type":"groot-warren","lambda":0.65}"#],
+        twice: false,
+    },
+    Case {
+        name: "pairs, Cotter and Reich",
+        scene: FLUID,
+        changes: &[r#"integrator={"type":"cotter-reich"}"#, r#"noise={"generator":"threefry2x32-20"}"#],
+        twice: false,
+    },
+    Case {
+        name: "pairs with memory",
+        scene: FLUID,
+        changes: &[
+            r#"integrator={"type":"cotter-reich"}"#,
+            r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":5}}]"#,
+        ],
+        twice: true,
+    },
+    Case { name: "bonds and angles", scene: CHAINS, changes: &[], twice: false },
+    Case {
+        name: "coloured noise, Langevin bath and tethers",
+        scene: FLUID,
+        changes: &[
+            r#"integrator={"type":"cotter-reich"}"#,
+            r#"interactions=[{"type":"coloured-noise","strength":1,"time":0.1},{"type":"tether","stiffness":3},
+                {"type":"langevin","friction":2,"bath":{"type":"memory","rate":5}}]"#,
+        ],
+        twice: false,
+    },
+    Case { name: "Voronoi cells", scene: CELLS, changes: &[], twice: true },
+    Case {
+        name: "Voronoi cells with energy",
+        scene: CELLS,
+        changes: &[r#"interactions.0.energy={"conductivity":1}"#],
+        twice: false,
+    },
+    Case {
+        name: "shallow water with a bath",
+        scene: WATER,
+        changes: &[r#"interactions.0.bath={"type":"memory","epsilon":1}"#],
+        twice: true,
+    },
+    Case {
+        name: "shallow water, other solver",
+        scene: WATER,
+        changes: &[
+            r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-6}"#,
+            "integrator.type=rotate",
+        ],
+        twice: false,
+    },
+];
+
+/// Steps after which sums are looked at again.
+const STEPS: u64 = 20;
+/// What a difference of one step may be of what the step has changed: single precision is off by a few in 10⁵, a wrong number,
+/// or one that is lost, by parts of one.
+const TOLERANCE: f64 = 1e-3;
+/// Changes of fewer units than that say little: they are rounded.
+const FEWEST_UNITS: f64 = 1e5;
+
+/// Checks every family; `error_of_noise` is that of the functions that noise is made from.
+pub(super) fn check(gpu: &Gpu, error_of_noise: f64, report: &mut dyn FnMut(Finding)) {
+    for case in &CASES {
+        let found = against_the_reference(gpu, case, TOLERANCE + 4.0 * error_of_noise);
+        report(match found {
+            Ok(found) => Finding::new(case.name, true, found),
+            Err(found) => Finding::new(case.name, false, found),
+        });
+    }
+}
+
+impl Case {
+    fn scene(&self) -> Result<Scene, String> {
+        let changes: Vec<String> = self.changes.iter().map(|change| (*change).to_owned()).collect();
+        scene::parse("check", self.scene, &changes).map_err(|error| error.to_string())
+    }
+}
+
+/// The state after one step of the reference.
+fn reference_step(model: &Model, start: &State) -> Result<State, String> {
+    let words = |error: crate::reference::Unstable| format!("the reference: {error}");
+    let missing = || "the reference does not know this scene".to_owned();
+    let (model, start) = (model.clone(), start.clone());
+    if model.shallow_water.is_some() {
+        let mut reference = ShallowWaterReference::new(model, start).ok_or_else(missing)?;
+        reference.step().map_err(words)?;
+        Ok(reference.state().clone())
+    } else if model.voronoi.is_some() {
+        let mut reference = VoronoiReference::new(model, start).ok_or_else(missing)?;
+        reference.step().map_err(words)?;
+        Ok(reference.state().clone())
+    } else if model.is_coupled() {
+        let mut reference = CouplingsReference::new(model, start);
+        reference.step().map_err(words)?;
+        Ok(reference.state().clone())
+    } else {
+        let mut reference = Reference::new(model, start);
+        reference.step().map_err(words)?;
+        Ok(reference.state().clone())
+    }
+}
+
+/// Everything of a state that a step changes, by name, in integer units.
+fn quantities(state: &State) -> [(&'static str, Vec<i64>); 4] {
+    [
+        ("momenta", state.momenta.iter().flatten().map(|units| i64::from(*units)).collect()),
+        ("positions", state.positions.iter().flatten().map(|units| i64::from(*units)).collect()),
+        ("masses", state.masses.iter().map(|units| i64::from(*units)).collect()),
+        ("energies", state.energies.iter().map(|units| i64::from(*units)).collect()),
+    ]
+}
+
+/// The largest difference, of positions the short way round.
+fn largest_difference(name: &str, one: &[i64], other: &[i64]) -> f64 {
+    let difference = |(a, b): (&i64, &i64)| match name {
+        "positions" => f64::from((*a as u32).wrapping_sub(*b as u32) as i32).abs(),
+        _ => (a - b).abs() as f64,
+    };
+    one.iter().zip(other).map(difference).fold(0.0, f64::max)
+}
+
+/// The largest difference of two states after a step, as a part of the largest change of the step, and of what.
+fn deviation(start: &State, found: &State, expected: &State) -> (f64, &'static str) {
+    let mut worst = (0.0, "momenta");
+    for (((name, start), (_, found)), (_, expected)) in
+        quantities(start).into_iter().zip(quantities(found)).zip(quantities(expected))
+    {
+        let change = largest_difference(name, &expected, &start).max(FEWEST_UNITS);
+        let part = largest_difference(name, &found, &expected) / change;
+        if part > worst.0 {
+            worst = (part, name);
+        }
+    }
+    worst
+}
+
+/// What may never change in a scene, by name.
+fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
+    let mut sums = Vec::new();
+    if model.conserves_momentum() {
+        sums.push(("momentum", state.total_momentum()));
+    }
+    for (name, units) in quantities(state).into_iter().skip(2).filter(|(_, units)| !units.is_empty()) {
+        sums.push((if name == "masses" { "mass" } else { "energy" }, [units.iter().sum(), 0, 0]));
+    }
+    sums
+}
+
+/// What was found, or what is wrong.
+fn against_the_reference(gpu: &Gpu, case: &Case, tolerance: f64) -> Result<String, String> {
+    let scene = case.scene()?;
+    let model = Model::new(&scene);
+    let start = scene::placement::initial_state(&scene, &model);
+    let words = |error: EngineError| error.to_string();
+    let hardware = Hardware::from(gpu);
+    let engine = |hardware| {
+        let plan = plan(&model, 0, &scene.output, hardware, Options::default());
+        Engine::new(gpu, plan, &start).map_err(words)
+    };
+    let mut device = engine(hardware)?;
+    device.advance(1, 1).map_err(words)?;
+    let (part, name) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
+    device.advance(STEPS - 1, STEPS).map_err(words)?;
+    let last = device.state().map_err(words)?;
+    let mut found = format!("a step is off by {part:.0e} of its change at most ({name})");
+    if part > tolerance {
+        return Err(format!("{found}, more than {tolerance:.0e}"));
+    }
+    let (before, after) = (constants(&model, &start), constants(&model, &last));
+    for ((sum, before), (_, after)) in before.iter().zip(&after) {
+        if before != after {
+            let by: Vec<i64> = before.iter().zip(after).map(|(before, after)| after - before).collect();
+            return Err(format!("total {sum} changes by {by:?} units in {STEPS} steps"));
+        }
+    }
+    if !before.is_empty() {
+        let names: Vec<&str> = before.iter().map(|(sum, _)| *sum).collect();
+        found = format!("{found}; total {} constant to the last bit", names.join(", "));
+    }
+    if case.twice && hardware != Hardware::default() {
+        let mut portable = engine(Hardware::default())?;
+        portable.advance(STEPS, STEPS).map_err(words)?;
+        if portable.state().map_err(words)? != last {
+            return Err(format!("the plan for any adapter gives other bits after {STEPS} steps"));
+        }
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A deviation is found where one number of one particle is wrong, and none where nothing is.
+    #[test]
+    fn a_wrong_number_is_seen() -> Result<(), String> {
+        for case in &CASES {
+            let scene = case.scene()?;
+            let model = Model::new(&scene);
+            let start = scene::placement::initial_state(&scene, &model);
+            let expected = reference_step(&model, &start)?;
+            assert_eq!(deviation(&start, &expected, &expected).0, 0.0);
+            let change = |index: usize| {
+                let [(name, start), (_, expected)] = [&start, &expected].map(|state| quantities(state)[index].clone());
+                largest_difference(name, &start, &expected)
+            };
+            let mut wrong = expected.clone();
+            wrong.momenta[0][0] += (0.01 * change(0)) as i32;
+            let (part, name) = deviation(&start, &wrong, &expected);
+            assert!(name == "momenta" && part > 5e-3, "{}: {part} of {name}", case.name);
+            let mut wrong = expected.clone();
+            wrong.positions[1][1] = wrong.positions[1][1].wrapping_add((0.01 * change(1)) as u32);
+            let (part, name) = deviation(&start, &wrong, &expected);
+            assert!(name == "positions" && part > 5e-3, "{}: {part} of {name}", case.name);
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn what_a_model_keeps_is_known() -> Result<(), String> {
+        for case in &CASES {
+            let scene = case.scene()?;
+            let model = Model::new(&scene);
+            let start = scene::placement::initial_state(&scene, &model);
+            let names: Vec<&str> = constants(&model, &start).iter().map(|(name, _)| *name).collect();
+            let expected: &[&str] = match case.name {
+                "coloured noise, Langevin bath and tethers" => &[],
+                "Voronoi cells" => &["momentum", "mass"],
+                "Voronoi cells with energy" => &["momentum", "mass", "energy"],
+                name if name.starts_with("shallow water") => &["mass"],
+                _ => &["momentum"],
+            };
+            assert_eq!(names, expected, "{}", case.name);
+        }
+        Ok(())
+    }
+}
