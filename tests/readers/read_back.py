@@ -6,6 +6,7 @@ Arguments: a directory of cases, each with `expected.json`, `trajectory.gsd` and
 import json
 import sys
 import warnings
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -138,7 +139,7 @@ def main():
         for package, (name, check) in READERS.items():
             if any(entry.startswith(package) for entry in missing):
                 continue
-            print(f"{place.name}: {package} {__import__(package).__version__} read {check(case, place / name)} frames")
+            print(f"{place.name}: {package} {version(package)} read {check(case, place / name)} frames")
 
 
 main()
