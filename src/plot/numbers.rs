@@ -7,7 +7,7 @@ use super::ticks::{number, short_number, superscript};
 /// ```
 /// use mesoscope::plot::with_error;
 /// assert_eq!(with_error(23.63512, Some(0.0213)), "23.635 ± 0.021");
-/// assert_eq!(with_error(-1.2345e-7, Some(1.2e-9)), "(−1.2345 ± 0.0120)×10⁻⁷");
+/// assert_eq!(with_error(-1.2345e-7, Some(1.2e-9)), "(−1.235 ± 0.012)×10⁻⁷");
 /// assert_eq!(with_error(1.23456, None), "1.235");
 /// ```
 #[must_use]
