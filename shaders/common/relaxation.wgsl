@@ -8,11 +8,13 @@ const RATE_UNIT: f32 = 65536.0;    // integer units of the rate, so that its sum
 const RATE_LIMIT: i32 = 8388607;   // what fits beside the species
 
 fn friction_rate(c: Coefficients, root: f32) -> f32 { return 2.0 * c.friction * root * root; }
-fn rate_units(rate: f32) -> u32 { return u32(round(min(rate, 100.0) * RATE_UNIT)); }
-// What a particle feels from its pairs other than this one: the difference is one of integers, see `relaxation_impulse`.
+fn whole_units(rate: f32) -> f32 { return round(min(rate, 100.0) * RATE_UNIT); }
+fn rate_units(rate: f32) -> u32 { return u32(whole_units(rate)); }
+// What a particle feels from its pairs other than this one. The difference of two whole numbers below 2²⁴ is exact, and no
+// product of them is left to contract: see `relaxation_impulse`.
 fn rate_of_others(momentum: vec4<i32>, rate: f32) -> f32 {
-    let own = i32(rate_units(rate * rate_scale_of(species_in(momentum))));
-    return f32(max((momentum.w >> 8u) - own, 0)) * (1.0 / RATE_UNIT);
+    let own = whole_units(rate * rate_scale_of(species_in(momentum)));
+    return max(f32(momentum.w >> 8u) - own, 0.0) * (1.0 / RATE_UNIT);
 }
 
 // (1 - exp(-s)) / s
