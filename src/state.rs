@@ -216,7 +216,7 @@ impl State {
             "holds" => self.holds = elements(name, words)?,
             "tethers" => self.tethers = elements(name, words)?,
             "images" => self.images = elements(name, words)?,
-            _ => return Err(format!("it holds an unknown array `{name}`")),
+            _ => return Err(format!("it holds an unknown array `{}`", name.escape_debug())),
         }
         Ok(())
     }

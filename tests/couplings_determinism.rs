@@ -93,7 +93,7 @@ fn a_resumed_run_goes_on_with_the_same_bytes() {
             let mut samples = first.finish().unwrap();
             samples.retain(|sample| sample.step < interruption);
             let path = directory.path().join(format!("{number}-{interruption}"));
-            checkpoint::save(&path, &scene, &kept, &[]).unwrap();
+            checkpoint::save(&path, &scene, &kept, &[], &[]).unwrap();
             let kept = checkpoint::load(&path).unwrap().state;
             let mut second = engine(&scene, &kept, Options::default());
             second.advance(STEPS - interruption, 8).unwrap();

@@ -7,8 +7,8 @@ use mesoscope::model::Model;
 use mesoscope::output::checkpoint::{self, CheckpointError};
 use mesoscope::output::summary::AdapterSummary;
 use mesoscope::output::{
-    EnergiesFile, OutputError, RunDirectory, Summary, Table, TrajectoryWriter, files, read_table, write_atomically,
-    write_table,
+    EnergiesFile, Extent, OutputError, RunDirectory, Summary, Table, TrajectoryWriter, files, read_table,
+    write_atomically, write_table,
 };
 use mesoscope::scene::{Scene, TrajectoryFormat};
 use mesoscope::state::State;
@@ -56,13 +56,26 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join("a/b/run");
     let run = RunDirectory::create(&path, false).unwrap();
-    assert!(directory_listing(&path).is_empty());
+    assert_eq!(directory_listing(&path), [files::LOCK]);
     fs::write(run.file("notes.txt"), "mine").unwrap();
-    RunDirectory::create(&path, false).unwrap();
+    drop(run);
+    let run = RunDirectory::create(&path, false).unwrap();
 
     for name in [files::SUMMARY, files::ENERGIES, &files::snapshot(12)] {
         run.write(name, |writer| writer.write_all(b"old")).unwrap();
     }
+    for force in [false, true] {
+        let error = RunDirectory::create(&path, force).unwrap_err();
+        assert!(error.to_string().contains(&format!("in use by process {}", std::process::id())), "{error}");
+    }
+    assert_eq!(
+        directory_listing(&path),
+        ["energies.csv", "mesoscope.lock", "notes.txt", "run.json", "snapshot-000012.png"]
+    );
+    let run = {
+        drop(run);
+        RunDirectory::open(&path).unwrap()
+    };
     let error = RunDirectory::create(&path, false).unwrap_err();
     assert!(matches!(&error, OutputError::InTheWay { path } if path.ends_with("energies.csv")), "{error}");
     assert!(error.to_string().contains("--force"));
@@ -80,6 +93,48 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
 }
 
 #[test]
+fn files_of_the_user_are_neither_removed_nor_followed() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("run");
+    let mine = ["write-test.tmp", "run.json.tmp", "checkpoint.bin.tmp", "energies.csv.tmp", "a.mesoscope-1.tmp"];
+    fs::create_dir(&path).unwrap();
+    for name in mine {
+        fs::write(path.join(name), "mine").unwrap();
+    }
+    let stale = files::temporary(files::CHECKPOINT.as_ref(), 4711, 3);
+    fs::write(path.join(&stale), "half of a checkpoint").unwrap();
+    let run = RunDirectory::create(&path, false).unwrap();
+    run.write(files::SUMMARY, |writer| writer.write_all(b"{}")).unwrap();
+    // What a process with the number of this one once left is in nobody's way either.
+    for number in 0..100 {
+        fs::write(path.join(files::temporary("t.csv".as_ref(), std::process::id(), number)), "stale").unwrap();
+    }
+    run.write("t.csv", |writer| writer.write_all(b"x\n")).unwrap();
+    assert_eq!(fs::read(run.file("t.csv")).unwrap(), b"x\n");
+    drop(run);
+    drop(RunDirectory::claim(&path).unwrap());
+    let mut expected: Vec<&str> = mine.into_iter().chain([files::SUMMARY, "t.csv"]).collect();
+    expected.sort_unstable();
+    assert_eq!(directory_listing(&path), expected);
+    assert!(mine.iter().all(|name| fs::read(path.join(name)).unwrap() == b"mine"));
+    #[cfg(unix)]
+    {
+        let target = root.path().join("target");
+        fs::write(&target, "mine").unwrap();
+        for name in mine {
+            fs::remove_file(path.join(name)).unwrap();
+            std::os::unix::fs::symlink(&target, path.join(name)).unwrap();
+        }
+        let run = RunDirectory::create(&path, true).unwrap();
+        for name in [files::SUMMARY, files::CHECKPOINT, files::ENERGIES] {
+            run.write(name, |writer| writer.write_all(b"new")).unwrap();
+        }
+        assert_eq!(fs::read(&target).unwrap(), b"mine");
+        assert!(mine.iter().all(|name| path.join(name).is_symlink()));
+    }
+}
+
+#[test]
 fn snapshots_a_resumed_run_takes_again_are_removed() {
     let root = tempfile::tempdir().unwrap();
     let run = RunDirectory::create(root.path(), false).unwrap();
@@ -87,6 +142,7 @@ fn snapshots_a_resumed_run_takes_again_are_removed() {
         run.write(&files::snapshot(number), |writer| writer.write_all(b"p")).unwrap();
     }
     run.remove_snapshots_after(3).unwrap();
+    drop(run);
     assert_eq!(directory_listing(root.path()), (1..=3).map(files::snapshot).collect::<Vec<_>>());
 }
 
@@ -135,14 +191,7 @@ fn a_file_appears_complete_or_not_at_all() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_reported_as_such() {
-    use std::os::unix::fs::symlink;
-    let root = tempfile::tempdir().unwrap();
     let is_full = |error: &OutputError| matches!(error, OutputError::Io { source, .. } if source.kind() == std::io::ErrorKind::StorageFull);
-
-    symlink("/dev/full", root.path().join("run.json.tmp")).unwrap();
-    let error = write_atomically(&root.path().join("run.json"), |writer| writer.write_all(b"x")).unwrap_err();
-    assert!(is_full(&error), "{error}");
-    assert!(directory_listing(root.path()).is_empty());
 
     let full = Path::new("/dev/full");
     let error = EnergiesFile::create(full, &["time"]).unwrap_err();
@@ -183,33 +232,90 @@ fn resumed_energies_continue_after_the_step_and_keep_earlier_rows() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::ENERGIES);
     let mut energies = EnergiesFile::create(&path, &["x"]).unwrap();
+    let mut extents = Vec::new();
     for step in 0..10 {
         energies.append(10 * step, &[1.0 / (step + 1) as f64]).unwrap();
+        energies.sync().unwrap();
+        extents.push(energies.extent());
     }
-    energies.sync().unwrap();
     drop(energies);
     let whole = fs::read(&path).unwrap();
 
     // As a killed process may leave it: the last row is not finished.
     fs::write(&path, &whole[..whole.len() - 3]).unwrap();
-    let mut energies = EnergiesFile::resume(&path, &["x"], 1000).unwrap();
+    let mut energies = EnergiesFile::resume(&path, &["x"], extents[8]).unwrap();
     energies.append(90, &[0.1]).unwrap();
     drop(energies);
     assert_eq!(fs::read(&path).unwrap(), whole);
 
-    let mut energies = EnergiesFile::resume(&path, &["x"], 55).unwrap();
+    let mut energies = EnergiesFile::resume(&path, &["x"], extents[5]).unwrap();
+    assert_eq!(energies.extent(), extents[5]);
     for step in 6..10 {
         energies.append(10 * step, &[1.0 / (step + 1) as f64]).unwrap();
     }
+    energies.sync().unwrap();
+    assert_eq!(energies.extent(), extents[9]);
+    energies.check().unwrap();
     drop(energies);
     assert_eq!(fs::read(&path).unwrap(), whole);
 
-    let error = EnergiesFile::resume(&path, &["y"], 55).unwrap_err();
+    // Any bit of what is kept; what is cut off may be anything.
+    for place in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 1 << (place % 8);
+        fs::write(&path, &bytes).unwrap();
+        let resumed = EnergiesFile::resume(&path, &["x"], extents[5]);
+        if place < extents[5].bytes as usize {
+            assert!(matches!(resumed, Err(OutputError::Altered { .. } | OutputError::Columns { .. })), "byte {place}");
+            assert_eq!(fs::read(&path).unwrap(), bytes, "it is left as it is");
+        } else {
+            drop(resumed.unwrap());
+            assert_eq!(fs::read(&path).unwrap(), whole[..extents[5].bytes as usize]);
+        }
+    }
+    fs::write(&path, &whole).unwrap();
+
+    let error = EnergiesFile::resume(&path, &["y"], extents[5]).unwrap_err();
     assert!(matches!(&error, OutputError::Columns { found, .. } if found == "step,x"), "{error}");
-    fs::write(&path, "step,x\n0,1\nnonsense\n").unwrap();
-    assert!(matches!(EnergiesFile::resume(&path, &["x"], 55), Err(OutputError::Line { line: 3, .. })));
-    assert_eq!(fs::read(&path).unwrap(), b"step,x\n0,1\nnonsense\n");
-    assert!(matches!(EnergiesFile::resume(&root.path().join("no"), &["x"], 1), Err(OutputError::Io { .. })));
+    fs::write(&path, &whole[..extents[5].bytes as usize - 1]).unwrap();
+    assert!(matches!(EnergiesFile::resume(&path, &["x"], extents[5]), Err(OutputError::Altered { .. })));
+    assert!(matches!(EnergiesFile::resume(&root.path().join("no"), &["x"], extents[1]), Err(OutputError::Io { .. })));
+}
+
+#[test]
+fn a_file_that_vanishes_is_missed() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::ENERGIES);
+    let model = Model::new(&scene(3));
+    let states = [state(0, 3), state(5, 3)];
+    let problems: [(&str, &dyn Fn()); 3] = [
+        ("it was removed", &|| fs::remove_file(&path).unwrap()),
+        ("another file took its place", &|| {
+            fs::copy(&path, root.path().join("copy")).unwrap();
+            fs::rename(root.path().join("copy"), &path).unwrap();
+        }),
+        ("something else wrote to it", &|| fs::OpenOptions::new().write(true).open(&path).unwrap().set_len(3).unwrap()),
+    ];
+    for (problem, act) in problems {
+        let mut energies = EnergiesFile::create(&path, &["x"]).unwrap();
+        energies.append(0, &[1.0]).unwrap();
+        energies.flush().unwrap();
+        energies.check().unwrap();
+        act();
+        let lost = energies.check().unwrap_err();
+        assert!(matches!(lost, OutputError::Lost { .. }) && lost.to_string().contains(problem), "{lost}");
+        for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
+            let mut trajectory = TrajectoryWriter::create(&path, format, &model).unwrap();
+            for state in &states {
+                trajectory.append(state).unwrap();
+                trajectory.flush().unwrap();
+                trajectory.check().unwrap();
+            }
+            act();
+            let lost = trajectory.check().unwrap_err();
+            assert!(matches!(lost, OutputError::Lost { .. }) && lost.to_string().contains(problem), "{lost}");
+        }
+    }
 }
 
 #[test]
@@ -249,24 +355,28 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
     // Numbers that a hasty parser misses by the last bit.
     scene.time.step = 0.1 + 0.2;
     scene.temperature = 1.234_567_890_123_456_7e-7;
-    scene.space.lengths = vec![1.0 / 3.0, 2e-308, 9.007_199_254_740_993e15];
+    scene.space.lengths = vec![14.0 / 3.0, 5.0 + f64::EPSILON, 900.719_925_474_099_3];
     let sections = vec![("diffusion".to_owned(), vec![1, 2, 3]), ("größe".to_owned(), Vec::new())];
-    let mut state = state(u64::MAX - 1, 3);
+    let written = vec![(files::ENERGIES.to_owned(), Extent { bytes: u64::MAX, crc32: u32::MAX })];
+    let mut state = state(99, 3);
     for predicted in [Vec::new(), vec![[1, -2, 3]; 3]] {
         state.predicted = predicted;
-        checkpoint::save(&path, &scene, &state, &sections).unwrap();
+        checkpoint::save(&path, &scene, &state, &written, &sections).unwrap();
         let loaded = checkpoint::load(&path).unwrap();
-        assert_eq!((&loaded.scene, &loaded.state, &loaded.sections), (&scene, &state, &sections));
+        assert_eq!((&loaded.scene, &loaded.state), (&scene, &state));
+        assert_eq!((&loaded.files, &loaded.sections), (&written, &sections));
         let first = fs::read(&path).unwrap();
-        checkpoint::save(&path, &loaded.scene, &loaded.state, &loaded.sections).unwrap();
+        checkpoint::save(&path, &loaded.scene, &loaded.state, &loaded.files, &loaded.sections).unwrap();
         assert_eq!(fs::read(&path).unwrap(), first);
     }
-    checkpoint::save(&path, &scene, &State::default(), &[]).unwrap();
+    let mut nothing = scene.clone();
+    nothing.particles.clear();
+    checkpoint::save(&path, &nothing, &State::default(), &[], &[]).unwrap();
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
     assert_eq!(directory_listing(root.path()), [files::CHECKPOINT]);
 
     state.momenta.pop();
-    assert!(matches!(checkpoint::save(&path, &scene, &state, &[]), Err(OutputError::Io { .. })));
+    assert!(matches!(checkpoint::save(&path, &scene, &state, &[], &[]), Err(OutputError::Io { .. })));
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
 }
 
@@ -274,7 +384,7 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
 fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::CHECKPOINT);
-    checkpoint::save(&path, &scene(2), &state(7, 2), &[("a".to_owned(), vec![9; 10])]).unwrap();
+    checkpoint::save(&path, &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
     let whole = fs::read(&path).unwrap();
     let load = |bytes: &[u8]| {
         fs::write(&path, bytes).unwrap();
@@ -314,7 +424,7 @@ fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
 fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::CHECKPOINT);
-    checkpoint::save(&path, &scene(2), &state(7, 2), &[("a".to_owned(), vec![9; 10])]).unwrap();
+    checkpoint::save(&path, &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
     let whole = fs::read(&path).unwrap();
     let payload = &whole[20..whole.len() - 8];
     let sealed = |payload: &[u8]| {
@@ -324,14 +434,18 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
         [&whole[..12], &(payload.len() as u64).to_le_bytes(), payload, &sum.to_le_bytes()].concat()
     };
     assert_eq!(sealed(payload), whole);
+    let scene = 8..u64::from_le_bytes(payload[..8].try_into().unwrap()) as usize;
     for place in 0..payload.len() - 7 {
-        for length in [u64::MAX, u64::MAX / 12, 1 << 40, 1 << 62] {
+        // The text of the scene holds no length.
+        let lengths = [u64::MAX / 12, 1 << 40];
+        for length in lengths.into_iter().take(if scene.contains(&place) { place % 16 / 15 } else { 2 }) {
             let mut altered = payload.to_vec();
             altered[place..place + 8].copy_from_slice(&length.to_le_bytes());
             fs::write(&path, sealed(&altered)).unwrap();
             // Where the eight bytes are a position, a momentum or the step, the file is as good as before.
             if let Err(error) = checkpoint::load(&path) {
-                assert!(matches!(error, CheckpointError::Malformed { .. }), "{place}: {error}");
+                let refused = matches!(error, CheckpointError::Malformed { .. } | CheckpointError::Scene { .. });
+                assert!(refused, "{place}: {error}");
             }
         }
     }
@@ -367,12 +481,14 @@ fn gsd_holds_bonds() {
     let model = Model::new(&scene);
     let start = mesoscope::scene::placement::initial_state(&scene, &model);
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut extents = Vec::new();
     for step in [0, 10, 20] {
         trajectory.append(&State { step, ..start.clone() }).unwrap();
+        trajectory.flush().unwrap();
+        extents.push(trajectory.extent());
     }
-    trajectory.flush().unwrap();
     drop(trajectory);
-    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 10).unwrap());
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[1]).unwrap());
 
     let file = GsdFile::open(&path, Mode::Read).unwrap();
     assert_eq!(file.n_frames(), 2);
@@ -436,6 +552,17 @@ fn gsd_holds_what_hoomd_expects() {
     assert!(file.iter_arrays::<f32, 3>(0, "particles/position").unwrap().all(|position| position[2] == 0.0));
 }
 
+/// Writes frames of steps 0, 10, 20, …; returns the extents after each.
+fn write_frames(path: &Path, format: TrajectoryFormat, model: &Model, frames: u64) -> Vec<Extent> {
+    let mut trajectory = TrajectoryWriter::create(path, format, model).unwrap();
+    let extents = (0..frames).map(|frame| {
+        trajectory.append(&state(10 * frame, 3)).unwrap();
+        trajectory.flush().unwrap();
+        trajectory.extent()
+    });
+    extents.collect()
+}
+
 #[test]
 fn trajectories_resume_at_the_step() {
     let root = tempfile::tempdir().unwrap();
@@ -443,42 +570,63 @@ fn trajectories_resume_at_the_step() {
     for (format, name) in
         [(TrajectoryFormat::Gsd, files::TRAJECTORY_GSD), (TrajectoryFormat::ExtendedXyz, files::TRAJECTORY_XYZ)]
     {
-        let straight = root.path().join("straight").with_extension(name);
         let path = root.path().join(name);
-        for path in [&straight, &path] {
-            let mut trajectory = TrajectoryWriter::create(path, format, &model).unwrap();
-            for step in 0..50 {
-                trajectory.append(&state(10 * step, 3)).unwrap();
+        let extents = write_frames(&path, format, &model, 50);
+        let straight = fs::read(&path).unwrap();
+        // Nothing to drop, some frames to drop, all frames but the first to drop; and data of a frame that was not finished.
+        for (last, more) in [(49, 0), (23, 0), (0, 0), (49, 100)] {
+            fs::write(&path, [straight.as_slice(), &vec![7; more]].concat()).unwrap();
+            let mut trajectory = TrajectoryWriter::resume(&path, format, &model, extents[last as usize]).unwrap();
+            assert_eq!(trajectory.extent(), extents[last as usize]);
+            for frame in last + 1..50 {
+                trajectory.append(&state(10 * frame, 3)).unwrap();
+                trajectory.flush().unwrap();
             }
-            trajectory.flush().unwrap();
-        }
-        // Nothing to drop, some frames to drop, all frames to drop.
-        for last in [1000, 235, 0] {
-            let mut trajectory = TrajectoryWriter::resume(&path, format, &model, last).unwrap();
-            for step in (0..50).map(|step| 10 * step).filter(|step| *step > last) {
-                trajectory.append(&state(step, 3)).unwrap();
-            }
-            trajectory.flush().unwrap();
+            assert_eq!(trajectory.extent(), extents[49]);
+            trajectory.check().unwrap();
             drop(trajectory);
-            if format == TrajectoryFormat::ExtendedXyz {
-                assert_eq!(fs::read(&path).unwrap(), fs::read(&straight).unwrap());
-            } else {
-                assert_eq!(steps_of(&path), (0..50).map(|step| 10 * step).collect::<Vec<_>>());
-                let file = GsdFile::open(&path, Mode::Read).unwrap();
-                let expected = GsdFile::open(&straight, Mode::Read).unwrap();
-                for frame in 0..50 {
-                    let images = file.iter_arrays::<i32, 3>(frame, "particles/image").unwrap();
-                    assert!(images.eq(expected.iter_arrays::<i32, 3>(frame, "particles/image").unwrap()));
-                    for chunk in ["particles/position", "particles/velocity"] {
-                        let found: Vec<[f32; 3]> = file.iter_arrays(frame, chunk).unwrap().collect();
-                        assert_eq!(found, expected.iter_arrays(frame, chunk).unwrap().collect::<Vec<[f32; 3]>>());
-                    }
-                }
-                assert!(file.find_chunk(0, "particles/mass").is_some());
+            assert!(fs::read(&path).unwrap() == straight, "{name} cut back to frame {last}");
+            if format == TrajectoryFormat::Gsd {
+                assert_eq!(steps_of(&path), (0..50).map(|frame| 10 * frame).collect::<Vec<_>>());
+                assert!(GsdFile::open(&path, Mode::Read).unwrap().find_chunk(0, "particles/mass").is_some());
             }
         }
         assert!(!directory_listing(root.path()).iter().any(|name| name.contains(".tmp")));
     }
+}
+
+/// Masses that change are in every frame.
+#[test]
+fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join(files::TRAJECTORY_GSD);
+    let scene = r#"{"title": "t", "space": {"box": [9, 9]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1,
+        "particles": [{"species": "A", "count": 16}], "interactions": [{"type": "voronoi", "form": "paper"}]}"#;
+    let scene = mesoscope::scene::parse("t", scene, &[]).unwrap();
+    let model = Model::new(&scene);
+    let start = mesoscope::scene::placement::initial_state(&scene, &model);
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut written = Vec::new();
+    for step in 0..9 {
+        trajectory.append(&State { step, ..start.clone() }).unwrap();
+        trajectory.flush().unwrap();
+        written.push((trajectory.extent(), fs::read(&path).unwrap()));
+    }
+    drop(trajectory);
+    for (extent, bytes) in written.iter().rev() {
+        drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, *extent).unwrap());
+        assert!(fs::read(&path).unwrap() == *bytes, "{extent:?}");
+    }
+}
+
+/// What a reader sees of a trajectory.
+fn content_of(path: &Path) -> Vec<(u64, Vec<[f32; 3]>, Vec<[f32; 3]>)> {
+    let file = GsdFile::open(path, Mode::Read).unwrap();
+    let vectors = |frame, name| file.iter_arrays::<f32, 3>(frame, name).unwrap().collect::<Vec<_>>();
+    let frames = (0..file.n_frames()).zip(steps_of(path));
+    frames
+        .map(|(frame, step)| (step, vectors(frame, "particles/position"), vectors(frame, "particles/velocity")))
+        .collect()
 }
 
 #[test]
@@ -486,32 +634,48 @@ fn damaged_trajectories_are_refused_and_left_alone() {
     let root = tempfile::tempdir().unwrap();
     let model = Model::new(&scene(3));
     let path = root.path().join(files::TRAJECTORY_GSD);
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
-    for step in 0..3 {
-        trajectory.append(&state(step, 3)).unwrap();
-    }
-    drop(trajectory);
+    let extents = write_frames(&path, TrajectoryFormat::Gsd, &model, 3);
     let whole = fs::read(&path).unwrap();
     for length in (0..whole.len()).step_by(7) {
         fs::write(&path, &whole[..length]).unwrap();
-        let error = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 1).unwrap_err();
-        assert!(matches!(error, OutputError::Trajectory { .. }), "{length}: {error}");
+        let error = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[2]).unwrap_err();
+        let refused = matches!(error, OutputError::Trajectory { .. } | OutputError::Altered { .. });
+        assert!(refused, "{length}: {error}");
         assert_eq!(fs::read(&path).unwrap(), whole[..length]);
     }
-    // Index entries that point elsewhere must be refused or harmless, never a panic.
-    for place in (0..256 + 32 * 20).chain(4352..4500) {
+    // Header, index, names and all data: any byte is refused, or outside of what a reader sees.
+    drop(write_frames(&path, TrajectoryFormat::Gsd, &model, 3));
+    let content = content_of(&path);
+    let (mut refused, mut harmless) = (0, 0);
+    for place in (0..256 + 32 * 40).chain(4352..4352 + 64 * 14).chain(4352 + 8192..whole.len()) {
         let mut bytes = whole.clone();
         bytes[place] ^= 0xff;
         fs::write(&path, &bytes).unwrap();
-        let _ = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, 1);
+        match TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[2]) {
+            Err(_) => {
+                refused += 1;
+                assert_eq!(fs::read(&path).unwrap(), bytes);
+            }
+            Ok(trajectory) => {
+                harmless += 1;
+                drop(trajectory);
+                assert_eq!(content_of(&path), content, "byte {place}");
+            }
+        }
     }
+    println!("of {} flipped bytes of a trajectory {refused} were refused, {harmless} hold nothing", refused + harmless);
+    assert!(refused > 500);
 
     let path = root.path().join(files::TRAJECTORY_XYZ);
-    fs::write(&path, "three\n").unwrap();
-    let resume = || TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, 1);
-    assert!(matches!(resume(), Err(OutputError::Line { line: 1, .. })));
-    fs::write(&path, "1\nno step\nA 0 0 0 0 0 0\n").unwrap();
-    assert!(matches!(resume(), Err(OutputError::Line { line: 2, .. })));
+    let extents = write_frames(&path, TrajectoryFormat::ExtendedXyz, &model, 3);
+    let whole = fs::read(&path).unwrap();
+    for place in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 1;
+        fs::write(&path, &bytes).unwrap();
+        let resumed = TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, extents[1]);
+        assert_eq!(matches!(resumed, Err(OutputError::Altered { .. })), place < extents[1].bytes as usize, "{place}");
+    }
 }
 
 #[test]
@@ -521,6 +685,8 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     let model = Model::new(&scene(2));
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model).unwrap();
     trajectory.append(&state(0, 2)).unwrap();
+    trajectory.flush().unwrap();
+    let first = trajectory.extent();
     trajectory.append(&state(5, 2)).unwrap();
     let mut wrong = state(6, 2);
     wrong.species[0] = 2;
@@ -546,7 +712,7 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     assert!((4..7).all(|axis| number(axis + 4) == 4.0 * number(axis)) && number(4) != 0.0, "{words:?}");
 
     fs::write(&path, &text[..text.len() - 2]).unwrap();
-    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, 5).unwrap());
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, first).unwrap());
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 5);
 }
 
@@ -561,8 +727,9 @@ fn a_trajectory_of_nothing_is_fine() {
         let mut trajectory = TrajectoryWriter::create(&path, format, &model).unwrap();
         trajectory.append(&State::default()).unwrap();
         trajectory.flush().unwrap();
+        let written = trajectory.extent();
         drop(trajectory);
-        TrajectoryWriter::resume(&path, format, &model, 0).unwrap().flush().unwrap();
+        TrajectoryWriter::resume(&path, format, &model, written).unwrap().flush().unwrap();
     }
 }
 

@@ -169,7 +169,7 @@ fn sorted_water_is_put_in_order_of_cells_now_and_then() {
 fn through_a_checkpoint(scene: &Scene, state: &State) -> State {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("checkpoint.bin");
-    checkpoint::save(&path, scene, state, &[]).unwrap();
+    checkpoint::save(&path, scene, state, &[], &[]).unwrap();
     checkpoint::load(&path).unwrap().state
 }
 

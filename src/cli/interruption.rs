@@ -1,6 +1,8 @@
-//! Signals that ask to stop: an interrupt from the keyboard, or the end of a job's time.
+//! Signals that ask to stop: an interrupt from the keyboard, the end of a job's time, or a terminal that is closed.
 
 use std::io;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use mesoscope::run::Interrupt;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -8,19 +10,112 @@ use signal_hook::flag;
 
 use super::failure::INTERRUPTED;
 
-/// What the first signal asks; the second ends the process at once.
+/// What the first signal asks: to save a checkpoint and stop.
+///
+/// A second interrupt from the keyboard ends the process at once, and so does any signal that comes a second or more after
+/// the first. Those that come sooner are the same request: `timeout` and some batch systems send theirs twice, to the process
+/// and to its group.
 pub fn interrupt() -> Interrupt {
     let interrupt = Interrupt::default();
-    for signal in [SIGINT, SIGTERM] {
-        // Without its handler a signal ends the process at once, and the last checkpoint is left.
-        let _ = handle(signal, &interrupt);
+    let again = Arc::new(AtomicBool::new(false));
+    // Without its handler a signal ends the process at once, and the last checkpoint is left.
+    for signal in requests() {
+        let _ = flag::register(signal, interrupt.flag());
     }
+    let _ = end_at_second(SIGINT, &again);
+    #[cfg(unix)]
+    let _ = late::end_at_late(&requests());
+    #[cfg(not(unix))]
+    let _ = end_at_second(SIGTERM, &Arc::default());
     interrupt
 }
 
-fn handle(signal: i32, interrupt: &Interrupt) -> io::Result<()> {
+fn end_at_second(signal: i32, first: &Arc<AtomicBool>) -> io::Result<()> {
     // In this order: a signal does the second when the first has not ended the process.
-    flag::register_conditional_shutdown(signal, INTERRUPTED.into(), interrupt.flag())?;
-    flag::register(signal, interrupt.flag())?;
+    flag::register_conditional_shutdown(signal, INTERRUPTED.into(), Arc::clone(first))?;
+    flag::register(signal, Arc::clone(first))?;
     Ok(())
+}
+
+#[cfg(not(unix))]
+fn requests() -> Vec<i32> {
+    vec![SIGINT, SIGTERM]
+}
+
+#[cfg(unix)]
+fn requests() -> Vec<i32> {
+    let mut signals = vec![SIGINT, SIGTERM];
+    if !hangup::is_ignored() {
+        signals.push(signal_hook::consts::SIGHUP);
+    }
+    signals
+}
+
+#[cfg(unix)]
+mod late {
+    use std::io;
+    use std::thread;
+    use std::time::{Duration, Instant};
+
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level;
+
+    use crate::cli::failure::INTERRUPTED;
+
+    /// Signals within this time of the first say the same.
+    const SAME_REQUEST: Duration = Duration::from_secs(1);
+
+    /// Ends the process at a signal that comes late after the first.
+    pub fn end_at_late(signals: &[i32]) -> io::Result<()> {
+        let mut signals = Signals::new(signals)?;
+        thread::Builder::new().name("signals".to_owned()).spawn(move || {
+            let mut first = None;
+            for _ in &mut signals {
+                let first: &mut Instant = first.get_or_insert_with(Instant::now);
+                if first.elapsed() >= SAME_REQUEST {
+                    // Nothing is tidied up: what is on the disk is good at any time.
+                    low_level::exit(INTERRUPTED.into());
+                }
+            }
+        })?;
+        Ok(())
+    }
+}
+
+#[cfg(unix)]
+mod hangup {
+    use std::process::{Command, Stdio};
+
+    use signal_hook::consts::SIGHUP;
+
+    /// Whether the program was started to go on when its terminal is closed, as by `nohup`.
+    pub fn is_ignored() -> bool {
+        listed().or_else(tried).unwrap_or(false)
+    }
+
+    /// What Linux says of this process.
+    pub(super) fn listed() -> Option<bool> {
+        let status = std::fs::read_to_string("/proc/self/status").ok()?;
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
+        let mask = u64::from_str_radix(mask.trim(), 16).ok()?;
+        Some(mask >> (SIGHUP - 1) & 1 == 1)
+    }
+
+    /// What becomes of a child, which ignores what this process ignores.
+    pub(super) fn tried() -> Option<bool> {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "kill -HUP $$"]).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        Some(shell.status().ok()?.success())
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::hangup;
+
+    #[test]
+    fn a_child_ignores_what_its_parent_does() {
+        assert!(hangup::listed().is_some());
+        assert_eq!(hangup::tried(), hangup::listed());
+    }
 }

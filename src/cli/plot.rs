@@ -43,7 +43,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let written = if arguments.directory.join(sweep::files::SUMMARY).exists() {
         sweep::redraw(&arguments.directory, &choice, &arguments.set)?
     } else {
-        let directory = RunDirectory::open(&arguments.directory)?;
+        let directory = RunDirectory::claim(&arguments.directory)?;
         run::redraw(&directory, &choice, &arguments.set)?.into_iter().map(str::to_owned).collect()
     };
     print(&format!(

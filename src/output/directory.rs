@@ -1,11 +1,13 @@
-//! The directory of a run, and files that are complete or absent.
+//! The directory of a run.
 
-use super::{OutputError, files};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use super::temporary::Temporary;
+use super::{DirectoryLock, OutputError, files, write_atomically};
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// A directory that a run writes into.
+/// A directory that a run writes into, and no other process with it.
 ///
 /// ```
 /// use mesoscope::output::{OutputError, RunDirectory, files};
@@ -14,34 +16,40 @@ use std::path::{Path, PathBuf};
 /// # let path = directory.path().join("results");
 /// let results = RunDirectory::create(&path, false)?;
 /// results.write(files::ENERGIES, |writer| writer.write_all(b"step\n0\n"))?;
+/// // As long as the run writes, the directory is its own.
+/// assert!(matches!(RunDirectory::create(&path, true), Err(OutputError::InUse { .. })));
+/// drop(results);
 /// // Another run takes its place only when it is told to.
 /// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::InTheWay { .. })));
-/// RunDirectory::create(&path, true)?;
+/// let results = RunDirectory::create(&path, true)?;
 /// assert!(!results.file(files::ENERGIES).exists());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct RunDirectory {
     path: PathBuf,
+    /// Where this process writes, as long as it does.
+    lock: Option<Arc<DirectoryLock>>,
 }
 
 impl RunDirectory {
-    /// Creates the directory, with its parents, and makes sure that it can be written to.
+    /// Creates the directory, with its parents, takes its lock and makes sure that it can be written to.
     ///
     /// Files that no run writes (notes, the scene) are left alone. With `force`, the files of an earlier run are
     /// removed, so that what is there afterwards belongs to one run.
     ///
     /// # Errors
-    /// [`OutputError::InTheWay`] when there are files of an earlier run and `force` is not given;
+    /// [`OutputError::InUse`] when another process writes there; [`OutputError::InTheWay`] when there are files of an earlier run and `force` is not given;
     /// [`OutputError::DirectoryInTheWay`] when a directory has the name of a result; [`OutputError::NoDirectory`] when
     /// `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
-        let directory = Self { path: path.into() };
-        if directory.path.exists() && !directory.path.is_dir() {
-            return Err(OutputError::NoDirectory { path: directory.path });
+        let path = path.into();
+        if path.exists() && !path.is_dir() {
+            return Err(OutputError::NoDirectory { path });
         }
-        fs::create_dir_all(&directory.path).map_err(OutputError::io("create the directory", &directory.path))?;
-        let in_the_way = directory.run_files()?;
+        fs::create_dir_all(&path).map_err(OutputError::io("create the directory", &path))?;
+        let directory = Self::claim(path)?;
+        let in_the_way = directory.names(files::is_of_a_run)?;
         // Nothing is removed where not everything can be.
         let mut paths = in_the_way.iter().map(|name| directory.file(name));
         if let Some(path) = paths.find(|path| path.is_dir()) {
@@ -58,14 +66,29 @@ impl RunDirectory {
         Ok(directory)
     }
 
-    /// Opens the directory of an earlier run, to resume it or to draw its plots.
+    /// Takes the lock of the directory of an earlier run, to resume it or to draw its plots, and removes what a killed
+    /// process has not finished writing there.
+    ///
+    /// # Errors
+    /// [`OutputError::InUse`] when another process writes there; [`OutputError::Io`] when it does not exist or is no
+    /// directory.
+    pub fn claim(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
+        let mut directory = Self::open(path)?;
+        directory.lock = Some(Arc::new(DirectoryLock::claim(&directory.path)?));
+        for name in directory.names(|name| files::of_temporary(name).is_some())? {
+            directory.remove(&name)?;
+        }
+        Ok(directory)
+    }
+
+    /// Opens a directory whose lock this process has already, or only to look into it.
     ///
     /// # Errors
     /// [`OutputError::Io`] when it does not exist or is no directory.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let path = path.into();
         fs::read_dir(&path).map_err(OutputError::io("open the directory", &path))?;
-        Ok(Self { path })
+        Ok(Self { path, lock: None })
     }
 
     /// Where the directory is.
@@ -99,22 +122,24 @@ impl RunDirectory {
     /// # Errors
     /// [`OutputError::Io`] when the directory cannot be listed or a file cannot be removed.
     pub fn remove_snapshots_after(&self, last: u64) -> Result<(), OutputError> {
-        for name in self.run_files()? {
-            if files::snapshot_number(&name).is_some_and(|number| number > last) {
-                let path = self.file(&name);
-                fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
-            }
+        for name in self.names(|name| files::snapshot_number(name).is_some_and(|number| number > last))? {
+            self.remove(&name)?;
         }
         Ok(())
     }
 
-    /// The names of all files that a run may have written, sorted.
-    fn run_files(&self) -> Result<Vec<String>, OutputError> {
+    fn remove(&self, name: &str) -> Result<(), OutputError> {
+        let path = self.file(name);
+        fs::remove_file(&path).map_err(OutputError::io("remove", &path))
+    }
+
+    /// The names of all files of a kind, sorted.
+    fn names(&self, kind: impl Fn(&str) -> bool) -> Result<Vec<String>, OutputError> {
         let list = || -> io::Result<Vec<String>> {
             let mut names = Vec::new();
             for entry in fs::read_dir(&self.path)? {
                 if let Ok(name) = entry?.file_name().into_string()
-                    && files::is_of_a_run(&name)
+                    && kind(&name)
                 {
                     names.push(name);
                 }
@@ -127,52 +152,8 @@ impl RunDirectory {
 
     /// Better to learn now that nothing can be written than after an hour of simulation.
     fn probe(&self) -> Result<(), OutputError> {
-        let path = self.file("write-test.tmp");
-        File::create(&path)
-            .and_then(|_| fs::remove_file(&path))
+        Temporary::beside(&self.file(files::SUMMARY))
+            .map(drop)
             .map_err(OutputError::io("write to the directory", &self.path))
     }
-}
-
-/// Writes a file under a temporary name beside `path` (`.tmp` added), and moves it to `path` once it is on the disk.
-/// On an error the temporary file is removed, and what was at `path` before is still there.
-///
-/// ```
-/// use mesoscope::output::write_atomically;
-///
-/// # let directory = tempfile::tempdir()?;
-/// # let path = directory.path().join("results.txt");
-/// write_atomically(&path, |writer| writer.write_all(b"complete"))?;
-/// let broken = write_atomically(&path, |writer| {
-///     writer.write_all(b"half of")?;
-///     Err(std::io::Error::other("the power is gone"))
-/// });
-/// assert!(broken.is_err());
-/// assert_eq!(std::fs::read_to_string(&path)?, "complete");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`OutputError::Io`] when the file cannot be written, or with the error that `content` returns.
-pub fn write_atomically(
-    path: &Path,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), OutputError> {
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".tmp");
-    let temporary = PathBuf::from(temporary);
-    let write = || -> io::Result<()> {
-        let mut writer = BufWriter::with_capacity(1 << 18, File::create(&temporary)?);
-        content(&mut writer)?;
-        let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
-        // A name must never point at data that a power failure can still take away.
-        file.sync_all()?;
-        drop(file);
-        fs::rename(&temporary, path)
-    };
-    write().map_err(|source| {
-        // Where the temporary file could not be created there is nothing to remove.
-        let _ = fs::remove_file(&temporary);
-        OutputError::Io { attempted: "write", path: path.to_path_buf(), source }
-    })
 }

@@ -1,10 +1,10 @@
 //! The table of energies: a row per sample, for as long as the run lasts.
 
-use super::OutputError;
 use super::records::RecordFile;
 use super::table::{header_line, push_number};
+use super::{Extent, OutputError};
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 /// `energies.csv`, open for writing.
@@ -19,12 +19,14 @@ use std::path::Path;
 /// # let path = directory.path().join("energies.csv");
 /// let mut energies = EnergiesFile::create(&path, &["temperature", "pressure"])?;
 /// energies.append(0, &[1.02, f64::NAN])?;
+/// energies.flush()?;
+/// let first = energies.extent();
 /// energies.append(20, &[0.98, 23.5])?;
 /// energies.flush()?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n20,0.98,23.5\n");
 ///
-/// // A run that goes on from step 10 takes the second row again.
-/// EnergiesFile::resume(&path, &["temperature", "pressure"], 10)?;
+/// // A run that goes on from before a row takes it again.
+/// EnergiesFile::resume(&path, &["temperature", "pressure"], first)?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -48,22 +50,19 @@ impl EnergiesFile {
         Ok(Self { records, columns: columns.len(), line: Vec::new() })
     }
 
-    /// Continues the table of an earlier run after the last row whose step is at most `step`. Those rows stay as they
-    /// are, byte for byte; later rows, and a last line that was never finished, are cut off.
+    /// Continues the table of an earlier run after what [`extent`](Self::extent) said was written of it. That stays as it
+    /// is, byte for byte; later rows, and a last line that was never finished, are cut off.
     ///
     /// # Errors
-    /// [`OutputError::Columns`] when the header is another one, [`OutputError::Line`] when a row does not begin with
-    /// a step, [`OutputError::Io`] when the file cannot be read or written.
-    pub fn resume<S: AsRef<str>>(path: &Path, columns: &[S], step: u64) -> Result<Self, OutputError> {
+    /// [`OutputError::Columns`] when the header is another one, [`OutputError::Altered`] when the rows are not those that
+    /// were written, [`OutputError::Io`] when the file cannot be read or written.
+    pub fn resume<S: AsRef<str>>(path: &Path, columns: &[S], written: Extent) -> Result<Self, OutputError> {
         let expected = full_header(path, columns)?;
         let file = File::open(path).map_err(OutputError::io("continue", path))?;
-        let mut lines = BufReader::new(file);
         let mut line = Vec::new();
-        let mut next = |line: &mut Vec<u8>| {
-            line.clear();
-            lines.read_until(b'\n', line).map_err(OutputError::io("read", path))
-        };
-        let mut kept = next(&mut line)? as u64;
+        // A header that never ends is another one.
+        let mut lines = BufReader::new(file).take(expected.len() as u64 + 1);
+        lines.read_until(b'\n', &mut line).map_err(OutputError::io("read", path))?;
         if line != expected.as_bytes() {
             return Err(OutputError::Columns {
                 path: path.to_path_buf(),
@@ -71,27 +70,22 @@ impl EnergiesFile {
                 found: String::from_utf8_lossy(&line).trim_end().to_owned(),
             });
         }
-        let mut number = 1;
-        loop {
-            let length = next(&mut line)? as u64;
-            number += 1;
-            if line.last() != Some(&b'\n') {
-                break;
-            }
-            let cell = line.split(|byte| *byte == b',' || *byte == b'\n').next();
-            let found = cell.and_then(|cell| std::str::from_utf8(cell).ok()?.parse::<u64>().ok());
-            let found = found.ok_or_else(|| OutputError::Line {
-                path: path.to_path_buf(),
-                line: number,
-                problem: "expected a row that begins with a step".to_owned(),
-            })?;
-            if found > step {
-                break;
-            }
-            kept += length;
-        }
-        let records = RecordFile::resume(path, kept)?;
+        let records = RecordFile::resume(path, written)?;
         Ok(Self { records, columns: columns.len(), line: Vec::new() })
+    }
+
+    /// What has been written of the table: all rows until the last [`flush`](Self::flush).
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        self.records.extent()
+    }
+
+    /// Looks whether the table under this name is still the one that was written.
+    ///
+    /// # Errors
+    /// [`OutputError::Lost`] says what became of it.
+    pub fn check(&self) -> Result<(), OutputError> {
+        self.records.check()
     }
 
     /// Adds a row. What is not finite leaves its cell empty: the quantity has no value at this step.

@@ -1,5 +1,6 @@
 //! What can go wrong with files.
 
+use super::files;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +26,22 @@ pub enum OutputError {
     InTheWay {
         /// The first such file.
         path: PathBuf,
+    },
+    /// Another process writes into the directory.
+    #[error("`{}` is in use by {holder}: wait for its end, or stop it, or choose another directory", directory.display())]
+    InUse {
+        /// The directory.
+        directory: PathBuf,
+        /// The process, with its number where it is known.
+        holder: String,
+    },
+    /// A file that a run kept open is not what it was.
+    #[error("`{}` is not complete: {problem} while the run was under way; what it wrote since is lost, run the scene anew with --force", path.display())]
+    Lost {
+        /// The file.
+        path: PathBuf,
+        /// What happened to it.
+        problem: &'static str,
     },
     /// A directory has the name of a result.
     #[error(
@@ -82,6 +99,18 @@ pub enum OutputError {
         path: PathBuf,
         /// The step of the first row that is missing.
         step: u64,
+    },
+    /// A file that a run is to go on with holds something else than was written.
+    #[error("`{}` is not what the run wrote: its length or checksum is not the one that the run noted; restore the file, or run the scene anew with --force", path.display())]
+    Altered {
+        /// The table or trajectory.
+        path: PathBuf,
+    },
+    /// Files of different runs in one directory.
+    #[error("`{}` belongs to another run than `{}`, of another scene or seed: put the files of one run together, or run the scene anew with --force", path.display(), files::CHECKPOINT)]
+    OtherRun {
+        /// The summary of the other run.
+        path: PathBuf,
     },
     /// No run has been finished in the directory.
     #[error("`{}` is missing: {advice}", crate::printable::path(path))]

@@ -6,6 +6,10 @@
 //! ffmpeg -framerate 25 -i snapshot-%06d.png -pix_fmt yuv420p movie.mp4
 //! ```
 
+use std::ffi::{OsStr, OsString};
+
+/// The lock of the directory, there as long as a process writes into it.
+pub const LOCK: &str = "mesoscope.lock";
 /// The table of energies.
 pub const ENERGIES: &str = "energies.csv";
 /// The plot of energies.
@@ -193,7 +197,7 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
     (known && field(stem, Some(number), extension) == name).then_some(number)
 }
 
-/// Whether a run may have written a file of this name, finished or not.
+/// Whether a run may have written a file of this name.
 ///
 /// ```
 /// use mesoscope::output::files::is_of_a_run;
@@ -202,9 +206,37 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
 /// ```
 #[must_use]
 pub fn is_of_a_run(name: &str) -> bool {
-    let name = name.strip_suffix(".tmp").unwrap_or(name);
     ALL.contains(&name) || snapshot_number(name).is_some()
 }
+
+/// The name of a file that a process has not finished writing, before it becomes `name`.
+///
+/// ```
+/// use mesoscope::output::files;
+///
+/// let name = files::temporary("run.json".as_ref(), 4711, 3);
+/// assert_eq!(name, "run.json.mesoscope-4711-3.tmp");
+/// assert_eq!(files::of_temporary("run.json.mesoscope-4711-3.tmp"), Some("run.json"));
+/// assert_eq!(files::of_temporary("run.json.tmp"), None);
+/// ```
+#[must_use]
+pub fn temporary(name: &OsStr, process: u32, number: u64) -> OsString {
+    let mut temporary = name.to_owned();
+    temporary.push(format!("{TEMPORARY}{process}-{number}.tmp"));
+    temporary
+}
+
+/// What a file was to become that was never finished.
+#[must_use]
+pub fn of_temporary(name: &str) -> Option<&str> {
+    let (name, rest) = name.rsplit_once(TEMPORARY)?;
+    let (process, number) = rest.strip_suffix(".tmp")?.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (!name.is_empty() && is_number(process) && is_number(number)).then_some(name)
+}
+
+/// What stands between the name of a file and what is temporary about it.
+const TEMPORARY: &str = ".mesoscope-";
 
 #[cfg(test)]
 mod tests {
@@ -234,11 +266,19 @@ mod tests {
 
     #[test]
     fn only_the_files_of_a_run_are_recognised() {
-        for name in ["run.json", "checkpoint.bin.tmp", "snapshot-000017.png", "snapshot-000017.png.tmp"] {
+        for name in ["run.json", "checkpoint.bin", "snapshot-000017.png"] {
             assert!(is_of_a_run(name), "{name}");
         }
-        for name in ["scene.json", "notes.txt", "run.json.bak", "movie.mp4", ".tmp"] {
+        for name in ["scene.json", "notes.txt", "run.json.bak", "run.json.tmp", "movie.mp4", ".tmp", LOCK] {
             assert!(!is_of_a_run(name), "{name}");
+        }
+        for name in ["a.mesoscope-1-2.tmp", "sweep.csv.mesoscope-18446744073709551616-0.tmp"] {
+            assert!(of_temporary(name).is_some(), "{name}");
+        }
+        for name in
+            ["a.mesoscope--2.tmp", "a.mesoscope-1.tmp", ".mesoscope-1-2.tmp", "a.mesoscope-1-2.tmp.bak", "a.tmp"]
+        {
+            assert!(of_temporary(name).is_none(), "{name}");
         }
     }
 }

@@ -2,25 +2,34 @@
 //!
 //! Files written once ([`RunDirectory::write`]) appear under their final name complete or not at all. Files that grow
 //! ([`EnergiesFile`], [`TrajectoryWriter`]) hold whole records after every flush, and a resumed run cuts them back to
-//! the step it resumes from.
+//! the step it resumes from. A directory has a lock ([`DirectoryLock`]), so that one process at a time writes there.
 
 pub mod checkpoint;
 mod directory;
 mod energies;
 mod error;
+mod extent;
 pub mod files;
+mod lock;
 mod npy;
 mod records;
+mod run_id;
 pub mod summary;
 mod table;
+mod temporary;
 mod trajectory;
+mod watch;
 
 pub use checkpoint::Checkpoint;
-pub use directory::{RunDirectory, write_atomically};
+pub use directory::RunDirectory;
 pub use energies::EnergiesFile;
 pub use error::OutputError;
+pub use extent::Extent;
+pub use lock::DirectoryLock;
 pub use npy::{write_npy, write_npy_to};
+pub use run_id::run_id;
 pub use summary::Summary;
 pub use table::{Table, read_table, write_table};
 pub(crate) use table::{push_number, quoted};
+pub use temporary::write_atomically;
 pub use trajectory::TrajectoryWriter;

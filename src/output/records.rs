@@ -1,8 +1,10 @@
 //! A file that grows by whole records.
 
 use super::OutputError;
+use super::extent::{Checksum, Extent};
+use super::watch::Watch;
 use std::fs::File;
-use std::io::{Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Bytes kept back before they are written of themselves.
@@ -13,8 +15,11 @@ const BUFFER: usize = 1 << 20;
 pub(super) struct RecordFile {
     path: PathBuf,
     file: File,
+    watch: Watch,
     /// Length of the whole records on disk.
     length: u64,
+    /// Of these records.
+    checksum: Checksum,
     /// Whole records not yet on disk.
     buffer: Vec<u8>,
 }
@@ -23,20 +28,44 @@ impl RecordFile {
     /// Creates an empty file; one that exists is emptied.
     pub(super) fn create(path: &Path) -> Result<Self, OutputError> {
         let file = File::create(path).map_err(OutputError::io("create", path))?;
-        Ok(Self { path: path.to_path_buf(), file, length: 0, buffer: Vec::new() })
+        Self::of(path, file, 0, Checksum::default())
     }
 
-    /// Opens a file to continue it after its first `length` bytes; what follows them is cut off.
-    pub(super) fn resume(path: &Path, length: u64) -> Result<Self, OutputError> {
-        let mut file = File::options().write(true).open(path).map_err(OutputError::io("continue", path))?;
-        file.set_len(length)
-            .and_then(|()| file.seek(SeekFrom::Start(length)))
+    /// Opens a file to continue it after what was written of it; what follows that is cut off.
+    ///
+    /// # Errors
+    /// [`OutputError::Altered`] when its beginning is not what was written: then nothing is cut off.
+    pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
+        let continued = OutputError::io("continue", path);
+        let mut file = File::options().read(true).write(true).open(path).map_err(continued)?;
+        let mut checksum = Checksum::default();
+        let found = checksum.read(&mut (&mut file).take(written.bytes)).map_err(OutputError::io("read", path))?;
+        if checksum.extent(found) != written {
+            return Err(OutputError::Altered { path: path.to_path_buf() });
+        }
+        file.set_len(found)
+            .and_then(|()| file.seek(SeekFrom::Start(found)))
             .map_err(OutputError::io("cut back", path))?;
-        Ok(Self { path: path.to_path_buf(), file, length, buffer: Vec::new() })
+        Self::of(path, file, found, checksum)
+    }
+
+    fn of(path: &Path, file: File, length: u64, checksum: Checksum) -> Result<Self, OutputError> {
+        let (path, watch) = (path.to_path_buf(), Watch::of(path)?);
+        Ok(Self { path, file, watch, length, checksum, buffer: Vec::new() })
     }
 
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// What has been handed to the operating system.
+    pub(super) fn extent(&self) -> Extent {
+        self.checksum.extent(self.length)
+    }
+
+    /// Looks whether the file of this name is still the one that was written.
+    pub(super) fn check(&self) -> Result<(), OutputError> {
+        self.watch.check(self.length)
     }
 
     /// Adds one whole record.
@@ -55,6 +84,7 @@ impl RecordFile {
             return Err(OutputError::Io { attempted: "write", path: self.path.clone(), source });
         }
         self.length += buffer.len() as u64;
+        self.checksum.add(&buffer);
         self.buffer = buffer;
         self.buffer.clear();
         Ok(())

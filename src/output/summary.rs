@@ -1,9 +1,10 @@
 //! The summary of a run, `run.json`.
 
-use super::{OutputError, files, write_atomically};
+use super::{Extent, OutputError, RunDirectory, files, run_id, write_atomically};
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What a run did, on what, and what came out.
@@ -28,6 +29,8 @@ use std::path::Path;
 pub struct Summary {
     /// Version of the program.
     pub mesoscope_version: String,
+    /// What tells the run from those of other scenes and seeds: see [`run_id`].
+    pub run_id: String,
     /// The adapter the run computed on.
     pub adapter: AdapterSummary,
     /// Number of particles.
@@ -53,6 +56,10 @@ pub struct Summary {
     pub not_conserved: Vec<String>,
     /// What the user should know before trusting the numbers.
     pub warnings: Vec<String>,
+    /// Every table, as the run wrote it.
+    pub tables: BTreeMap<String, Extent>,
+    /// All files but the numbered ones, once there are all; null as long as some are missing.
+    pub files: Option<Vec<String>>,
     /// The scene with every default filled in.
     pub scene: Scene,
 }
@@ -119,6 +126,7 @@ impl Summary {
     pub fn new(scene: Scene, adapter: AdapterSummary, particles: u64) -> Self {
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            run_id: run_id(&scene),
             adapter,
             particles,
             steps: 0,
@@ -130,6 +138,8 @@ impl Summary {
             conserved_exactly: Vec::new(),
             not_conserved: Vec::new(),
             warnings: Vec::new(),
+            tables: BTreeMap::new(),
+            files: None,
             scene,
         }
     }
@@ -140,6 +150,39 @@ impl Summary {
         self.wall_seconds = wall_seconds;
         let rate = self.particles as f64 * steps as f64 / wall_seconds;
         self.particle_steps_per_second = if rate.is_finite() { rate } else { 0.0 };
+    }
+
+    /// Whether everything that the run was to leave in its directory is there, and its tables are those that it wrote.
+    #[must_use]
+    pub fn is_complete(&self, directory: &RunDirectory) -> bool {
+        let written = |name: &String| directory.file(name).is_file();
+        self.files.as_ref().is_some_and(|files| files.iter().all(written)) && self.check_tables(directory).is_ok()
+    }
+
+    /// Looks whether the tables in a directory are those that the run wrote.
+    ///
+    /// # Errors
+    /// [`OutputError::Altered`] names the first that is not, [`OutputError::Io`] the first that cannot be read.
+    pub fn check_tables(&self, directory: &RunDirectory) -> Result<(), OutputError> {
+        for (name, extent) in &self.tables {
+            let path = directory.file(name);
+            if Extent::of(&path)? != *extent {
+                return Err(OutputError::Altered { path });
+            }
+        }
+        Ok(())
+    }
+
+    /// Looks whether this is the summary of the run of a scene.
+    ///
+    /// # Errors
+    /// [`OutputError::OtherRun`], with the path of the summary.
+    pub fn check_run(&self, scene: &Scene, path: &Path) -> Result<(), OutputError> {
+        let id = run_id(scene);
+        if self.run_id == id && run_id(&self.scene) == id {
+            return Ok(());
+        }
+        Err(OutputError::OtherRun { path: path.to_path_buf() })
     }
 
     /// Adds the mean of a column; `None` where the column has no values.

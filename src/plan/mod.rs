@@ -2,6 +2,7 @@
 
 pub(crate) mod analyses;
 mod couplings;
+mod fit;
 mod grid;
 mod layout;
 mod pair;

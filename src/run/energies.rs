@@ -6,7 +6,7 @@ use super::settling;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
 use crate::model::{Model, Voronoi};
-use crate::output::{EnergiesFile, OutputError, Summary, Table, files, read_table};
+use crate::output::{EnergiesFile, Extent, OutputError, Summary, Table, files, read_table};
 use crate::plot::EnergyTable;
 use crate::scene::{Integrator, Scene};
 use std::path::Path;
@@ -120,24 +120,35 @@ fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputE
 }
 
 impl EnergyRecorder {
-    /// Begins the table at step 0, or continues it before the step of a checkpoint with what [`Self::section`] left there.
-    pub(super) fn open(path: &Path, scene: &Scene, model: &Model, sections: &Sections<'_>) -> Result<Self, RunError> {
+    /// Begins the table at step 0, or continues what had been written of it before the step of a checkpoint, with what
+    /// [`Self::section`] left there.
+    pub(super) fn open(
+        path: &Path,
+        scene: &Scene,
+        model: &Model,
+        written: Option<Extent>,
+        sections: &Sections<'_>,
+    ) -> Result<Self, RunError> {
         let step = sections.step;
-        let columns = columns(model);
-        let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
-        let (file, rows) = if step == 0 {
-            (EnergiesFile::create(path, &names)?, Vec::new())
-        } else {
-            if let Some(step) = missing_row(path, step, scene.output.energies.every)? {
-                return Err(OutputError::MissingRow { path: path.to_path_buf(), step }.into());
-            }
-            let file = EnergiesFile::resume(path, &names, step - 1)?;
-            (file, read_table(path)?.rows)
-        };
         let (time_step, equilibration) = (scene.time.step, scene.time.equilibration);
         let kept = samples(scene.output.energies.every, equilibration, step);
         let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
         let configuration = configuration.as_chunks().0.to_vec();
+        let columns = columns(model);
+        let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let (file, rows) = match written {
+            None => (EnergiesFile::create(path, &names)?, Vec::new()),
+            Some(written) => match EnergiesFile::resume(path, &names, written) {
+                Err(OutputError::Altered { path }) => {
+                    let missing = missing_row(&path, step, scene.output.energies.every)?;
+                    return Err(match missing {
+                        Some(step) => OutputError::MissingRow { path, step }.into(),
+                        None => OutputError::Altered { path }.into(),
+                    });
+                }
+                file => (file?, read_table(path)?.rows),
+            },
+        };
         let is_about_equilibrium = settling::is_about_equilibrium(scene, model);
         Ok(Self { file, columns, rows, configuration, time_step, equilibration, is_about_equilibrium })
     }
@@ -163,6 +174,16 @@ impl EnergyRecorder {
 
     pub(super) fn sync(&mut self) -> Result<(), RunError> {
         Ok(self.file.sync()?)
+    }
+
+    /// What is in the file.
+    pub(super) fn extent(&self) -> Extent {
+        self.file.extent()
+    }
+
+    /// Looks whether the file is still there.
+    pub(super) fn check(&self) -> Result<(), RunError> {
+        Ok(self.file.check()?)
     }
 
     /// Kinetic temperature of the last row.

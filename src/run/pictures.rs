@@ -41,6 +41,8 @@ pub fn redraw(
     let scene = scene::parse(&name, &text, overrides)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
+    summary.check_run(&checkpoint.scene, &directory.file(files::SUMMARY))?;
+    summary.check_tables(directory)?;
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene, &checkpoint.sections);
@@ -144,9 +146,15 @@ impl<'a> Pictures<'a> {
         self.chart(files::ENERGIES_PLOT, &chart)
     }
 
-    /// Draws the plots of all analyses whose tables are there, with the results of a summary.
-    pub(super) fn analyses(&mut self, summary: &Summary) -> Result<(), RunError> {
+    /// Draws the plots of all analyses whose tables are there, with the results of a summary; `proceed` says before each
+    /// whether to.
+    pub(super) fn analyses(
+        &mut self,
+        summary: &Summary,
+        proceed: &dyn Fn() -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
         for (name, plot) in ANALYSES {
+            proceed()?;
             if self.directory.file(name).exists() {
                 self.analysis(name, plot, summary)?;
             }

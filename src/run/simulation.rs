@@ -19,17 +19,16 @@ use crate::measure::observables_of;
 use crate::model::{Model, ShallowWater};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Checkpoint, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
+use crate::output::{Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
 use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::{self, Scene, TrajectoryFormat, Warning, placement};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A run to be executed: a scene, where it begins and where its files go.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scene: Scene,
-    directory: PathBuf,
     beginning: Beginning,
     interrupt: Interrupt,
     /// What was done to the scene before the run, for its summary.
@@ -38,8 +37,16 @@ pub struct Simulation {
 
 #[derive(Debug, Clone)]
 enum Beginning {
-    New { force: bool },
-    Checkpoint(Box<Checkpoint>),
+    New {
+        directory: PathBuf,
+        force: bool,
+    },
+    Checkpoint {
+        directory: RunDirectory,
+        checkpoint: Box<Checkpoint>,
+        /// What `run.json` says of the same run.
+        earlier: Option<Box<Summary>>,
+    },
 }
 
 /// What a run leaves.
@@ -59,25 +66,54 @@ impl Simulation {
     /// run there are replaced.
     #[must_use]
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
-        let (directory, beginning) = (directory.into(), Beginning::New { force });
-        Self { scene, directory, beginning, interrupt: Interrupt::default(), notices: Vec::new() }
+        let beginning = Beginning::New { directory: directory.into(), force };
+        Self { scene, beginning, interrupt: Interrupt::default(), notices: Vec::new() }
     }
 
-    /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given.
+    /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
+    /// belongs to this process from now on, until the simulation is dropped or executed.
     ///
     /// # Errors
-    /// [`RunError::Checkpoint`] when there is no checkpoint or it is damaged.
+    /// [`RunError::Checkpoint`] when there is no checkpoint or it is damaged; [`RunError::Output`] when another process
+    /// writes there, or when `run.json` belongs to another run; [`RunError::Scene`] when the scene cannot do with as few
+    /// steps.
     pub fn resume(directory: impl Into<PathBuf>, steps: Option<u64>) -> Result<Self, RunError> {
         let directory = directory.into();
-        let checkpoint = checkpoint::load(&directory.join(files::CHECKPOINT))?;
+        if !directory.join(files::CHECKPOINT).exists() {
+            // Nothing is written where there is no run, no lock either.
+            checkpoint::load(&directory.join(files::CHECKPOINT))?;
+        }
+        let directory = RunDirectory::claim(directory)?;
+        let path = directory.file(files::CHECKPOINT);
+        let checkpoint = checkpoint::load(&path)?;
         let mut scene = checkpoint.scene.clone();
         let notices = checkpoint.sections.iter().find(|(name, _)| name == NOTICES);
         let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
-        if let Some(steps) = steps {
+        if let Some(steps) = steps.filter(|steps| *steps != scene.time.steps) {
             scene.time.steps = steps;
+            if steps > checkpoint.state.step {
+                scene = scene::checked(&path.display().to_string(), &scene)?;
+            }
         }
-        let beginning = Beginning::Checkpoint(Box::new(checkpoint));
-        Ok(Self { scene, directory, beginning, interrupt: Interrupt::default(), notices })
+        let model = Model::new(&scene);
+        // What a state has to have is the same on every adapter.
+        let (hardware, options) = (Hardware::default(), Options::default());
+        let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
+        if let Some(problem) = plan.misfit(&checkpoint.state, &model) {
+            return Err(CheckpointError::Malformed { path, problem }.into());
+        }
+        let summary = directory.file(files::SUMMARY);
+        let earlier = match Summary::load(&summary) {
+            Ok(summary) => Some(Box::new(summary)),
+            // It will be written anew.
+            Err(OutputError::Unfinished { .. } | OutputError::Line { .. }) => None,
+            Err(error) => return Err(error.into()),
+        };
+        if let Some(earlier) = &earlier {
+            earlier.check_run(&scene, &summary)?;
+        }
+        let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
+        Ok(Self { scene, beginning, interrupt: Interrupt::default(), notices })
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -110,17 +146,21 @@ impl Simulation {
     pub fn first_step(&self) -> u64 {
         match &self.beginning {
             Beginning::New { .. } => 0,
-            Beginning::Checkpoint(checkpoint) => checkpoint.state.step,
+            Beginning::Checkpoint { checkpoint, .. } => checkpoint.state.step,
         }
     }
 
-    /// Whether nothing is left to do: the last step is behind and its summary is written.
+    /// Whether nothing is left to do: the last step is behind, and everything that the run was to leave is there.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         let step = self.first_step();
-        step > self.scene.time.steps
-            || step == self.scene.time.steps
-                && Summary::load(&self.directory.join(files::SUMMARY)).is_ok_and(|summary| summary.steps == step)
+        let complete = match &self.beginning {
+            Beginning::Checkpoint { directory, earlier: Some(earlier), .. } => {
+                earlier.steps == step && earlier.is_complete(directory)
+            }
+            _ => false,
+        };
+        step > self.scene.time.steps || step == self.scene.time.steps && complete
     }
 
     /// Runs to the end and writes everything the scene asks for.
@@ -132,23 +172,23 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, directory, beginning, interrupt, notices } = self;
+        let Self { scene, beginning, interrupt, notices } = self;
         let model = Model::new(&scene);
         let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
         let mut gpu = open_adapter(&scene, &model, choice, options)?;
-        let (directory, mut start) = match beginning {
-            Beginning::New { force } => {
+        let (directory, mut start, earlier) = match beginning {
+            Beginning::New { directory, force } => {
                 let directory = RunDirectory::create(directory, force)?;
                 let state = placement::initial_state(&scene, &model);
-                (directory, Checkpoint { scene: scene.clone(), state, sections: Vec::new() })
+                (directory, Checkpoint { scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() }, None)
             }
-            Beginning::Checkpoint(checkpoint) => (RunDirectory::open(directory)?, *checkpoint),
+            Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier),
         };
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { scene, model, directory, interrupt, notices };
+        let task = Task { scene, model, directory, interrupt, notices, earlier };
         loop {
             match task.attempt(&gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
@@ -181,6 +221,8 @@ struct Task {
     interrupt: Interrupt,
     /// What was done to the scene before the run.
     notices: Vec<String>,
+    /// What `run.json` says of an earlier part of the run.
+    earlier: Option<Box<Summary>>,
 }
 
 impl Task {
@@ -201,9 +243,9 @@ impl Task {
     ) -> Result<Outcome, RunError> {
         let plan = plan_for(&self.scene, &self.model, gpu, options);
         let mut engine = Engine::new(gpu, plan, &start.state)?;
-        let mut run = Run::open(&self.scene, &self.model, gpu, &self.directory, &mut engine, start)?;
+        let mut run = Run::open(self, gpu, &mut engine, start)?;
         run.notices = &self.notices;
-        match run.advance_to_end(&mut engine, pace, &self.interrupt, observer) {
+        match run.advance_to_end(&mut engine, pace, observer) {
             Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
                 let checkpoint = self.directory.file(files::CHECKPOINT);
@@ -219,6 +261,15 @@ impl Task {
         warnings.extend(pictures::lettering(&self.scene));
         let saved_step = run.saved_step;
         run.conclude(warnings, pace.done()).map_err(|error| self.stopped(error, saved_step))
+    }
+
+    /// Stops if the run is asked to, with a checkpoint of this step on disk.
+    fn obey(&self, checkpoint_step: u64) -> Result<(), RunError> {
+        if self.interrupt.is_asked() {
+            let checkpoint = self.directory.file(files::CHECKPOINT);
+            return Err(RunError::Interrupted { checkpoint, checkpoint_step });
+        }
+        Ok(())
     }
 
     /// Says of a failure to write what is left to go on from.
@@ -284,6 +335,7 @@ pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options
 
 /// A run under way: its open files and what it has gathered.
 struct Run<'a> {
+    task: &'a Task,
     scene: &'a Scene,
     model: &'a Model,
     gpu: &'a Gpu,
@@ -307,14 +359,8 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     /// Creates the files of a run at step 0, or cuts them back to what was there before the step of `start`.
-    fn open(
-        scene: &'a Scene,
-        model: &'a Model,
-        gpu: &'a Gpu,
-        directory: &'a RunDirectory,
-        engine: &mut Engine<'_>,
-        start: &Checkpoint,
-    ) -> Result<Self, RunError> {
+    fn open(task: &'a Task, gpu: &'a Gpu, engine: &mut Engine<'_>, start: &Checkpoint) -> Result<Self, RunError> {
+        let Task { scene, model, directory, .. } = task;
         let step = start.state.step;
         let path = directory.file(files::CHECKPOINT);
         let sections = Sections::new(&path, step, &start.sections);
@@ -324,20 +370,30 @@ impl<'a> Run<'a> {
         let chains = chains_of(scene, model, &sections)?;
         let cells = Cells::new(scene, &sections)?;
         let tally = if model.voronoi.is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
+        let kept_sums = KeptSums::new(model, &start.state, &sections)?;
         let schedule = Schedule::new(scene);
-        directory.remove_snapshots_after(schedule.snapshots_before(step))?;
-        let energies = EnergyRecorder::open(&directory.file(files::ENERGIES), scene, model, &sections)?;
+        let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
+            // At step 0 there is nothing yet.
+            _ if step == 0 => Ok(None),
+            Some((_, extent)) => Ok(Some(*extent)),
+            None => Err(sections.malformed(format!("it does not know `{name}`"))),
+        };
+        let table = directory.file(files::ENERGIES);
+        let energies = EnergyRecorder::open(&table, scene, model, written(files::ENERGIES)?, &sections)?;
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
-                let path = directory.file(trajectory_name(asked.format));
-                Some(match step.checked_sub(1) {
+                let name = trajectory_name(asked.format);
+                let path = directory.file(name);
+                Some(match written(name)? {
                     None => TrajectoryWriter::create(&path, asked.format, model)?,
-                    Some(before) => TrajectoryWriter::resume(&path, asked.format, model, before)?,
+                    Some(written) => TrajectoryWriter::resume(&path, asked.format, model, written)?,
                 })
             }
         };
+        directory.remove_snapshots_after(schedule.snapshots_before(step))?;
         Ok(Self {
+            task,
             scene,
             model,
             gpu,
@@ -348,7 +404,7 @@ impl<'a> Run<'a> {
             chains,
             cells,
             tally,
-            kept_sums: KeptSums::new(model, &start.state, &sections)?,
+            kept_sums,
             trajectory,
             pictures: Pictures::new(gpu, directory, scene, &start.sections),
             notices: &[],
@@ -361,7 +417,6 @@ impl<'a> Run<'a> {
         &mut self,
         engine: &mut Engine<'_>,
         pace: &mut Pace,
-        interrupt: &Interrupt,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
         let begun = pace.done();
@@ -381,13 +436,12 @@ impl<'a> Run<'a> {
                 pace.submitted(steps);
                 observer(Event::Advanced(self.progress(first, begun, pace)));
                 // Here nothing has been added yet of what is due at this step.
-                let interrupted = interrupt.is_asked() && engine.step() < self.scene.time.steps;
+                let interrupted = self.task.interrupt.is_asked() && engine.step() < self.scene.time.steps;
                 if interrupted || self.schedule.checkpoint_after(self.saved_at.elapsed()) {
                     self.save(engine, pace)?;
                 }
                 if interrupted {
-                    let checkpoint = self.directory.file(files::CHECKPOINT);
-                    return Err(RunError::Interrupted { checkpoint, checkpoint_step: self.saved_step });
+                    self.obey()?;
                 }
             }
             self.visit(engine, pace)?;
@@ -396,11 +450,21 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Stops if the run is asked to. What is not saved is lost.
+    fn obey(&self) -> Result<(), RunError> {
+        self.task.obey(self.saved_step)
+    }
+
     /// Does what is due at the current step: a checkpoint, then the samples, then pictures and frames.
     fn visit(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
         let step = engine.step();
         if self.schedule.checkpoint(step) {
             self.save(engine, pace)?;
+        }
+        let last = step == self.scene.time.steps;
+        if last {
+            // Whatever follows can be done later too.
+            self.obey()?;
         }
         let samples = engine.finish()?;
         pace.finished();
@@ -410,7 +474,6 @@ impl<'a> Run<'a> {
         let frame = self.schedule.frame(step);
         let sample = self.schedule.chain(step);
         let due = self.schedule.cells(step);
-        let last = step == self.scene.time.steps;
         if number.is_some() || frame || sample || due.any() || last {
             let state = engine.reported()?;
             if let (true, Some(chains)) = (sample, &mut self.chains) {
@@ -465,7 +528,11 @@ impl<'a> Run<'a> {
         if self.model.voronoi.is_some() {
             sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
         }
-        checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &sections)?;
+        let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
+        if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
+            written.push((trajectory_name(asked.format).to_owned(), trajectory.extent()));
+        }
+        checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &written, &sections)?;
         self.saved_step = state.step;
         self.saved_at = Instant::now();
         pace.begin();
@@ -513,9 +580,16 @@ impl<'a> Run<'a> {
         let mut summary = Summary::new(self.scene.clone(), adapter, self.model.particle_count());
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
+        if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
+            // What is added here took no step.
+            summary.wall_seconds = earlier.wall_seconds;
+            summary.particle_steps_per_second = earlier.particle_steps_per_second;
+        }
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
+        self.obey()?;
         self.analyses.conclude(self.directory, &mut summary)?;
+        self.obey()?;
         if let Some(chains) = &self.chains {
             summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
         }
@@ -524,11 +598,26 @@ impl<'a> Run<'a> {
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
         summary.conserved_exactly = conserved(self.model, &lost);
         summary.not_conserved = not_conserved(self.model, &changed);
+        let written = |name: &&str| self.directory.file(name).exists();
+        let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
+        for name in files::ALL.into_iter().filter(is_table).filter(written) {
+            summary.tables.insert(name.to_owned(), Extent::of(&self.directory.file(name))?);
+        }
         // Numbers first: they are worth more than pictures if the disk is full.
-        summary.save(&self.directory.file(files::SUMMARY))?;
+        let path = self.directory.file(files::SUMMARY);
+        summary.save(&path)?;
+        self.obey()?;
         self.pictures.energies(&self.energies.table(), self.model, &summary)?;
-        self.pictures.analyses(&summary)?;
-        let written = files::ALL.into_iter().filter(|name| self.directory.file(name).exists()).collect();
+        let (task, saved_step) = (self.task, self.saved_step);
+        self.pictures.analyses(&summary, &|| task.obey(saved_step))?;
+        // What was moved away or replaced under way is not what `run.json` speaks of.
+        self.energies.check()?;
+        if let Some(trajectory) = &self.trajectory {
+            trajectory.check()?;
+        }
+        let written: Vec<&str> = files::ALL.into_iter().filter(written).collect();
+        summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
+        summary.save(&path)?;
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }
 }

@@ -171,6 +171,16 @@ pub fn parse_for(
     if problems.is_empty() { Ok((scene, notices)) } else { Err(invalid(name, problems)) }
 }
 
+/// A scene that has been changed, checked like one that is read.
+///
+/// # Errors
+/// As [`parse`]; mistakes are said to be in `name`.
+pub(crate) fn checked(name: &str, scene: &Scene) -> Result<Scene, SceneError> {
+    let text = serde_json::to_string(scene)
+        .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
+    parse(name, &text, &[])
+}
+
 /// Numbers that further checks can do with, for those that a scene has to give and does not.
 fn fill_in(document: &mut Value) {
     // With a run this long no interval is too long.

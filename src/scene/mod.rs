@@ -30,6 +30,7 @@ mod warnings;
 pub use builtin::{Builtin, builtin};
 pub use error::{Problem, SceneError, Warning};
 pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
+pub(crate) use load::checked;
 pub use load::{load, load_for, parse, parse_for, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;

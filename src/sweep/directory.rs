@@ -7,30 +7,34 @@ use crate::output::{OutputError, RunDirectory};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Creates the directory of a sweep and makes sure that it can be written to. With `force`, the runs and files of an
+/// Creates the directory of a sweep, takes its lock and makes sure that it can be written to. With `force`, the runs and files of an
 /// earlier sweep there, or of a single run, are removed; anything else is left alone.
 ///
 /// # Errors
 /// [`OutputError::InTheWay`] when there are such files and `force` is not given; [`OutputError::Io`].
-pub(super) fn create(path: &Path, sweep: &Sweep, force: bool) -> Result<(), OutputError> {
+pub(super) fn create(path: &Path, sweep: &Sweep, force: bool) -> Result<RunDirectory, OutputError> {
     let in_the_way = in_the_way(path, sweep)?;
     if let (false, Some(first)) = (force, in_the_way.first()) {
         return Err(OutputError::InTheWay { path: first.clone() });
     }
     let earlier = SweepSummary::load(path).map(|summary| summary.variants).unwrap_or_default();
-    RunDirectory::create(path, force)?;
+    let directory = RunDirectory::create(path, force)?;
     let names = earlier.iter().map(|variant| &variant.name).chain(sweep.variants().iter().map(|variant| &variant.name));
-    for directory in names.filter(|name| is_plain(name)).map(|name| path.join(name)) {
-        if directory.is_dir() {
-            RunDirectory::create(&directory, true)?;
-            // What else is in there belongs to the user, and so does then the directory.
-            let _ = fs::remove_dir(&directory);
-        }
+    let of_variants = names.filter(|name| is_plain(name)).map(|name| path.join(name));
+    let of_variants: Vec<PathBuf> = of_variants.filter(|path| path.is_dir()).collect();
+    for variant in &of_variants {
+        // Nothing is removed where a run is under way.
+        RunDirectory::claim(variant)?;
+    }
+    for variant in &of_variants {
+        RunDirectory::create(variant, true)?;
+        // What else is in there belongs to the user, and so does then the directory.
+        let _ = fs::remove_dir(variant);
     }
     for file in in_the_way.iter().filter(|path| path.is_file()) {
         fs::remove_file(file).map_err(OutputError::io("replace", file))?;
     }
-    Ok(())
+    Ok(directory)
 }
 
 /// Files of an earlier sweep, and what has the name of a variant's directory; sorted.

@@ -29,7 +29,7 @@ pub fn plot(quantity: &str) -> String {
     format!("sweep-{quantity}.png")
 }
 
-/// Whether a sweep may have written a file of this name, finished or not.
+/// Whether a sweep may have written a file of this name.
 ///
 /// ```
 /// use mesoscope::sweep::files;
@@ -39,7 +39,6 @@ pub fn plot(quantity: &str) -> String {
 /// ```
 #[must_use]
 pub fn is_of_a_sweep(name: &str) -> bool {
-    let name = name.strip_suffix(".tmp").unwrap_or(name);
     let is_plot = name.strip_prefix("sweep-").and_then(|rest| rest.strip_suffix(".png")).is_some_and(|q| !q.is_empty());
     [TABLE, SUMMARY, AVERAGES].contains(&name) || is_plot
 }
@@ -50,10 +49,12 @@ mod tests {
 
     #[test]
     fn only_the_files_of_a_sweep_are_recognised() {
-        for name in ["sweep.csv", "sweep-averages.csv", "sweep.json.tmp", "sweep-total_energy.png", "sweep-x.png.tmp"] {
+        for name in ["sweep.csv", "sweep-averages.csv", "sweep.json", "sweep-total_energy.png", "sweep-x.png"] {
             assert!(is_of_a_sweep(name), "{name}");
         }
-        for name in ["sweep", "sweep-.png", "sweep-x.jpg", "sweep.json.bak", "energies.csv", "friction=1"] {
+        for name in
+            ["sweep", "sweep-.png", "sweep-x.jpg", "sweep.json.bak", "sweep.json.tmp", "energies.csv", "friction=1"]
+        {
             assert!(!is_of_a_sweep(name), "{name}");
         }
     }

@@ -55,6 +55,7 @@ const FEW: usize = 5;
 /// [`SweepError`] when there is no sweep in the directory, an override does not fit, or a plot cannot be drawn.
 pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, SweepError> {
     let summary = SweepSummary::load(directory)?;
+    let directory = RunDirectory::claim(directory)?;
     let sweep = summary.sweep()?;
     let mut style = style(&sweep);
     if !overrides.is_empty() {
@@ -63,7 +64,7 @@ pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) ->
         style = scene.map_err(SweepError::Scene)?.0.output.plot;
     }
     let gpu = Gpu::open(choice, Requirements::default())?;
-    draw(directory, &sweep, &summary, &style, &gpu)
+    draw(&directory, &sweep, &summary, &style, &gpu, &|| Ok(()))
 }
 
 fn first_settings(sweep: &Sweep) -> Vec<String> {
@@ -79,18 +80,19 @@ pub(super) fn style(sweep: &Sweep) -> PlotStyle {
     sweep.variants().first().map(|variant| variant.scene.output.plot.clone()).unwrap_or_default()
 }
 
-/// Draws the plots of all variants that are finished.
+/// Draws the plots of all variants that are finished; `proceed` says before each whether to.
 pub(super) fn draw(
-    directory: &Path,
+    place: &RunDirectory,
     sweep: &Sweep,
     summary: &SweepSummary,
     style: &PlotStyle,
     gpu: &Gpu,
+    proceed: &dyn Fn() -> Result<(), SweepError>,
 ) -> Result<Vec<String>, SweepError> {
     let mut finished: Vec<(&Variant, Table)> = Vec::new();
     for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
         if ended.state == VariantState::Finished {
-            let path = directory.join(&variant.name).join(run_files::ENERGIES);
+            let path = place.file(&variant.name).join(run_files::ENERGIES);
             let table = run::read_energies(&path, &variant.scene, ended.steps)?;
             finished.push((variant, table));
         }
@@ -104,16 +106,16 @@ pub(super) fn draw(
         }
     }
     let inks = inks(sweep);
-    let place = RunDirectory::open(directory)?;
     let plotter = Plotter::new(gpu.device(), gpu.queue());
     let plotter = plotter.map_err(|source| run::RunError::Plot { name: files::plot("*"), source })?;
     let mut written = Vec::new();
     for (number, chart) in (1..).zip(means_chart::charts(sweep, summary, look)) {
         let name = files::means(number);
-        run::save(&place, &name, plotter.draw_chart(&chart, style))?;
+        run::save(place, &name, plotter.draw_chart(&chart, style))?;
         written.push(name);
     }
     for quantity in quantities {
+        proceed()?;
         let mut curves: Vec<Curve> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {
@@ -134,7 +136,7 @@ pub(super) fn draw(
         }
         let chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
         let name = files::plot(quantity);
-        run::save(&place, &name, plotter.draw_chart(&chart, style))?;
+        run::save(place, &name, plotter.draw_chart(&chart, style))?;
         written.push(name);
     }
     Ok(written)

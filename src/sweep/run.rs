@@ -9,7 +9,7 @@ use super::{default_jobs, files, table};
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::model::Model;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Summary, files as run_files};
+use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plan::{self, Hardware, Options};
 use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
 use crate::scene::Scene;
@@ -28,10 +28,10 @@ pub struct SweepRun {
     interrupt: Interrupt,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 enum Beginning {
     New { force: bool },
-    Interrupted,
+    Interrupted { directory: RunDirectory },
 }
 
 /// What an observer of a sweep is told.
@@ -102,12 +102,16 @@ impl SweepRun {
     }
 
     /// What is missing of the sweep in a directory: variants under way go on from their last checkpoints, those that
-    /// failed are tried again. The plots are drawn again, with another look where one is given.
+    /// failed are tried again. The plots are drawn again, with another look where one is given. The directory belongs to
+    /// this process from now on, until the sweep is dropped or executed.
     ///
     /// # Errors
-    /// [`SweepError::NoSweep`], and what [`Sweep::load`] and the files of the sweep give rise to.
+    /// [`SweepError::NoSweep`], [`SweepError::Output`] when another process writes there, and what [`Sweep::load`] and the files of the sweep give rise to.
     pub fn resume(directory: impl Into<PathBuf>, look: Option<Look>) -> Result<Self, SweepError> {
         let directory = directory.into();
+        // Nothing is written where there is no sweep, no lock either.
+        SweepSummary::load(&directory)?;
+        let claimed = RunDirectory::claim(&directory)?;
         let mut summary = SweepSummary::load(&directory)?;
         let sweep = summary.sweep()?;
         let look = look.unwrap_or_else(|| summary.plots.clone());
@@ -117,7 +121,7 @@ impl SweepRun {
                 entry.finish(&run);
             }
         }
-        let beginning = Beginning::Interrupted;
+        let beginning = Beginning::Interrupted { directory: claimed };
         Ok(Self { sweep, summary, directory, beginning, interrupt: Interrupt::default() })
     }
 
@@ -157,9 +161,11 @@ impl SweepRun {
         let waiting = self.waiting();
         // Before the directory: an adapter that is not there should not cost an earlier sweep its files.
         let (gpu, largest) = self.open_adapter(choice, &waiting)?;
-        if let Beginning::New { force } = self.beginning {
-            directory::create(&self.directory, &self.sweep, force)?;
-        }
+        // The directory is that of this process until the end.
+        let claimed = match &self.beginning {
+            Beginning::New { force } => directory::create(&self.directory, &self.sweep, *force)?,
+            Beginning::Interrupted { directory } => directory.clone(),
+        };
         let adapter = gpu.description();
         if !waiting.is_empty() {
             self.summary.adapter = Some(AdapterSummary {
@@ -173,14 +179,18 @@ impl SweepRun {
         let jobs = jobs.unwrap_or_else(|| default_jobs(adapter, largest, waiting.len())).clamp(1, waiting.len().max(1));
         observer(SweepEvent::Started { adapter, waiting: waiting.len(), jobs });
         let failures = self.run_all(&waiting, jobs, choice, observer)?;
-        if self.interrupt.is_asked() && self.waiting().len() > failures.len() {
+        let proceed = || {
+            if !self.interrupt.is_asked() {
+                return Ok(());
+            }
             let all = self.sweep.variants().len();
             let finished = all - self.waiting().len();
-            return Err(SweepError::Interrupted { finished, all, directory: self.directory });
-        }
+            Err(SweepError::Interrupted { finished, all, directory: self.directory.clone() })
+        };
+        proceed()?;
         observer(SweepEvent::Finishing);
         let style = plots::style(&self.sweep);
-        let drawn = plots::draw(&self.directory, &self.sweep, &self.summary, &style, &gpu)?;
+        let drawn = plots::draw(&claimed, &self.sweep, &self.summary, &style, &gpu, &proceed)?;
         let averages = (!self.summary.averages.is_empty()).then_some(files::AVERAGES);
         let tables = [files::TABLE].into_iter().chain(averages).chain([files::SUMMARY]);
         let files = tables.map(str::to_owned).chain(drawn).collect();
@@ -213,7 +223,8 @@ impl SweepRun {
         observer: &mut dyn FnMut(SweepEvent<'_>),
     ) -> Result<Vec<(usize, RunError)>, SweepError> {
         let Self { sweep, summary, directory, beginning, interrupt } = self;
-        let (sweep, directory, resuming) = (&*sweep, directory.as_path(), *beginning == Beginning::Interrupted);
+        let (sweep, directory, resuming) =
+            (&*sweep, directory.as_path(), matches!(beginning, Beginning::Interrupted { .. }));
         let interrupt = &*interrupt;
         let next = AtomicUsize::new(0);
         let (sender, receiver) = mpsc::channel();
@@ -295,13 +306,17 @@ fn work(number: usize, simulation: Simulation, choice: &AdapterChoice, sender: &
     tell(Message::Ended(Box::new(result)));
 }
 
-/// The summary of a run that came to the last step of a variant, if it did and left a table to plot.
+/// The summary of a run that came to the last step of a variant, if it did and left everything that it was to leave.
 fn finished(directory: &Path, variant: &Variant) -> Option<Summary> {
+    if !directory.is_dir() {
+        return None;
+    }
+    // A process that still writes there is not finished; what a killed one left half-written is removed.
+    let directory = RunDirectory::claim(directory).ok()?;
     let came_to_its_end =
         |summary: &Summary| summary.steps >= variant.scene.time.steps && is_of(variant, &summary.scene);
-    let summary = Summary::load(&directory.join(run_files::SUMMARY)).ok().filter(came_to_its_end)?;
-    let table = run::read_energies(&directory.join(run_files::ENERGIES), &variant.scene, summary.steps);
-    table.is_ok().then_some(summary)
+    let summary = Summary::load(&directory.file(run_files::SUMMARY)).ok().filter(came_to_its_end)?;
+    summary.is_complete(&directory).then_some(summary)
 }
 
 /// Whether a scene is that of a variant, but for how long it runs.

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use mesoscope::output::{Summary, files};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -137,4 +138,33 @@ pub fn size(path: &Path) -> (u32, u32) {
 #[track_caller]
 pub fn colours(path: &Path) -> usize {
     picture(path).pixels().collect::<HashSet<_>>().len()
+}
+
+/// All that a run leaves, apart from how long it took.
+pub fn results(directory: &Path) -> Vec<(String, Vec<u8>)> {
+    let contents = listing(directory).into_iter().map(|name| {
+        let mut content = bytes(&directory.join(&name));
+        if name == files::SUMMARY {
+            let mut summary = Summary::load(&directory.join(name.as_str())).unwrap();
+            (summary.wall_seconds, summary.particle_steps_per_second) = (0.0, 0.0);
+            content = serde_json::to_vec(&summary).unwrap();
+        }
+        (name, content)
+    });
+    contents.collect()
+}
+
+/// Both directories have the same files, to the byte but for the time that the runs took.
+#[track_caller]
+pub fn assert_same(found: &Path, expected: &Path) {
+    let [found, expected] = [found, expected].map(results);
+    for ((name, content), (expected_name, expected)) in found.iter().zip(&expected) {
+        assert_eq!(name, expected_name);
+        assert!(
+            content == expected,
+            "{name} differs: {}",
+            String::from_utf8_lossy(&content[..content.len().min(4000)])
+        );
+    }
+    assert_eq!(found.len(), expected.len());
 }

@@ -11,11 +11,10 @@
 //! All are in the units of the scene. `Lattice` has three vectors in any dimension, and `pbc` says which are real.
 
 use super::{Description, elements};
-use crate::output::OutputError;
 use crate::output::records::RecordFile;
+use crate::output::{Extent, OutputError};
 use crate::state::State;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::Write;
 use std::path::Path;
 
 #[derive(Debug)]
@@ -29,9 +28,16 @@ impl ExtendedXyz {
         Ok(Self { records: RecordFile::create(path)?, frame: Vec::new() })
     }
 
-    pub(super) fn resume(path: &Path, step: u64) -> Result<Self, OutputError> {
-        let kept = length_up_to(path, step)?;
-        Ok(Self { records: RecordFile::resume(path, kept)?, frame: Vec::new() })
+    pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
+        Ok(Self { records: RecordFile::resume(path, written)?, frame: Vec::new() })
+    }
+
+    pub(super) fn extent(&self) -> Extent {
+        self.records.extent()
+    }
+
+    pub(super) fn check(&self) -> Result<(), OutputError> {
+        self.records.check()
     }
 
     pub(super) fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
@@ -88,43 +94,4 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> 
         writeln!(text)?;
     }
     Ok(())
-}
-
-/// Bytes of the whole frames whose step is at most `step`.
-fn length_up_to(path: &Path, step: u64) -> Result<u64, OutputError> {
-    let file = File::open(path).map_err(OutputError::io("continue", path))?;
-    let mut lines = BufReader::new(file);
-    let mut line = Vec::new();
-    let mut number = 0;
-    let mut kept = 0;
-    // A line without its end was never finished, nor was its frame.
-    let mut next = |line: &mut Vec<u8>| -> Result<Option<u64>, OutputError> {
-        line.clear();
-        let length = lines.read_until(b'\n', line).map_err(OutputError::io("read", path))? as u64;
-        Ok((line.last() == Some(&b'\n')).then_some(length))
-    };
-    let wrong =
-        |line: u64, problem: &str| OutputError::Line { path: path.to_path_buf(), line, problem: problem.to_owned() };
-    loop {
-        let Some(mut length) = next(&mut line)? else { return Ok(kept) };
-        number += 1;
-        let particles = std::str::from_utf8(&line).ok().and_then(|text| text.trim().parse::<u64>().ok());
-        let particles = particles.ok_or_else(|| wrong(number, "expected the number of particles of a frame"))?;
-        let Some(comment) = next(&mut line)? else { return Ok(kept) };
-        number += 1;
-        length += comment;
-        let found = std::str::from_utf8(&line)
-            .ok()
-            .and_then(|text| text.split_whitespace().find_map(|word| word.strip_prefix("Step="))?.parse::<u64>().ok());
-        let found = found.ok_or_else(|| wrong(number, "expected `Step=` and the step of the frame"))?;
-        if found > step {
-            return Ok(kept);
-        }
-        for _ in 0..particles {
-            let Some(particle) = next(&mut line)? else { return Ok(kept) };
-            number += 1;
-            length += particle;
-        }
-        kept += length;
-    }
 }

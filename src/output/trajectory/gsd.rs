@@ -5,9 +5,15 @@
 //! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses, bonds) is written in the first frame, from which readers take it for all others.
 
 use super::Description;
-use crate::output::OutputError;
+use crate::output::extent::Checksum;
+use crate::output::temporary::Temporary;
+use crate::output::watch::Watch;
+use crate::output::{Extent, OutputError};
 use crate::state::State;
-use hoomd_gsd::file_layer::{DecodeError, EncodeError, GsdFile, Mode, OpenError, SyncError, WriteError};
+use bytemuck::NoUninit;
+use hoomd_gsd::file_layer::{
+    DecodeError, EncodeError, GsdFile, Mode, OpenError, ReadError, SyncError, Type, WriteError,
+};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -20,30 +26,68 @@ pub(super) struct GsdTrajectory {
     path: PathBuf,
     /// None after a failed write: the file layer would write again when dropped, at positions that no longer hold.
     file: Option<GsdFile>,
+    /// Whether no frame has been added yet.
     empty: bool,
+    watch: Watch,
+    /// Length of the file after the last flush.
+    length: u64,
+    /// Frames of the last flush.
+    frames: u64,
+    /// Of what these frames hold.
+    checksum: Checksum,
 }
+
+const APPLICATION: &str = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
+/// Other versions are as good.
+const PROGRAM: &str = "mesoscope ";
+const SCHEMA: &str = "hoomd";
+const SCHEMA_VERSION: (u16, u16) = (1, 4);
 
 impl GsdTrajectory {
     pub(super) fn create(path: &Path) -> Result<Self, OutputError> {
         let file = create_file(path)?;
-        Ok(Self { path: path.to_path_buf(), file: Some(file), empty: true })
+        Self::of(path, file, Checksum::default())
     }
 
-    pub(super) fn resume(path: &Path, step: u64) -> Result<Self, OutputError> {
+    pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
         check_index(path)?;
         let file = GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))?;
-        if file.schema() != "hoomd" {
-            return Err(OutputError::Trajectory {
-                path: path.to_path_buf(),
-                problem: format!("its schema is `{}`, not `hoomd`", file.schema()),
-            });
+        let altered = || OutputError::Altered { path: path.to_path_buf() };
+        let ours = file.application().starts_with(PROGRAM);
+        if !ours || (file.schema(), file.schema_version()) != (SCHEMA, SCHEMA_VERSION) {
+            return Err(altered());
         }
-        let mut kept = file.n_frames();
-        while kept > 0 && step_of(path, &file, kept - 1)? > step {
-            kept -= 1;
+        // Every frame has a step of its own, so no two beginnings hold the same.
+        let mut checksum = Checksum::default();
+        let mut kept = 0;
+        while checksum.extent(written.bytes) != written {
+            if kept == file.n_frames() || hash_frame(path, &file, kept, &mut checksum).is_err() {
+                return Err(altered());
+            }
+            kept += 1;
         }
-        let file = if kept == file.n_frames() { file } else { copy_frames(path, file, kept)? };
-        Ok(Self { path: path.to_path_buf(), file: Some(file), empty: kept == 0 })
+        let length = file_length(path)?;
+        if length < written.bytes {
+            return Err(altered());
+        }
+        // A frame that was not finished may have left data that no index entry knows of.
+        let whole = kept == file.n_frames() && length == written.bytes;
+        let file = if whole { file } else { copy_frames(path, file, kept)? };
+        Self::of(path, file, checksum)
+    }
+
+    fn of(path: &Path, file: GsdFile, checksum: Checksum) -> Result<Self, OutputError> {
+        let (path, watch) = (path.to_path_buf(), Watch::of(path)?);
+        let (frames, length) = (file.n_frames(), file_length(&path)?);
+        Ok(Self { path, watch, length, frames, checksum, empty: frames == 0, file: Some(file) })
+    }
+
+    pub(super) fn extent(&self) -> Extent {
+        self.checksum.extent(self.length)
+    }
+
+    pub(super) fn check(&self) -> Result<(), OutputError> {
+        self.watch.check(self.length)
     }
 
     pub(super) fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
@@ -75,7 +119,15 @@ impl GsdTrajectory {
     }
 
     pub(super) fn flush(&mut self) -> Result<(), OutputError> {
-        self.attempt(|file| file.sync_all().map_err(|error| WriteError::Sync("frame".to_owned(), 0, error)))
+        self.attempt(|file| file.sync_all().map_err(|error| WriteError::Sync("frame".to_owned(), 0, error)))?;
+        if let Some(file) = &self.file {
+            while self.frames < file.n_frames() {
+                hash_frame(&self.path, file, self.frames, &mut self.checksum)?;
+                self.frames += 1;
+            }
+            self.length = file_length(&self.path)?;
+        }
+        Ok(())
     }
 
     fn attempt(&mut self, write: impl FnOnce(&mut GsdFile) -> Result<(), WriteError>) -> Result<(), OutputError> {
@@ -97,8 +149,7 @@ impl GsdTrajectory {
 }
 
 fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
-    let application = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
-    GsdFile::create(path, application, "hoomd", (1, 4)).map_err(|error| open_error(path, "create", error))
+    GsdFile::create(path, APPLICATION, SCHEMA, SCHEMA_VERSION).map_err(|error| open_error(path, "create", error))
 }
 
 fn write_masses(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
@@ -153,72 +204,131 @@ fn type_name(name: &str) -> [i8; NAME] {
     std::array::from_fn(|index| bytes.get(index).map_or(0, |byte| byte.cast_signed()))
 }
 
-/// The step of a frame; HOOMD takes a frame without one for step 0.
-fn step_of(path: &Path, file: &GsdFile, frame: u64) -> Result<u64, OutputError> {
-    if file.find_chunk(frame, "configuration/step").is_none() {
-        return Ok(0);
-    }
-    let wrong = |problem: String| OutputError::Trajectory { path: path.to_path_buf(), problem };
-    let mut steps = file.iter_scalars::<u64>(frame, "configuration/step").map_err(|error| wrong(error.to_string()))?;
-    steps.next().ok_or_else(|| wrong(format!("frame {frame} has an empty step")))
+fn file_length(path: &Path) -> Result<u64, OutputError> {
+    Ok(std::fs::metadata(path).map_err(OutputError::io("look at", path))?.len())
 }
 
+/// What can be done with the arrays of a frame.
+trait Chunks {
+    fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome;
+    fn arrays<T: Type + NoUninit, const M: usize>(
+        &mut self,
+        name: &str,
+        values: impl ExactSizeIterator<Item = [T; M]>,
+    ) -> Outcome;
+}
+
+type Outcome = Result<(), OutputError>;
+
+/// Visits the arrays of a frame in the order in which [`GsdTrajectory::append`] wrote them.
+fn visit(path: &Path, file: &GsdFile, frame: u64, visitor: &mut impl Chunks) -> Outcome {
+    let unreadable =
+        |error: ReadError| OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() };
+    macro_rules! chunk {
+        (scalars $kind:ty, $name:expr) => {
+            if file.find_chunk(frame, $name).is_some() {
+                visitor.scalars($name, file.iter_scalars::<$kind>(frame, $name).map_err(unreadable)?)?;
+            }
+        };
+        (arrays $kind:ty, $columns:expr, $name:expr) => {
+            if file.find_chunk(frame, $name).is_some() {
+                visitor.arrays($name, file.iter_arrays::<$kind, $columns>(frame, $name).map_err(unreadable)?)?;
+            }
+        };
+    }
+    chunk!(scalars f32, "configuration/box");
+    chunk!(scalars u8, "configuration/dimensions");
+    chunk!(scalars u32, "particles/N");
+    chunk!(arrays i8, NAME, "particles/types");
+    chunk!(scalars u32, "particles/typeid");
+    chunk!(scalars u32, "bonds/N");
+    chunk!(arrays i8, NAME, "bonds/types");
+    chunk!(scalars u32, "bonds/typeid");
+    chunk!(arrays u32, 2, "bonds/group");
+    chunk!(scalars f32, "particles/mass");
+    chunk!(scalars u64, "configuration/step");
+    chunk!(scalars f64, "log/time");
+    chunk!(arrays f32, 3, "particles/position");
+    chunk!(arrays f32, 3, "particles/velocity");
+    chunk!(arrays i32, 3, "particles/image");
+    Ok(())
+}
+
+/// Adds what a frame holds to a checksum.
+fn hash_frame(path: &Path, file: &GsdFile, frame: u64, checksum: &mut Checksum) -> Outcome {
+    struct Hash<'a>(&'a mut Checksum);
+
+    impl Hash<'_> {
+        fn add<T: NoUninit>(&mut self, name: &str, values: impl Iterator<Item = T>, count: usize) {
+            self.0.add(name.as_bytes());
+            self.0.add(&(count as u64).to_le_bytes());
+            let mut buffer = Vec::with_capacity(HASHED);
+            for value in values {
+                buffer.extend_from_slice(bytemuck::bytes_of(&value));
+                if buffer.len() >= HASHED {
+                    self.0.add(&buffer);
+                    buffer.clear();
+                }
+            }
+            self.0.add(&buffer);
+        }
+    }
+
+    impl Chunks for Hash<'_> {
+        fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome {
+            let count = values.len();
+            self.add(name, values, count);
+            Ok(())
+        }
+
+        fn arrays<T: Type + NoUninit, const M: usize>(
+            &mut self,
+            name: &str,
+            values: impl ExactSizeIterator<Item = [T; M]>,
+        ) -> Outcome {
+            let count = values.len();
+            self.add(name, values.flatten(), count);
+            Ok(())
+        }
+    }
+
+    visit(path, file, frame, &mut Hash(checksum))
+}
+
+/// Bytes added to a checksum at once.
+const HASHED: usize = 1 << 14;
+
 /// Copies the first frames to a new file and puts it in the place of the old one: the file layer cannot take frames
-/// away.
+/// away. The copy has the bytes of a file that never had more frames.
 fn copy_frames(path: &Path, old: GsdFile, frames: u64) -> Result<GsdFile, OutputError> {
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".tmp");
-    let temporary = PathBuf::from(temporary);
-    let copied = copy_into(path, &old, &temporary, frames);
+    let (temporary, _) = Temporary::beside(path).map_err(OutputError::io("copy", path))?;
+    copy_into(path, &old, temporary.path(), frames)?;
     // Some systems do not replace a file that is open.
     drop(old);
-    let replaced = copied.and_then(|()| {
-        std::fs::rename(&temporary, path).map_err(OutputError::io("replace", path))?;
-        GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))
-    });
-    if replaced.is_err() {
-        let _ = std::fs::remove_file(&temporary);
-    }
-    replaced
+    temporary.move_to(path).map_err(OutputError::io("replace", path))?;
+    GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))
 }
 
 fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Result<(), OutputError> {
-    let mut new = GsdTrajectory { path: temporary.to_path_buf(), file: Some(create_file(temporary)?), empty: true };
-    // The chunks of a frame in the order in which they were written, so that the copy has the same bytes.
-    for frame in 0..frames {
-        let unreadable = |error: hoomd_gsd::file_layer::ReadError| OutputError::Trajectory {
-            path: path.to_path_buf(),
-            problem: error.to_string(),
-        };
-        macro_rules! copy {
-            (scalars $kind:ty, $name:expr) => {
-                if old.find_chunk(frame, $name).is_some() {
-                    let values = old.iter_scalars::<$kind>(frame, $name).map_err(unreadable)?;
-                    new.attempt(|file| file.write_scalars($name, values))?;
-                }
-            };
-            (arrays $kind:ty, $columns:expr, $name:expr) => {
-                if old.find_chunk(frame, $name).is_some() {
-                    let values = old.iter_arrays::<$kind, $columns>(frame, $name).map_err(unreadable)?;
-                    new.attempt(|file| file.write_arrays($name, values))?;
-                }
-            };
+    struct Copy<'a>(&'a mut GsdTrajectory);
+
+    impl Chunks for Copy<'_> {
+        fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome {
+            self.0.attempt(|file| file.write_scalars(name, values))
         }
-        copy!(scalars f32, "configuration/box");
-        copy!(scalars u8, "configuration/dimensions");
-        copy!(scalars u32, "particles/N");
-        copy!(arrays i8, NAME, "particles/types");
-        copy!(scalars u32, "particles/typeid");
-        copy!(scalars u32, "bonds/N");
-        copy!(arrays i8, NAME, "bonds/types");
-        copy!(scalars u32, "bonds/typeid");
-        copy!(arrays u32, 2, "bonds/group");
-        copy!(scalars f32, "particles/mass");
-        copy!(scalars u64, "configuration/step");
-        copy!(scalars f64, "log/time");
-        copy!(arrays f32, 3, "particles/position");
-        copy!(arrays f32, 3, "particles/velocity");
-        copy!(arrays i32, 3, "particles/image");
+
+        fn arrays<T: Type + NoUninit, const M: usize>(
+            &mut self,
+            name: &str,
+            values: impl ExactSizeIterator<Item = [T; M]>,
+        ) -> Outcome {
+            self.0.attempt(|file| file.write_arrays(name, values))
+        }
+    }
+
+    let mut new = GsdTrajectory::create(temporary)?;
+    for frame in 0..frames {
+        visit(path, old, frame, &mut Copy(&mut new))?;
         new.attempt(|file| file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), frame, error)))?;
         // One frame in memory at a time.
         new.flush()?;

@@ -4,7 +4,7 @@ mod elements;
 mod extended_xyz;
 mod gsd;
 
-use super::OutputError;
+use super::{Extent, OutputError};
 use crate::model::{Model, Species, Voronoi};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
@@ -114,19 +114,39 @@ impl TrajectoryWriter {
         Ok(Self { description: Description::new(model), file })
     }
 
-    /// Continues the trajectory of an earlier run after its last frame whose step is at most `step`; later frames are
-    /// dropped. Extended XYZ is cut in place. A GSD file with later frames is copied without them and then replaced,
+    /// Continues the trajectory of an earlier run after what [`extent`](Self::extent) said was written of it; later frames
+    /// are dropped. Extended XYZ is cut in place. A GSD file with anything later is copied without it and then replaced,
     /// which takes its size once more on the disk for a moment.
     ///
     /// # Errors
-    /// [`OutputError::Trajectory`] or [`OutputError::Line`] when the file is not such a trajectory,
-    /// [`OutputError::Io`] when it cannot be read or written.
-    pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, step: u64) -> Result<Self, OutputError> {
+    /// [`OutputError::Altered`] when its frames are not those that were written, [`OutputError::Trajectory`] when the file
+    /// is no trajectory, [`OutputError::Io`] when it cannot be read or written.
+    pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, written: Extent) -> Result<Self, OutputError> {
         let file = match format {
-            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::resume(path, step)?)),
-            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::resume(path, step)?),
+            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::resume(path, written)?)),
+            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::resume(path, written)?),
         };
         Ok(Self { description: Description::new(model), file })
+    }
+
+    /// What has been written of the trajectory: all frames until the last [`flush`](Self::flush).
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        match &self.file {
+            Format::Gsd(file) => file.extent(),
+            Format::ExtendedXyz(file) => file.extent(),
+        }
+    }
+
+    /// Looks whether the trajectory under this name is still the one that was written.
+    ///
+    /// # Errors
+    /// [`OutputError::Lost`] says what became of it.
+    pub fn check(&self) -> Result<(), OutputError> {
+        match &self.file {
+            Format::Gsd(file) => file.check(),
+            Format::ExtendedXyz(file) => file.check(),
+        }
     }
 
     /// Adds a frame.

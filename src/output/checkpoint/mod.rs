@@ -14,19 +14,23 @@
 //!     momenta      N × 3 i32
 //!     species      N u32
 //!     arrays       u64 count, of those that are not empty; each: u64 length, name in UTF-8; u64 count, that many u32
+//!     files        u64 count, of those that grow; each: u64 length, name in UTF-8; u64 bytes, u32 CRC-32
 //!     sections     u64 count; each: u64 length, name in UTF-8; u64 length, bytes
 //! checksum         u64       FNV-1a of the payload
 //! ```
 
-use super::{OutputError, write_atomically};
-use crate::scene::Scene;
+mod read;
+
+use super::{Extent, OutputError, write_atomically};
+use crate::scene::{Scene, SceneError};
 use crate::state::State;
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+pub use read::load;
+
 const MAGIC: [u8; 8] = *b"MESOCKPT";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const HEADER: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 8;
 
@@ -37,6 +41,8 @@ pub struct Checkpoint {
     pub scene: Scene,
     /// The exact state.
     pub state: State,
+    /// What had been written by then of the files that grow, by name: the table of energies and the trajectory.
+    pub files: Vec<(String, Extent)>,
     /// What unfinished analyses have gathered: a name and bytes only the analysis understands.
     pub sections: Vec<(String, Vec<u8>)>,
 }
@@ -84,6 +90,14 @@ pub enum CheckpointError {
         /// The file.
         path: PathBuf,
     },
+    /// The scene in it is refused, as it would be in a file of its own.
+    #[error("`{}` is no valid checkpoint: {source}", path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// The mistakes of the scene.
+        source: SceneError,
+    },
     /// The content passes the checksum and makes no sense.
     #[error("`{}` is no valid checkpoint: {problem}", crate::printable::path(path))]
     Malformed {
@@ -104,7 +118,7 @@ pub enum CheckpointError {
 /// # let path = directory.path().join("checkpoint.bin");
 /// let scene = scene::load("dpd-fluid", &[])?;
 /// let state = scene::placement::initial_state(&scene, &Model::new(&scene));
-/// checkpoint::save(&path, &scene, &state, &[])?;
+/// checkpoint::save(&path, &scene, &state, &[], &[])?;
 /// let found = checkpoint::load(&path)?;
 /// assert!(found.scene == scene && found.state == state);
 ///
@@ -116,7 +130,13 @@ pub enum CheckpointError {
 ///
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be written; an earlier checkpoint is then still there.
-pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
+pub fn save(
+    path: &Path,
+    scene: &Scene,
+    state: &State,
+    files: &[(String, Extent)],
+    sections: &[(String, Vec<u8>)],
+) -> Result<(), OutputError> {
     let scene = serde_json::to_vec(scene).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
     let sections_length: u64 = sections.iter().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
     let mut arrays = state.arrays().to_vec();
@@ -127,6 +147,8 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
         + 28 * state.len() as u64
         + 8
         + arrays.iter().map(|(name, words)| 16 + name.len() as u64 + 4 * words.len() as u64).sum::<u64>()
+        + 8
+        + files.iter().map(|(name, _)| 20 + name.len() as u64).sum::<u64>()
         + 8
         + sections_length;
     write_atomically(path, |writer| {
@@ -146,6 +168,12 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
             payload.number(words.len() as u64)?;
             payload.words(words)?;
         }
+        payload.number(files.len() as u64)?;
+        for (name, extent) in files {
+            payload.counted(name.as_bytes())?;
+            payload.number(extent.bytes)?;
+            payload.bytes(&extent.crc32.to_le_bytes())?;
+        }
         payload.number(sections.len() as u64)?;
         for (name, bytes) in sections {
             payload.counted(name.as_bytes())?;
@@ -159,81 +187,15 @@ pub fn save(path: &Path, scene: &Scene, state: &State, sections: &[(String, Vec<
     })
 }
 
-/// Reads a checkpoint and checks all of it.
-///
-/// # Errors
-/// A [`CheckpointError`] for whatever is not exactly as [`save`] writes it.
-pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
-    let bytes = read_regular_file(path)?;
-    let own = || path.to_path_buf();
-    let payload = payload_of(path, &bytes)?;
-    let malformed = |problem: String| CheckpointError::Malformed { path: own(), problem };
-    let mut reader = Reader { rest: payload };
-    let (scene, mut state, arrays, sections) =
-        reader.content().ok_or_else(|| malformed("a length is wrong".to_owned()))?;
-    for (name, words) in arrays {
-        state.set_array(&name, &words).map_err(malformed)?;
-    }
-    let scene: Scene = serde_json::from_slice(scene).map_err(|error| malformed(format!("its scene: {error}")))?;
-    if let Some(name) = state.misshapen() {
-        return Err(malformed(format!("some particles have `{name}` and others none")));
-    }
-    Ok(Checkpoint { scene, state, sections })
-}
-
-fn read_regular_file(path: &Path) -> Result<Vec<u8>, OutputError> {
-    let read = || -> io::Result<Vec<u8>> {
-        let mut file = File::open(path)?;
-        let metadata = file.metadata()?;
-        // A device may never end.
-        if !metadata.is_file() {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
-        }
-        let mut bytes = Vec::new();
-        bytes.try_reserve_exact(usize::try_from(metadata.len()).unwrap_or(usize::MAX))?;
-        file.read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
-    read().map_err(OutputError::io("read the checkpoint", path))
-}
-
-/// The payload, once everything around it is known to be right.
-fn payload_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<&'a [u8], CheckpointError> {
-    let path = || path.to_path_buf();
-    if !bytes.starts_with(&MAGIC[..MAGIC.len().min(bytes.len())]) || bytes.is_empty() {
-        return Err(CheckpointError::Magic { path: path() });
-    }
-    let found = bytes.len() as u64;
-    let too_short = || CheckpointError::Length { path: path(), expected: (HEADER + CHECKSUM) as u128, found };
-    let mut header = Reader { rest: bytes.get(MAGIC.len()..).ok_or_else(too_short)? };
-    let version = header.take(4).and_then(|word| word.try_into().ok()).map(u32::from_le_bytes);
-    let version = version.ok_or_else(too_short)?;
-    if version != VERSION {
-        return Err(CheckpointError::Version { path: path(), found: version });
-    }
-    let length = header.number().ok_or_else(too_short)?;
-    let expected = (HEADER + CHECKSUM) as u128 + u128::from(length);
-    if expected != u128::from(found) {
-        return Err(CheckpointError::Length { path: path(), expected, found });
-    }
-    let (payload, checksum) = header.rest.split_at(header.rest.len() - CHECKSUM);
-    let mut sum = Fnv::new();
-    sum.add(payload);
-    if sum.0.to_le_bytes() != checksum {
-        return Err(CheckpointError::Checksum { path: path() });
-    }
-    Ok(payload)
-}
-
 /// FNV-1a with 64 bits. Each step is a bijection of the sum, so no change of a single byte goes unseen.
-struct Fnv(u64);
+pub(super) struct Fnv(pub(super) u64);
 
 impl Fnv {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 
-    fn add(&mut self, bytes: &[u8]) {
+    pub(super) fn add(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
@@ -268,69 +230,5 @@ impl Payload<'_> {
             self.bytes(bytemuck::cast_slice(&chunk))?;
         }
         Ok(())
-    }
-}
-
-/// Takes pieces off the front of a slice; `None` when there is less than asked for. Nothing is allocated before its
-/// bytes are known to be there.
-struct Reader<'a> {
-    rest: &'a [u8],
-}
-
-type Content<'a> = (&'a [u8], State, Vec<(String, Vec<u32>)>, Vec<(String, Vec<u8>)>);
-
-impl<'a> Reader<'a> {
-    fn take(&mut self, length: u64) -> Option<&'a [u8]> {
-        let (taken, rest) = self.rest.split_at_checked(usize::try_from(length).ok()?)?;
-        self.rest = rest;
-        Some(taken)
-    }
-
-    fn number(&mut self) -> Option<u64> {
-        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
-    }
-
-    fn counted(&mut self) -> Option<&'a [u8]> {
-        let length = self.number()?;
-        self.take(length)
-    }
-
-    fn words(&mut self, count: u64) -> Option<Vec<u32>> {
-        let bytes = self.take(count.checked_mul(4)?)?;
-        let mut words: Vec<u32> = bytemuck::pod_collect_to_vec(bytes);
-        for word in &mut words {
-            *word = u32::from_le(*word);
-        }
-        Some(words)
-    }
-
-    fn counted_words(&mut self) -> Option<Vec<u32>> {
-        let count = self.number()?;
-        self.words(count)
-    }
-
-    fn vectors<T: bytemuck::Pod>(&mut self, count: u64) -> Option<Vec<[T; 3]>> {
-        Some(bytemuck::cast_slice(&self.words(count.checked_mul(3)?)?).to_vec())
-    }
-
-    fn content(&mut self) -> Option<Content<'a>> {
-        let scene = self.counted()?;
-        let step = self.number()?;
-        let count = self.number()?;
-        let positions = self.vectors(count)?;
-        let momenta = self.vectors(count)?;
-        let species = self.words(count)?;
-        let mut arrays = Vec::new();
-        for _ in 0..self.number()? {
-            let name = std::str::from_utf8(self.counted()?).ok()?.to_owned();
-            arrays.push((name, self.counted_words()?));
-        }
-        let mut sections = Vec::new();
-        for _ in 0..self.number()? {
-            let name = std::str::from_utf8(self.counted()?).ok()?.to_owned();
-            sections.push((name, self.counted()?.to_vec()));
-        }
-        let state = State { step, positions, momenta, species, ..State::default() };
-        self.rest.is_empty().then_some((scene, state, arrays, sections))
     }
 }

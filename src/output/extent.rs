@@ -1,0 +1,73 @@
+//! How much of a file there was, and what it held.
+
+use super::OutputError;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Length and checksum of a file, or of its beginning.
+///
+/// ```
+/// use mesoscope::output::Extent;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("table.csv");
+/// std::fs::write(&path, "123456789")?;
+/// assert_eq!(Extent::of(&path)?, Extent { bytes: 9, crc32: 0xcbf4_3926 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Extent {
+    /// Number of bytes.
+    pub bytes: u64,
+    /// CRC-32 (IEEE 802.3) of the bytes; of a trajectory in GSD, of what its frames hold.
+    pub crc32: u32,
+}
+
+impl Extent {
+    /// The extent of a whole file.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when it cannot be read.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        let read = || {
+            let mut sum = Checksum::default();
+            let bytes = sum.read(&mut File::open(path)?)?;
+            Ok(sum.extent(bytes))
+        };
+        read().map_err(OutputError::io("read", path))
+    }
+}
+
+/// A checksum under way.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Checksum(crc32fast::Hasher);
+
+impl Checksum {
+    pub(super) fn add(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// Adds all that can be read; returns its length.
+    pub(super) fn read(&mut self, from: &mut impl Read) -> io::Result<u64> {
+        let mut buffer = vec![0; 1 << 16];
+        let mut bytes = 0;
+        loop {
+            match from.read(&mut buffer) {
+                Ok(0) => return Ok(bytes),
+                Ok(count) => {
+                    self.add(&buffer[..count]);
+                    bytes += count as u64;
+                }
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// The extent of as many bytes, with the checksum of what was added.
+    pub(super) fn extent(&self, bytes: u64) -> Extent {
+        Extent { bytes, crc32: self.0.clone().finalize() }
+    }
+}

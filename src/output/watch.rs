@@ -1,0 +1,45 @@
+//! Whether a file that is kept open is still the one of its name.
+
+use super::OutputError;
+use std::fs::{self, Metadata};
+use std::path::{Path, PathBuf};
+
+/// A file as it was when it was opened.
+#[derive(Debug)]
+pub(super) struct Watch {
+    path: PathBuf,
+    identity: Option<(u64, u64)>,
+}
+
+impl Watch {
+    /// Begins with the file that is at a path now.
+    pub(super) fn of(path: &Path) -> Result<Self, OutputError> {
+        let metadata = fs::metadata(path).map_err(OutputError::io("look at", path))?;
+        Ok(Self { path: path.to_path_buf(), identity: identity(&metadata) })
+    }
+
+    /// Looks whether the same file is there, as long as it was written.
+    pub(super) fn check(&self, length: u64) -> Result<(), OutputError> {
+        let problem = match fs::metadata(&self.path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => "it was removed",
+            Err(source) => return Err(OutputError::Io { attempted: "look at", path: self.path.clone(), source }),
+            Ok(metadata) if identity(&metadata) != self.identity => "another file took its place",
+            Ok(metadata) if metadata.is_file() && metadata.len() != length => "something else wrote to it",
+            Ok(_) => return Ok(()),
+        };
+        Err(OutputError::Lost { path: self.path.clone(), problem })
+    }
+}
+
+/// What tells a file from others with the same name.
+#[cfg(unix)]
+#[allow(clippy::unnecessary_wraps)]
+fn identity(metadata: &Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(_: &Metadata) -> Option<(u64, u64)> {
+    None
+}
