@@ -82,8 +82,11 @@ fn families() -> Vec<(&'static str, Scene)> {
     kinds.into_iter().map(load).collect()
 }
 
+/// Names and contents.
+type Files = Vec<(String, Vec<u8>)>;
+
 /// A run of every family that has come half-way.
-fn half_way(place: &Path) -> Vec<(&'static str, Vec<(String, Vec<u8>)>)> {
+fn half_way(place: &Path) -> Vec<(&'static str, Files)> {
     prepare_environment();
     let run = |(name, scene): (&'static str, Scene)| {
         let directory = place.join(name);
@@ -325,14 +328,14 @@ fn flip_tables(seed: u64, each: usize) {
             let mut altered = longer.clone();
             let mut tables: Vec<_> = altered.iter_mut().filter(|(name, _)| growing.contains(&name.as_str())).collect();
             let table = random.random_range(0..tables.len());
-            let (table, content) = &mut tables[table];
+            let (table, content) = &mut *tables[table];
             let place = random.random_range(0..content.len());
             content[place] ^= 1 << random.random_range(0..8);
             let table = table.clone();
             lay_out(&directory, &altered);
             let resumed = Simulation::resume(&directory, Some(60)).unwrap();
             match resumed.execute(&AdapterChoice::Best, &mut |_| {}) {
-                Err(RunError::Stopped { source, .. }) | Err(RunError::Output(source)) => {
+                Err(RunError::Stopped { source, .. } | RunError::Output(source)) => {
                     refused += 1;
                     assert!(source.to_string().contains(&table), "{source}");
                 }
