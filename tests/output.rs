@@ -619,8 +619,11 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     }
 }
 
+/// Step, positions and velocities.
+type Frame = (u64, Vec<[f32; 3]>, Vec<[f32; 3]>);
+
 /// What a reader sees of a trajectory.
-fn content_of(path: &Path) -> Vec<(u64, Vec<[f32; 3]>, Vec<[f32; 3]>)> {
+fn content_of(path: &Path) -> Vec<Frame> {
     let file = GsdFile::open(path, Mode::Read).unwrap();
     let vectors = |frame, name| file.iter_arrays::<f32, 3>(frame, name).unwrap().collect::<Vec<_>>();
     let frames = (0..file.n_frames()).zip(steps_of(path));
