@@ -1,8 +1,7 @@
 // Follows particles of shallow water that lie in bins, those of a cell one after the other, on their ways round the box.
 @compute @workgroup_size(WORKGROUP)
-fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(num_workgroups) workgroups: vec3<u32>,
-    @builtin(local_invocation_index) lane: u32) {
-    let cell = linear_workgroup(workgroup, workgroups) * WORKGROUP + lane;
+fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let cell = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (cell >= CELLS_X * CELLS_Y) { return; }
     let bin = opened_bin(cell);
     for (var k = 0u; k < bin.count; k++) {
