@@ -355,7 +355,7 @@ fn as_many_jumps_in_a_step_as_a_scene_may_ask_for() {
 
 #[test]
 fn forces_that_outlast_any_run_lose_nothing() {
-    for time in [1e7, 1e12, 1e300] {
+    for time in [1e7, 1e12, 1e90] {
         let scene =
             free("kangaroo", &[&format!("interactions.0.time={time}"), "particles.0.count=200", "time.step=0.001"]);
         let (_, before, mut engine) = run(&scene);

@@ -329,7 +329,14 @@ fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
 #[test]
 fn check_prints_the_plan() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
-    let said = succeeds(&["check", &place.scene()]);
+    let short = succeeds(&["check", &place.scene()]);
+    for part in
+        ["small fluid", "375 in 3 dimensions", "bytes a particle", "  time  ", "within a factor of", "  files  "]
+    {
+        assert!(short.contains(part), "`{part}` is not in: {short}");
+    }
+    assert!(!short.contains("kernels/scatter"), "{short}");
+    let said = succeeds(&["check", &place.scene(), "--kernels"]);
     for part in [
         "small fluid",
         "375 in 3 dimensions, box 5 × 5 × 5",
@@ -347,6 +354,7 @@ fn check_prints_the_plan() {
     // What the scene leaves out is not there, and what deserves a second look is named.
     let said = succeeds(&[
         "check",
+        "--kernels",
         &place.scene(),
         "--set",
         "interactions.0.repulsion=0",

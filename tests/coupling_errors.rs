@@ -179,9 +179,9 @@ fn baths() {
         .unwrap();
     parse(&[memory, "interactions.0.bath.coupling=0", "interactions.0.friction=0"]).unwrap();
     refused(
-        &[memory, "interactions.0.bath.rate=1e300"],
+        &[memory, "interactions.0.bath.rate=1e90"],
         &[
-            "interactions[0].friction: found 4.5, a coupling λ = αγ of 4.500e300; accepted: a coupling that single precision holds",
+            "interactions[0].friction: found 4.5, a coupling λ = αγ of 4.500e90; accepted: a coupling that single precision holds",
         ],
     );
     refused(

@@ -352,7 +352,7 @@ fn wrong_scenes_run_nothing() {
 
 #[test]
 fn check_says_what_the_scene_requires() {
-    let said = succeeds(&["check", "shallow-water"]);
+    let said = succeeds(&["check", "--kernels", "shallow-water"]);
     for part in [
         "65,536 in 2 dimensions",
         "gyro, time step 0.02",
@@ -374,7 +374,7 @@ fn check_says_what_the_scene_requires() {
     }
     assert!(!said.contains("\n  cells "), "{said}");
     assert!(!said.contains("bath"), "a scene without a bath needs nothing of one: {said}");
-    let said = succeeds(&["check", "shallow-water-memory"]);
+    let said = succeeds(&["check", "--kernels", "shallow-water-memory"]);
     for part in ["memory, epsilon 1, cotter-reich", "mesh_bath", "BATH_NOISE", "node_bath"] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
@@ -383,7 +383,7 @@ fn check_says_what_the_scene_requires() {
         .with("/interactions/0/mesh", json!([12, 10]))
         .with("/interactions/0/smoothing/solver", json!({"type": "chebyshev"}))
         .with("/output/fields", json!({"every": 5, "quantities": ["speed"]}));
-    let said = succeeds(&["check", &place.scene(), "--set", "time.step=0.4"]);
+    let said = succeeds(&["check", "--kernels", &place.scene(), "--set", "time.step=0.4"]);
     for part in [
         "1,024 of water and 605 tracers, in 2 dimensions",
         "12 × 10 nodes",

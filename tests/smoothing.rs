@@ -9,8 +9,8 @@ use std::sync::mpsc;
 
 use mesoscope::gpu::link;
 use mesoscope::model::ShallowWater;
+use mesoscope::plan::Options;
 use mesoscope::plan::smoothing::{SmoothingPlan, iterations, smoothing, transfer};
-use mesoscope::plan::{Contents, Options};
 use mesoscope::scene::{LaplacianSymbol, Smoothing, SmoothingSolver};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -87,11 +87,9 @@ impl Device {
             ["node_masses", "depths"].map(|name| (name, create(4 * water.nodes()))).into();
         for buffer in planned {
             let made = create(buffer.bytes);
-            match &buffer.contents {
-                Contents::Bytes(bytes) => gpu().queue().write_buffer(&made, 0, bytes),
-                // Nothing may depend on what scratch space holds.
-                Contents::Zeros => gpu().queue().write_buffer(&made, 0, &vec![0x7f; buffer.bytes as usize]),
-            }
+            // Nothing may depend on what scratch space holds.
+            let contents = buffer.contents.bytes().unwrap_or_else(|| vec![0x7f; buffer.bytes as usize].into());
+            gpu().queue().write_buffer(&made, 0, &contents);
             assert!(buffers.insert(buffer.name, made).is_none(), "`{}` twice", buffer.name);
         }
         let stages = kernels.iter().map(|kernel| {

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu::{self, AdapterChoice, GpuError};
+use mesoscope::gpu::{self, Gpu, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
 use mesoscope::printable;
-use mesoscope::run::{self, RunError};
+use mesoscope::run::{self, RunError, Sizes};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
     MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
@@ -17,11 +17,17 @@ use mesoscope::scene::{
 use super::table::{aligned, bytes, dimensions, grouped};
 use super::{AdapterArgument, Failure, SceneArguments, print};
 
-/// Check a scene: all mistakes at once, or else what it requires - kernels, buffers, bytes, expected cost
+/// Check a scene: all mistakes at once, or else what it requires - memory, time, files, warnings
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
+The time is an estimate: a few steps are made on the adapter and timed, of the scene itself if it is small. That takes a
+quarter of a second beside the start of the adapter and the making of the kernels; without an adapter there is none.
+
+Exit code 0 means that the adapter (the one named, else the best) can run the scene.
+
 Examples:
   mesoscope check my-scene.json
+  mesoscope check dpd-fluid --kernels
   mesoscope check dpd-fluid --set particles.0.number_density=4")]
 pub struct Arguments {
     #[command(flatten)]
@@ -29,34 +35,82 @@ pub struct Arguments {
 
     #[command(flatten)]
     adapter: AdapterArgument,
+
+    /// List kernels, buffers and their bytes too
+    #[arg(long)]
+    kernels: bool,
 }
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, notices) = arguments.scene.load()?;
     let model = Model::new(&scene);
-    let planned = |hardware| plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     let mut warnings: Vec<String> = notices.iter().chain(&scene::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
-    let choice = arguments.adapter.choice();
-    let mut refusal = None;
-    let (hardware, adapter) = match run::adapter_for(&scene, &choice) {
-        Ok(gpu) => (Hardware::from(&gpu), gpu.description().name.clone()),
+    let opened = match run::adapter_for(&scene, &arguments.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
-        Err(RunError::Gpu(GpuError::NoAdapter)) => {
-            (Hardware::default(), "none here; the plan is the one for any adapter".to_owned())
-        }
-        Err(error) => {
-            // A scene is right though no adapter here has room for it; one that was asked for should have.
-            match choice {
-                AdapterChoice::Best => warnings.push(error.to_string()),
-                _ => refusal = Some(error),
-            }
-            (Hardware::default(), "none that could run it; the plan is the one for any adapter".to_owned())
-        }
+        opened => opened,
     };
-    let plan = planned(hardware);
-    let mut text = overview(&scene, &model, &plan, &adapter);
+    let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
+    let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+    let (adapter, time) = match &opened {
+        Ok(gpu) => (gpu.description().name.clone(), Some(expected_time(&scene, gpu))),
+        Err(RunError::Gpu(GpuError::NoAdapter)) => ("none here; the plan is the one for any adapter".to_owned(), None),
+        Err(_) => ("none that could run it; the plan is the one for any adapter".to_owned(), None),
+    };
+    let sizes = Sizes::of(&scene, &model, &plan);
+    let mut text = overview(&scene, &model, &plan, &adapter, time, &sizes);
+    text.push_str(&outputs(&scene, &model, &sizes));
+    if arguments.kernels {
+        kernels(&mut text, &plan)?;
+    }
+    for warning in &warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    print(&text)?;
+    opened.map_or_else(|error| Err(error.into()), |_| Ok(()))
+}
+
+/// How long the run takes here, in words.
+fn expected_time(scene: &Scene, gpu: &Gpu) -> String {
+    if scene.time.steps == 0 {
+        return "no steps".to_owned();
+    }
+    let expected = match run::expected_time(scene, gpu) {
+        Ok(expected) => expected,
+        Err(error) => return format!("unknown: a trial of the first steps ended with: {error}"),
+    };
+    let basis = if expected.of_scene {
+        format!("{} steps of it were timed", grouped(expected.steps))
+    } else {
+        "from its arithmetic and the speed of a small fluid".to_owned()
+    };
+    format!(
+        "about {} for {} steps, within a factor of {} ({basis})",
+        duration(expected.seconds),
+        grouped(scene.time.steps),
+        expected.factor
+    )
+}
+
+/// A time in two units, or with two digits.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        ..10.0 => format!("{} s", two_digits(seconds)),
+        10.0..100.0 => format!("{seconds:.0} s"),
+        100.0..6000.0 => format!("{:.0} min", seconds / 60.0),
+        6000.0..172_800.0 => format!("{:.0} h", seconds / 3600.0),
+        172_800.0..63_072_000.0 => format!("{:.0} days", seconds / 86_400.0),
+        _ => format!("{:.1e} years", seconds / 31_557_600.0),
+    }
+}
+
+fn two_digits(value: f64) -> String {
+    if value < 0.1 { format!("{value:.1e}") } else { format!("{value:.1}") }
+}
+
+/// All kernels, stage by stage, and the buffers.
+fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
     let tidying = format!("Every {TIDYING} steps: put them in order in memory too");
     let stages = [
         ("Once, before the first step", &plan.prepare),
@@ -67,27 +121,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ("Every step with a measurement: measure", &plan.report),
         ("Every step with a measurement: go on", &plan.finish_report),
     ];
-    let shared = Shared::of(&plan)?;
+    let shared = Shared::of(plan)?;
     if !shared.modules.is_empty() {
         text.push_str("\nShared by all kernels that see particles\n");
     }
-    wrapped(&mut text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
-    wrapped(&mut text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
+    wrapped(text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
+    wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
     let mut described = Vec::new();
     for (heading, kernels) in stages {
-        section(&mut text, heading, &plan, kernels, &shared, &mut described)?;
+        section(text, heading, plan, kernels, &shared, &mut described)?;
     }
     for sampler in &plan.samplers {
         let heading = format!("{}: {}", sampler.name, interval(sampler.first, sampler.every));
-        section(&mut text, &heading, &plan, &sampler.kernels, &shared, &mut described)?;
+        section(text, &heading, plan, &sampler.kernels, &shared, &mut described)?;
     }
-    buffers(&mut text, &plan);
-    text.push_str(&outputs(&scene, &model));
-    for warning in &warnings {
-        let _ = writeln!(text, "\nwarning: {warning}");
-    }
-    print(&text)?;
-    refusal.map_or(Ok(()), |error| Err(error.into()))
+    buffers(text, plan);
+    Ok(())
 }
 
 fn interval(first: u64, every: u64) -> String {
@@ -95,7 +144,7 @@ fn interval(first: u64, every: u64) -> String {
     if first == 0 { every } else { format!("{every} from step {}", grouped(first)) }
 }
 
-fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String {
+fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Option<String>, sizes: &Sizes) -> String {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
@@ -115,10 +164,14 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
     let dimensions = dimensions(lengths.len());
-    let mut rows = vec![
-        ("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))),
+    let mut rows =
+        vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))), ("memory", memory)];
+    rows.extend(time.map(|time| ("time", time)));
+    rows.extend([
+        ("files", format!("about {}", bytes(sizes.total()))),
+        ("adapter", adapter.to_owned()),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
-    ];
+    ]);
     if let (Some(water), [Interaction::ShallowWater(asked)]) = (&model.shallow_water, scene.interactions.as_slice()) {
         rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
     } else {
@@ -127,14 +180,8 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str) -> String 
         rows.extend(list(model, plan));
         rows.extend(fluid_of_cells(model));
     }
-    rows.extend([
-        ("adapter", adapter.to_owned()),
-        ("memory", memory),
-        (
-            "arithmetic",
-            format!("about {} operations a particle and step", grouped(plan.operations_per_particle as u64)),
-        ),
-    ]);
+    let operations = grouped(plan.operations_per_particle as u64);
+    rows.push(("arithmetic", format!("about {operations} operations a particle and step")));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "))
 }
@@ -394,12 +441,15 @@ fn buffers(text: &mut String, plan: &Plan) {
     let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));
 }
 
-fn outputs(scene: &Scene, model: &Model) -> String {
+fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
     let output = &scene.output;
     let mut rows = vec![
-        (files::ENERGIES.to_owned(), format!("a row {}", interval(0, output.energies.every))),
+        (files::ENERGIES.to_owned(), sized(&format!("a row {}", interval(0, output.energies.every)), sizes.energies)),
         (format!("{}, {}", files::ENERGIES_PLOT, files::SUMMARY), "at the end".to_owned()),
-        (files::CHECKPOINT.to_owned(), format!("{} and at the end", interval(0, output.checkpoint.every))),
+        (
+            files::CHECKPOINT.to_owned(),
+            sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
+        ),
     ];
     if let Some(water) = &model.shallow_water {
         if water.closed_loops().next().is_some() {
@@ -416,7 +466,7 @@ fn outputs(scene: &Scene, model: &Model) -> String {
     } else if model.units.dimension > 1 {
         rows.push((files::SNAPSHOT.to_owned(), "at the end".to_owned()));
         if output.snapshot.every > 0 {
-            rows.push(("snapshot-….png".to_owned(), interval(0, output.snapshot.every)));
+            rows.push(("snapshot-….png".to_owned(), sized(&interval(0, output.snapshot.every), sizes.numbered)));
         }
     }
     if let Some(trajectory) = &output.trajectory {
@@ -424,11 +474,16 @@ fn outputs(scene: &Scene, model: &Model) -> String {
             TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
             TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
         };
-        rows.push((name.to_owned(), format!("a frame {}", interval(0, trajectory.every))));
+        rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
     }
     rows.extend(analyses(scene));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
     format!("\nFiles\n{}", aligned(&rows, "  "))
+}
+
+/// When a file is written and how long it becomes.
+fn sized(when: &str, size: u64) -> String {
+    format!("{when}, about {}", bytes(size))
 }
 
 /// Files of the analyses, which are written at the end.

@@ -15,7 +15,7 @@ use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Contents, Hardware, Layout, Misfit, Paths, Plan, TIDYING};
+use crate::plan::{Hardware, Layout, Misfit, Paths, Plan, TIDYING};
 use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
@@ -171,8 +171,8 @@ impl<'a> Engine<'a> {
                         },
                     mapped_at_creation: false,
                 });
-                if let Contents::Bytes(bytes) = &buffer.contents {
-                    gpu.queue.write_buffer(&made, 0, bytes);
+                if let Some(bytes) = buffer.contents.bytes() {
+                    gpu.queue.write_buffer(&made, 0, &bytes);
                 }
                 made
             })?;

@@ -1,7 +1,7 @@
 //! Arrays of texels: textures that are loaded, stored to, filled and read back as buffers are.
 
 use crate::gpu::{Gpu, GpuError};
-use crate::plan::{Contents, Texture};
+use crate::plan::Texture;
 
 /// A texture of a plan on the device.
 pub(super) struct Texels {
@@ -34,8 +34,8 @@ impl Texels {
         let view =
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(planned.name), ..Default::default() });
         let texels = Self { planned: planned.clone(), texture, view };
-        if let Contents::Bytes(bytes) = &planned.contents {
-            texels.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(bytes));
+        if let Some(bytes) = planned.contents.bytes() {
+            texels.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(&bytes));
         }
         Ok(texels)
     }

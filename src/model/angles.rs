@@ -1,6 +1,6 @@
 //! Stiffness of chains.
 
-use super::topology;
+use super::topology::Runs;
 use crate::scene::{AnglesInteraction, Scene};
 
 /// All angles of a scene, with V = k(1 + cos θ).
@@ -9,7 +9,7 @@ pub struct Angles {
     /// Stiffness k of each interaction `angles`, in order.
     pub stiffness: Vec<f64>,
     /// The angles, interaction by interaction.
-    pub angles: Vec<Angle>,
+    runs: Runs<3>,
 }
 
 /// An angle.
@@ -22,14 +22,29 @@ pub struct Angle {
 }
 
 impl Angles {
-    pub(super) fn add(&mut self, interaction: &AnglesInteraction, scene: &Scene) {
+    pub(super) fn add(
+        &mut self,
+        interaction: &AnglesInteraction,
+        scene: &Scene,
+        species: impl Fn(&str) -> Option<usize>,
+    ) {
         let kind = self.stiffness.len() as u32;
         self.stiffness.push(interaction.stiffness);
-        let triples = if interaction.triples.is_empty() {
-            topology::runs::<3>(scene, interaction.species.as_deref())
+        if interaction.triples.is_empty() {
+            self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
         } else {
-            interaction.triples.clone()
-        };
-        self.angles.extend(triples.into_iter().map(|ends| Angle { ends, kind }));
+            self.runs.add_listed(kind, &interaction.triples);
+        }
+    }
+
+    /// Number of angles.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.runs.count()
+    }
+
+    /// All angles, interaction by interaction.
+    pub fn iter(&self) -> impl Iterator<Item = Angle> {
+        self.runs.iter().map(|(ends, kind)| Angle { ends, kind })
     }
 }

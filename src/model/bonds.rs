@@ -1,7 +1,7 @@
 //! Bonds between particles: a potential, and a heat bath coupled to the length.
 
 use super::bath::BathStep;
-use super::topology;
+use super::topology::{Alike, Runs};
 use crate::scene::{BondPotential, BondsInteraction, Scene};
 
 /// All bonds of a scene.
@@ -10,7 +10,7 @@ pub struct Bonds {
     /// What each interaction `bonds` asks for, in order.
     pub kinds: Vec<BondKind>,
     /// The bonds, interaction by interaction.
-    pub bonds: Vec<Bond>,
+    pub(super) runs: Runs<2>,
 }
 
 /// Bonds of one interaction.
@@ -36,7 +36,12 @@ pub struct Bond {
 }
 
 impl Bonds {
-    pub(super) fn add(&mut self, interaction: &BondsInteraction, scene: &Scene) {
+    pub(super) fn add(
+        &mut self,
+        interaction: &BondsInteraction,
+        scene: &Scene,
+        species: impl Fn(&str) -> Option<usize>,
+    ) {
         let kind = self.kinds.len() as u32;
         let step = BathStep::of(&interaction.bath, interaction.friction, scene.time.step);
         self.kinds.push(BondKind {
@@ -45,12 +50,46 @@ impl Bonds {
             temperature: interaction.bath.temperature(scene.temperature),
             exclude_repulsion: interaction.exclude_repulsion,
         });
-        let pairs = if interaction.pairs.is_empty() {
-            topology::runs::<2>(scene, interaction.species.as_deref())
+        if interaction.pairs.is_empty() {
+            self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
         } else {
-            interaction.pairs.clone()
-        };
-        self.bonds.extend(pairs.into_iter().map(|ends| Bond { ends, kind }));
+            self.runs.add_listed(kind, &interaction.pairs);
+        }
+    }
+
+    /// Number of bonds.
+    ///
+    /// ```
+    /// use mesoscope::{model::Model, scene};
+    ///
+    /// // Chains of 5, 10 and 20 beads.
+    /// let model = Model::new(&scene::load("polymer-melt", &[])?);
+    /// let bonds = model.bonds.as_ref().expect("they are bonded");
+    /// assert_eq!(bonds.count(), bonds.iter().count() as u64);
+    /// // They are counted without being listed.
+    /// let set = ["particles.0.count=1000000000".to_owned()];
+    /// let many = Model::new(&scene::load("polymer-melt", &set)?);
+    /// assert!(many.bonds.is_some_and(|bonds| bonds.count() > 800_000_000));
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.runs.count()
+    }
+
+    /// All bonds, interaction by interaction.
+    pub fn iter(&self) -> impl Iterator<Item = Bond> {
+        self.runs.iter().map(|(ends, kind)| Bond { ends, kind })
+    }
+
+    /// Kinds of bonds and what their bonds have in common.
+    pub(crate) fn alike(&self) -> impl Iterator<Item = (u32, Alike<'_, 2>)> {
+        self.runs.alike()
+    }
+
+    /// The largest number of partners whose repulsion a particle is spared.
+    pub(crate) fn most_spared(&self) -> usize {
+        self.runs.most_partners(|kind| self.kinds[kind as usize].exclude_repulsion)
     }
 
     /// Whether any bond remembers.

@@ -1,6 +1,6 @@
 //! Harmonic chains side by side in one scene: of beads, of clusters with friction and noise, of clusters without.
 
-use super::{BathStep, Bond, BondKind, Bonds, HarmonicChain, Species, SpringChain};
+use super::{BathStep, BondKind, Bonds, HarmonicChain, Species, SpringChain};
 use crate::noise::{self, stream};
 use crate::scene::{BondPotential, Generator, HarmonicChainInteraction, Scene};
 use crate::state::{State, Units};
@@ -34,6 +34,8 @@ pub struct Strand {
     pub spacing: f64,
     /// Temperature kT.
     pub temperature: f64,
+    /// Index of the species of its beads.
+    pub species: usize,
 }
 
 impl Strand {
@@ -84,6 +86,8 @@ pub struct ChainTrios {
 
 /// Names of the species, in the order of their particles: beads, clusters, and the fixed ends.
 const SPECIES: [&str; 3] = ["bead", "cluster", "end"];
+/// Index of the last of them.
+const END: usize = 2;
 
 impl ChainTrios {
     pub(super) fn new(interaction: &HarmonicChainInteraction, scene: &Scene) -> Self {
@@ -123,6 +127,7 @@ impl ChainTrios {
                 ends: [total + 2 * number, total + 2 * number + 1],
                 spacing: size * self.spacing,
                 temperature: if is_thermal { self.temperature } else { 0.0 },
+                species: usize::from(beads_are_clusters),
             };
             first += chain.beads;
             number += 1;
@@ -139,14 +144,14 @@ impl ChainTrios {
             name: SPECIES[kind].to_owned(),
             mass,
             count,
-            fixed: kind == 2,
+            fixed: kind == END,
         };
         let mass = self.pulse.mass;
         [species(0, mass, beads), species(1, self.pulse.frictionless().mass, clusters), species(2, mass, 12)]
     }
 
     /// The species of every particle.
-    pub(crate) fn species_of_particles(&self) -> Vec<u32> {
+    fn species_of_particles(&self) -> Vec<u32> {
         let all = self.species();
         all.iter().zip(0_u32..).flat_map(|(species, kind)| vec![kind; species.count as usize]).collect()
     }
@@ -162,11 +167,9 @@ impl ChainTrios {
                 temperature: strand.temperature,
                 exclude_repulsion: false,
             });
-            let mut before = strand.ends[0];
-            for bead in (strand.first..strand.first + strand.chain.beads).chain([strand.ends[1]]) {
-                bonds.bonds.push(Bond { ends: [before as u32, bead as u32], kind });
-                before = bead;
-            }
+            let (ends, first) = (strand.ends.map(|end| end as u32), strand.first as u32);
+            let species = [strand.species, END];
+            bonds.runs.add_strand(kind, ends, first, strand.chain.beads as u32, species);
         }
     }
 
@@ -265,10 +268,10 @@ mod tests {
         let trios = trios();
         let mut bonds = Bonds::default();
         trios.add_bonds(&mut bonds, 0.1);
-        assert_eq!((bonds.kinds.len(), bonds.bonds.len()), (6, 25 + 7 + 7 + 37 + 10 + 10));
+        assert_eq!((bonds.kinds.len(), bonds.count()), (6, 25 + 7 + 7 + 37 + 10 + 10));
         let mut state = State::default();
         trios.fill(&mut state, &UNITS, 1);
-        for bond in &bonds.bonds {
+        for bond in bonds.iter() {
             let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
             let Some(BondPotential::Harmonic { length, .. }) = bonds.kinds[bond.kind as usize].potential else {
                 unreachable!("all are springs")

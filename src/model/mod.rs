@@ -6,6 +6,7 @@ mod bonds;
 mod chain_trio;
 mod coloured_noise;
 mod dpd;
+mod forces;
 mod harmonic_chain;
 mod position;
 mod shallow_water;
@@ -24,6 +25,7 @@ pub use position::PositionBath;
 pub(crate) use shallow_water::{LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::{ShallowWater, Tracers};
 pub(crate) use time_scales::{FREQUENCY_LIMIT, FRICTION_LIMIT};
+pub(crate) use topology::Alike;
 pub use topology::ChainGroup;
 pub use voronoi::{NETWORK_VISCOSITY, Voronoi};
 
@@ -105,7 +107,7 @@ impl Model {
         for group in &scene.particles {
             let count = group.resolved_count(scene.space.volume());
             if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
-                known.count += count;
+                known.count = known.count.saturating_add(count);
             } else {
                 let name = group.species.clone();
                 species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
@@ -123,8 +125,8 @@ impl Model {
                 }
                 Interaction::ColouredNoise(noise) => coloured_noise = Some(ColouredNoise::new(noise)),
                 Interaction::Tether(spring) => tether = Some(spring.stiffness),
-                Interaction::Bonds(interaction) => bonds.add(interaction, scene),
-                Interaction::Angles(interaction) => angles.add(interaction, scene),
+                Interaction::Bonds(interaction) => bonds.add(interaction, scene, |name| index_of(&species, name)),
+                Interaction::Angles(interaction) => angles.add(interaction, scene, |name| index_of(&species, name)),
                 Interaction::HarmonicChain(interaction) => {
                     let trios = ChainTrios::new(interaction, scene);
                     species.extend(trios.species());
@@ -135,8 +137,7 @@ impl Model {
                 Interaction::Voronoi(interaction) => voronoi = Some(Voronoi::new(interaction, scene, &species)),
             }
         }
-        let index = |name: &str| species.iter().position(|species| species.name == name);
-        let chain_groups = topology::chain_groups(scene, index);
+        let chain_groups = topology::chain_groups(scene, |name| index_of(&species, name));
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         if let Some(force) = &mut pair_force {
@@ -162,8 +163,8 @@ impl Model {
             position_bath,
             coloured_noise,
             tether,
-            bonds: (!bonds.bonds.is_empty()).then_some(bonds),
-            angles: (!angles.angles.is_empty()).then_some(angles),
+            bonds: (bonds.count() > 0).then_some(bonds),
+            angles: (angles.count() > 0).then_some(angles),
             chains,
             shallow_water,
             voronoi,
@@ -258,8 +259,13 @@ impl Model {
     /// Number of particles.
     #[must_use]
     pub fn particle_count(&self) -> u64 {
-        self.species.iter().map(|species| species.count).sum()
+        self.species.iter().fold(0, |sum, species| sum.saturating_add(species.count))
     }
+}
+
+/// The index of a species by its name.
+fn index_of(species: &[Species], name: &str) -> Option<usize> {
+    species.iter().position(|species| species.name == name)
 }
 
 /// A power of two near 2⁻²⁹ of the largest velocity expected in shallow water, where the speed of waves is a high one.
@@ -274,9 +280,15 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     (scale.log2().ceil() - 29.0).exp2()
 }
 
+/// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
+/// have room for 64 of the scale that their unit follows.
+const RULED_BY_FORCES: f64 = 128.0;
+/// Part of the largest momentum that forces are expected to make which the unit then follows.
+const PART_OF_LARGEST: f64 = 0.125;
+
 /// A power of two near 2⁻²⁴ (2⁻²⁰ for Voronoi cells) of the largest momentum a species has for a reason: thermal, that of its
 /// fastest listed particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a
-/// particle that has rolled down the repulsion.
+/// particle that has rolled down the repulsion. Where forces make momenta far beyond, as in a cold scene, it follows those.
 fn momentum_unit(
     scene: &Scene,
     species: &[Species],
@@ -306,8 +318,13 @@ fn momentum_unit(
     {
         scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
     }
+    let forced = forces::momentum(scene, heaviest, pair_force);
     if scale == 0.0 {
-        scale = 1.0;
+        // Forces far below 1 would be lost in rounding.
+        scale = if forced > 0.0 && forced < 1.0 / 1024.0 { forced } else { 1.0 };
+    }
+    if forced > RULED_BY_FORCES * scale {
+        scale = PART_OF_LARGEST * forced;
     }
     // Voronoi cells that come close throw each other apart, at steps that are too long for them by hundreds of these momenta.
     let voronoi = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Voronoi(_)));

@@ -1,7 +1,7 @@
 //! Analyses of the particles that a report leaves in the order of their ids, for every path of integration.
 
 use super::recording::{SAMPLE_ROWS, record_histogram, record_sums};
-use super::{Kernel, Plan, Sampler, Window};
+use super::{Kernel, Plan, Sampler, Table, Window};
 use crate::model::Model;
 use crate::scene::{
     Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
@@ -292,21 +292,14 @@ impl Builder<'_> {
 
     fn chain_sizes(&mut self, asked: &ChainSizes) {
         let groups = &self.reported.model.chain_groups;
-        let words: Vec<[u32; 4]> = groups
-            .iter()
-            .zip(0..)
-            .flat_map(|(group, number)| {
-                (0..group.chains).map(move |chain| [group.first + chain * group.beads, group.beads, number, 0])
-            })
-            .collect();
+        let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
         let quantities = 2 * groups.len();
-        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
-        self.plan.add_table("chain_starts", "where each chain begins", bytes);
+        self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.clone()));
         self.sums(SumSampler {
             name: "chain_sizes",
             modules: vec!["common/turns_endless", "kernels/chain_sizes"],
             constants: vec![
-                ("CHAINS", words.len() as f64),
+                ("CHAINS", chains as f64),
                 ("QUANTITIES", quantities as f64),
                 ("CHAIN_LENGTH", 1.0 / self.plan.quanta.length_squared),
             ],

@@ -15,6 +15,7 @@ mod serial_memory;
 mod shallow_water;
 pub mod smoothing;
 mod species;
+mod table;
 mod texture;
 mod voronoi;
 
@@ -22,6 +23,7 @@ pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
 pub use paths::Paths;
 pub use precision::check_precision;
+pub use table::Table;
 pub use texture::Texture;
 
 use crate::model::Model;
@@ -217,16 +219,30 @@ pub struct Kernel {
 }
 
 /// What a buffer holds before the first step.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Contents {
     /// Zeros.
     Zeros,
     /// These bytes.
     Bytes(Vec<u8>),
+    /// What grows with the number of particles, and is made when it is needed.
+    Table(Table),
+}
+
+impl Contents {
+    /// The bytes; none of zeros.
+    #[must_use]
+    pub fn bytes(&self) -> Option<std::borrow::Cow<'_, [u8]>> {
+        match self {
+            Self::Zeros => None,
+            Self::Bytes(bytes) => Some(bytes.into()),
+            Self::Table(table) => Some(table.bytes().into()),
+        }
+    }
 }
 
 /// A buffer on the device; kernels find it by its name.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Buffer {
     /// The name, which is also that of the shader variable.
     pub name: &'static str,
@@ -457,6 +473,11 @@ impl Plan {
         self.add_buffer_with(name, purpose, contents.len() as u64, Contents::Bytes(contents));
     }
 
+    /// Adds a buffer of a table that grows with the number of particles.
+    fn add_long_table(&mut self, name: &'static str, purpose: &'static str, table: Table) {
+        self.add_buffer_with(name, purpose, table.length(), Contents::Table(table));
+    }
+
     fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
     }
@@ -479,6 +500,40 @@ impl Plan {
     pub fn bytes(&self) -> u64 {
         let textures = self.textures.iter().map(Texture::bytes);
         self.buffers.iter().map(|buffer| buffer.bytes).chain(textures).sum()
+    }
+
+    /// The same plan without anything that reports, samples or analyses: steps alone, for a trial of their speed.
+    ///
+    /// ```
+    /// use mesoscope::model::Model;
+    /// use mesoscope::plan::{Hardware, Options, plan};
+    ///
+    /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let steps = plan.clone().without_reports();
+    /// assert!(steps.samplers.is_empty() && steps.kernels.len() < plan.kernels.len());
+    /// let names = |plan: &mesoscope::plan::Plan| -> Vec<&str> {
+    ///     plan.sort.iter().chain(&plan.advance).map(|kernel| plan.kernels[*kernel].name).collect()
+    /// };
+    /// assert_eq!(names(&steps), names(&plan));
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn without_reports(mut self) -> Self {
+        self.samplers.clear();
+        self.report.clear();
+        self.finish_report.clear();
+        let mut kept: Vec<usize> = Vec::new();
+        let stages = [&mut self.prepare, &mut self.sort, &mut self.tidy, &mut self.before_report, &mut self.advance];
+        for kernel in stages.into_iter().flatten() {
+            let place = kept.iter().position(|known| known == kernel).unwrap_or(kept.len());
+            if place == kept.len() {
+                kept.push(*kernel);
+            }
+            *kernel = place;
+        }
+        self.kernels = kept.into_iter().map(|kernel| self.kernels[kernel].clone()).collect();
+        self
     }
 
     /// The largest buffer in bytes.

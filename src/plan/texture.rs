@@ -3,7 +3,7 @@
 use super::{Contents, Plan};
 
 /// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
     /// The name, which is also that of the shader variable.
     pub name: &'static str,

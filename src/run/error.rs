@@ -53,7 +53,9 @@ pub enum RunError {
         checkpoint_step: u64,
     },
     /// The adapter has no room for a buffer of the scene.
-    #[error("{source}, for `{buffer}` ({purpose}): a smaller system needs less; `mesoscope check` lists all buffers")]
+    #[error(
+        "{source}, for `{buffer}` ({purpose}): a smaller system needs less; `mesoscope check --kernels` lists all buffers"
+    )]
     TooLarge {
         /// What the adapter allows.
         source: GpuError,

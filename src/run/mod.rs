@@ -47,18 +47,22 @@ mod interrupt;
 mod kept_sums;
 mod pace;
 mod pictures;
+mod pilot;
 mod schedule;
 mod sections;
 mod settling;
 mod shown_field;
 mod simulation;
+mod sizes;
 
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use interrupt::Interrupt;
 pub(crate) use pictures::save;
 pub use pictures::{lettering, redraw};
+pub use pilot::{ExpectedTime, expected_time};
 pub use simulation::{Outcome, Simulation, adapter_for};
+pub use sizes::Sizes;
 
 use crate::gpu::AdapterDescription;
 use std::time::Duration;

@@ -179,8 +179,9 @@ impl Simulation {
         let mut gpu = open_adapter(&scene, &model, choice, options)?;
         let (directory, mut start, earlier) = match beginning {
             Beginning::New { directory, force } => {
-                let directory = RunDirectory::create(directory, force)?;
                 let state = placement::initial_state(&scene, &model);
+                scene::check_start(&scene, &model, &state)?;
+                let directory = RunDirectory::create(directory, force)?;
                 (directory, Checkpoint { scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() }, None)
             }
             Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier),

@@ -227,7 +227,7 @@ mod tests {
             let [a, b] = ends.map(|end| state.positions[end as usize]);
             model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt()
         };
-        let lengths = model.bonds.as_ref().unwrap().bonds.iter().map(|each| bond(each.ends)).collect();
+        let lengths = model.bonds.as_ref().unwrap().iter().map(|each| bond(each.ends)).collect();
         (lengths, state, model)
     }
 
@@ -276,7 +276,7 @@ mod tests {
             let bonds = model.bonds.as_ref().unwrap();
             let dimension = edges.len() as f64;
             for axis in 0..edges.len() {
-                let steps = bonds.bonds.iter().map(|bond| {
+                let steps = bonds.iter().map(|bond| {
                     let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
                     model.units.displacement(b, a)[axis]
                 });

@@ -1,6 +1,7 @@
 //! What a coloured noise asks of its scene.
 
 use super::error::Problem;
+use super::problems::Problems;
 use super::{ColouredNoiseInteraction, NoiseProcess, Scene};
 
 /// Steps within the time of a process, below which it would jump more often in a step than a device should count.
@@ -10,7 +11,7 @@ const LEAST_TIME: f64 = 1.0 / 256.0;
 const MOST_JUMPS: f64 = 2_147_483_648.0;
 
 /// The problems of a coloured noise at a path.
-pub(super) fn check(scene: &Scene, noise: &ColouredNoiseInteraction, path: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, noise: &ColouredNoiseInteraction, path: &str, problems: &mut Problems) {
     let dimension = scene.space.lengths.len();
     if noise.process == NoiseProcess::Literal && dimension != 2 {
         let found = format!("found \"literal\" in {dimension} dimensions");

@@ -1,10 +1,11 @@
 //! What pictures show by colour: ranges that have a length, of quantities that have a scale.
 
 use super::error::Problem;
+use super::problems::Problems;
 use super::{Scene, SnapshotColor};
 
 /// Finds ranges of colours that cannot be shown.
-pub(super) fn check(scene: &Scene, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let snapshot = &scene.output.snapshot;
     if let Some(range) = snapshot.range {
         let path = "output.snapshot.range";
@@ -32,7 +33,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Vec<Problem>) {
 /// Values beyond this leave no room for a scale in single precision.
 const LARGEST: f64 = 1e30;
 
-fn check_range(path: &str, [low, high]: [f64; 2], problems: &mut Vec<Problem>) {
+fn check_range(path: &str, [low, high]: [f64; 2], problems: &mut Problems) {
     let wide = high - low > 1e-9 * low.abs().max(high.abs());
     if !(wide && low.abs() <= LARGEST && high.abs() <= LARGEST) {
         let accepted = "the lowest value and a higher one, both within 1e30, such as [0, 4]";

@@ -3,16 +3,21 @@
 use std::collections::{HashMap, HashSet};
 
 use super::error::Problem;
-use super::nearest::nearest;
-use super::placement;
+use super::problems::Problems;
+use super::semantics::SpeciesNames;
 use super::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
-    ParticleGroup, Placement, Scene, stability,
+    ParticleGroup, Placement, Scene,
 };
-use crate::model::Model;
 
 /// Checks one interaction by itself.
-pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check_interaction(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    interaction: &Interaction,
+    path: &str,
+    problems: &mut Problems,
+) {
     match interaction {
         Interaction::Dpd(dpd) => {
             let named = dpd.pairs.iter().enumerate().filter_map(|(index, pair)| {
@@ -21,9 +26,9 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
             let frictions = std::iter::once((format!("{path}.friction"), dpd.friction)).chain(named).collect();
             check_bath(&dpd.bath, frictions, path, problems);
         }
-        Interaction::Langevin(langevin) => check_langevin(scene, langevin, path, problems),
-        Interaction::Bonds(bonds) => check_bonds(scene, bonds, path, problems),
-        Interaction::Angles(angles) => check_angles(scene, angles, path, problems),
+        Interaction::Langevin(langevin) => check_langevin(names, langevin, path, problems),
+        Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
+        Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
         Interaction::ColouredNoise(_)
         | Interaction::Tether(_)
         | Interaction::HarmonicChain(_)
@@ -33,7 +38,7 @@ pub(super) fn check_interaction(scene: &Scene, interaction: &Interaction, path: 
 }
 
 /// Checks what interactions and particles have to have in common.
-pub(super) fn check_scene(scene: &Scene, problems: &mut Vec<Problem>) {
+pub(super) fn check_scene(scene: &Scene, problems: &mut Problems) {
     check_numbers(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
@@ -47,19 +52,9 @@ pub(super) fn check_scene(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-/// Checks what can be told only of a scene without any other mistake: lengths at the start, and stability.
-pub(super) fn check_motion(scene: &Scene, problems: &mut Vec<Problem>) {
-    if !scene_is_coupled(scene) {
-        return;
-    }
-    let model = Model::new(scene);
-    check_extents(scene, &model, problems);
-    stability::check(scene, &model, problems);
-}
-
 /// Whether a scene has more than pairs without memory in two or three dimensions, as [`Model::is_coupled`] tells once there
 /// is a model.
-fn scene_is_coupled(scene: &Scene) -> bool {
+pub(super) fn scene_is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
         Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
@@ -74,7 +69,7 @@ fn scene_is_coupled(scene: &Scene) -> bool {
 }
 
 /// Everything that acts on single particles is there at most once.
-fn check_numbers(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_numbers(scene: &Scene, problems: &mut Problems) {
     let single = |interaction: &Interaction| match interaction {
         Interaction::Dpd(_) => Some((
             "dpd",
@@ -110,7 +105,7 @@ fn check_numbers(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_groups(scene: &Scene, problems: &mut Problems) {
     let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
     let mut fixed: HashMap<&str, (usize, bool)> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
@@ -137,7 +132,7 @@ fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, problems: &mut Vec<Problem>) {
+fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, problems: &mut Problems) {
     let beads = u64::from(chain.beads.max(1));
     let wrong = |number: u64| {
         let fewer = number / beads * beads;
@@ -173,7 +168,7 @@ fn half_box(scene: &Scene) -> f64 {
     scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0
 }
 
-fn check_integrator(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_integrator(scene: &Scene, problems: &mut Problems) {
     if !scene_is_coupled(scene) {
         return;
     }
@@ -210,7 +205,7 @@ fn reason(scene: &Scene) -> String {
     }
 }
 
-fn check_groot_warren(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let found = match interaction {
             Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
@@ -228,7 +223,7 @@ fn check_groot_warren(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// A bath with memory is given by a friction or by its coupling, and both with finite numbers.
-fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: &mut Vec<Problem>) {
+fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: &mut Problems) {
     let Bath::Memory { rate, coupling, .. } = *bath else { return };
     let given = frictions.into_iter().filter(|(_, friction)| *friction > 0.0);
     for (place, friction) in given {
@@ -256,12 +251,12 @@ fn fits(value: f64) -> bool {
     value < f64::from(f32::MAX)
 }
 
-fn check_langevin(scene: &Scene, langevin: &LangevinInteraction, path: &str, problems: &mut Vec<Problem>) {
+fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path: &str, problems: &mut Problems) {
     let mut frictions = vec![(format!("{path}.friction"), langevin.friction)];
     let mut known: HashMap<&str, usize> = HashMap::new();
     for (index, entry) in langevin.species.iter().enumerate() {
         let path = format!("{path}.species[{index}]");
-        check_species(scene, &entry.name, &format!("{path}.name"), problems);
+        names.check(&entry.name, &format!("{path}.name"), problems);
         if let Some(earlier) = known.insert(&entry.name, index) {
             let found = format!("species[{earlier}] gives the friction of `{}` already", entry.name);
             problems.push(Problem::new(&path, found, "every species once"));
@@ -271,29 +266,9 @@ fn check_langevin(scene: &Scene, langevin: &LangevinInteraction, path: &str, pro
     check_bath(&langevin.bath, frictions, path, problems);
 }
 
-/// A name has to be that of the species of some group.
-fn check_species(scene: &Scene, name: &str, path: &str, problems: &mut Vec<Problem>) -> bool {
-    let mut species: Vec<&str> = Vec::new();
-    for group in &scene.particles {
-        if !species.contains(&group.species.as_str()) {
-            species.push(&group.species);
-        }
-    }
-    if species.contains(&name) {
-        return true;
-    }
-    let accepted = match species.as_slice() {
-        [] => "a species of some particle group, and there is none".to_owned(),
-        names => format!("a species of some particle group: {}", names.join(", ")),
-    };
-    let problem = Problem::new(path, format!("found \"{name}\""), accepted);
-    problems.push(problem.suggest(nearest(name, species.iter().copied())));
-    false
-}
-
-fn check_bonds(scene: &Scene, bonds: &BondsInteraction, path: &str, problems: &mut Vec<Problem>) {
+fn check_bonds(scene: &Scene, names: &SpeciesNames<'_>, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
     check_bath(&bonds.bath, vec![(format!("{path}.friction"), bonds.friction)], path, problems);
-    check_members(scene, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
+    check_members(scene, names, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
     if bonds.species.is_none() || bonds.pairs.is_empty() {
         check_presence(scene, bonds.species.as_deref(), "pairs", bonds.pairs.is_empty(), 2, path, problems);
     }
@@ -310,8 +285,14 @@ fn check_bonds(scene: &Scene, bonds: &BondsInteraction, path: &str, problems: &m
     }
 }
 
-fn check_angles(scene: &Scene, angles: &AnglesInteraction, path: &str, problems: &mut Vec<Problem>) {
-    check_members(scene, angles.species.as_deref(), "triples", &angles.triples, path, problems);
+fn check_angles(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    angles: &AnglesInteraction,
+    path: &str,
+    problems: &mut Problems,
+) {
+    check_members(scene, names, angles.species.as_deref(), "triples", &angles.triples, path, problems);
     if angles.species.is_none() || angles.triples.is_empty() {
         check_presence(scene, angles.species.as_deref(), "triples", angles.triples.is_empty(), 3, path, problems);
     }
@@ -323,11 +304,12 @@ const LISTED: usize = 5;
 /// Species that are named, or particles that are listed, have to exist.
 fn check_members<const LENGTH: usize>(
     scene: &Scene,
+    names: &SpeciesNames<'_>,
     species: Option<&[String]>,
     key: &str,
     members: &[[u32; LENGTH]],
     path: &str,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) {
     if species.is_some() && !members.is_empty() {
         let found = format!("found beside `{key}`");
@@ -335,32 +317,43 @@ fn check_members<const LENGTH: usize>(
         problems.push(Problem::new(format!("{path}.species"), found, accepted));
     }
     for (index, name) in species.unwrap_or_default().iter().enumerate() {
-        check_species(scene, name, &format!("{path}.species[{index}]"), problems);
+        names.check(name, &format!("{path}.species[{index}]"), problems);
     }
-    let total: u64 = scene.particles.iter().map(|group| group.resolved_count(scene.space.volume())).sum();
-    let mut known: HashMap<[u32; LENGTH], usize> = HashMap::new();
-    let mut mistakes = Vec::new();
+    let counts = scene.particles.iter().map(|group| group.resolved_count(scene.space.volume()));
+    let total = counts.fold(0, u64::saturating_add);
+    let mut known: HashMap<[u32; LENGTH], usize> = HashMap::with_capacity(members.len());
+    let mut mistakes = 0;
     for (index, numbers) in members.iter().enumerate() {
-        let place = format!("{path}.{key}[{index}]");
+        let place = || format!("{path}.{key}[{index}]");
         let backward = std::array::from_fn(|at| numbers[LENGTH - 1 - at]);
-        if let Some(at) = numbers.iter().position(|number| u64::from(*number) >= total) {
-            let accepted = match total {
-                0 => "no number: there are no particles".to_owned(),
-                _ => format!("the number of a particle, 0 to {}", total - 1),
-            };
-            mistakes.push(Problem::new(format!("{place}[{at}]"), format!("found {}", numbers[at]), accepted));
-        } else if (1..LENGTH).any(|at| numbers[..at].contains(&numbers[at])) {
-            mistakes.push(Problem::new(place, format!("found {numbers:?}"), "particles that are all different"));
-        } else if let Some(earlier) = known.get(numbers).or_else(|| known.get(&backward)) {
-            let found = format!("{key}[{earlier}] lists the same particles");
-            mistakes.push(Problem::new(place, found, format!("each of the {key} once, in either order")));
-        } else {
+        let beyond = numbers.iter().position(|number| u64::from(*number) >= total);
+        let repeated = (1..LENGTH).any(|at| numbers[..at].contains(&numbers[at]));
+        let earlier = known.get(numbers).or_else(|| known.get(&backward));
+        if beyond.is_none() && !repeated && earlier.is_none() {
             known.insert(*numbers, index);
+            continue;
         }
+        mistakes += 1;
+        if mistakes > LISTED {
+            continue;
+        }
+        problems.push(match (beyond, earlier) {
+            (Some(at), _) => {
+                let accepted = match total {
+                    0 => "no number: there are no particles".to_owned(),
+                    _ => format!("the number of a particle, 0 to {}", total - 1),
+                };
+                Problem::new(format!("{}[{at}]", place()), format!("found {}", numbers[at]), accepted)
+            }
+            (None, Some(earlier)) if !repeated => {
+                let found = format!("{key}[{earlier}] lists the same particles");
+                Problem::new(place(), found, format!("each of the {key} once, in either order"))
+            }
+            _ => Problem::new(place(), format!("found {numbers:?}"), "particles that are all different"),
+        });
     }
-    let more = mistakes.len().saturating_sub(LISTED);
-    problems.extend(mistakes.into_iter().take(LISTED));
-    if more > 0 {
+    if mistakes > LISTED {
+        let more = mistakes - LISTED;
         problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "as above"));
     }
 }
@@ -373,7 +366,7 @@ fn check_presence(
     unlisted: bool,
     length: u32,
     path: &str,
-    problems: &mut Vec<Problem>,
+    problems: &mut Problems,
 ) {
     if !unlisted {
         return;
@@ -394,38 +387,4 @@ fn check_presence(
     };
     let accepted = format!("`{key}` of particle numbers, or particles with a `chain` of at least {length} `beads`");
     problems.push(Problem::new(path, found, accepted));
-}
-
-/// A bond of finite extent cannot start longer than it can be.
-fn check_extents(scene: &Scene, model: &Model, problems: &mut Vec<Problem>) {
-    let Some(bonds) = &model.bonds else { return };
-    let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
-        Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),
-        _ => None,
-    };
-    if bonds.bonds.iter().all(|bond| finite(bond.kind).is_none()) {
-        return;
-    }
-    let state = placement::initial_state(scene, model);
-    let places: Vec<usize> = (0..scene.interactions.len())
-        .filter(|index| matches!(scene.interactions[*index], Interaction::Bonds(_)))
-        .collect();
-    let mut told = HashSet::new();
-    for bond in &bonds.bonds {
-        let Some((extent, length)) = finite(bond.kind) else { continue };
-        let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
-        let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
-        if (distance - length).abs() >= extent && told.insert(bond.kind) {
-            let path = format!("interactions[{}].potential.extent", places[bond.kind as usize]);
-            let found = format!(
-                "found {extent}, and a distance of {distance:.6} between particles {} and {} at the start",
-                bond.ends[0], bond.ends[1]
-            );
-            let accepted = format!(
-                "more than {:.6}, by which that bond starts off its length {length}; or a start with shorter bonds",
-                (distance - length).abs()
-            );
-            problems.push(Problem::new(path, found, accepted));
-        }
-    }
 }

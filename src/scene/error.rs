@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::printable;
 
 /// One mistake in a scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct Problem {
     /// Where: `interactions[0].friction`.
@@ -21,13 +21,43 @@ pub struct Problem {
 
 impl Problem {
     pub(super) fn new(path: impl fmt::Display, found: impl Into<String>, accepted: impl Into<String>) -> Self {
-        Self { path: path.to_string(), found: found.into(), accepted: accepted.into(), suggestion: None }
+        Self { path: path.to_string(), found: cut(found.into()), accepted: cut(accepted.into()), suggestion: None }
+    }
+
+    /// A mistake that is counted and not read.
+    pub(super) fn unread() -> Self {
+        Self::new("", "", "")
     }
 
     pub(super) fn suggest(mut self, suggestion: Option<String>) -> Self {
         self.suggestion = suggestion;
         self
     }
+}
+
+/// The longest phrase of a message, in characters.
+const LONGEST_PHRASE: usize = 800;
+
+/// A phrase short enough to be read: names in a scene may be of any length.
+fn cut(phrase: String) -> String {
+    match phrase.char_indices().nth(LONGEST_PHRASE) {
+        Some((end, _)) => format!("{}…", &phrase[..end]),
+        None => phrase,
+    }
+}
+
+/// Names of a list that are told.
+const NAMES: usize = 24;
+
+/// Names as a list that may be read; what is beyond some is counted.
+pub(super) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let mut names = names.into_iter();
+    let mut list = names.by_ref().take(NAMES).collect::<Vec<_>>().join(", ");
+    let more = names.count();
+    if more > 0 {
+        list = format!("{list} and {more} more");
+    }
+    list
 }
 
 impl fmt::Display for Problem {
@@ -91,12 +121,14 @@ pub enum SceneError {
         message: String,
     },
     /// The scene says something that is not accepted.
-    #[error("{}", list(.name, .problems))]
+    #[error("{}", list(.name, .problems, *.more))]
     Invalid {
         /// File or built-in name.
         name: String,
-        /// All mistakes, in the order of the scene.
+        /// The mistakes, in the order of the scene; the first few hundred.
         problems: Vec<Problem>,
+        /// How many there are beyond these.
+        more: usize,
     },
     /// With the numbers of the scene a kernel would need one that single precision cannot hold.
     #[error(
@@ -129,8 +161,8 @@ pub enum SceneError {
 /// Mistakes beyond this number are counted, not listed.
 const LISTED: usize = 20;
 
-fn list(scene: &str, problems: &[Problem]) -> String {
-    let count = problems.len();
+fn list(scene: &str, problems: &[Problem], more: usize) -> String {
+    let count = problems.len() + more;
     let mut text =
         format!("scene `{}` has {count} mistake{}:", printable::name(scene), if count == 1 { "" } else { "s" });
     for problem in problems.iter().take(LISTED) {

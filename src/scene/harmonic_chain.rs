@@ -1,6 +1,7 @@
 //! Harmonic chains side by side: what a scene says about them.
 
 use super::error::Problem;
+use super::problems::Problems;
 use super::{Interaction, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -93,7 +94,7 @@ impl HarmonicChainInteraction {
 }
 
 /// Problems of a scene with harmonic chains at `path`.
-pub(super) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str, problems: &mut Problems) {
     if scene.interactions.len() > 1 {
         let accepted = "`harmonic-chain` as the only interaction of a scene";
         problems.push(Problem::new(path, "found another interaction beside it", accepted));
@@ -123,7 +124,7 @@ pub(super) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str,
 }
 
 /// Problems of a scene without harmonic chains.
-pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
+pub(super) fn check_absence(scene: &Scene, problems: &mut Problems) {
     if scene.output.chain.is_some() {
         let accepted = "no `chain`, or a scene with the interaction `harmonic-chain`";
         problems.push(Problem::new("output.chain", "found in a scene without harmonic chains", accepted));

@@ -1,16 +1,19 @@
 //! From a file or a built-in name to a checked scene.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
 use super::error::{Problem, SceneError, Warning};
 use super::nearest::nearest;
 use super::path::related;
-use super::{Scene, builtin, overrides, semantics, shape, shorten, text};
+use super::problems::Problems;
+use super::shape::Substitute;
+use super::{Scene, builtin, overrides, semantics, shape, shorten, start, text};
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
 /// `overrides` (`path.to.key=value`, in order) and checks the result.
@@ -147,28 +150,68 @@ pub fn parse_for(
     overrides: &[String],
     steps: Option<u64>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let (mut document, mut problems) = text::parse(name, text)?;
-    problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
-    let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
-    default_integrator(&mut document);
-    default_colour(&mut document);
-    problems.extend(shape::check(&super::schema(), &mut document));
-    // What the shape check has mended may be readable, and then everything can be said at once.
-    if !problems.is_empty() {
-        fill_in(&mut document);
-    }
-    let scene = match serde_json::from_value::<Scene>(document) {
-        Ok(scene) => scene,
-        Err(_) if !problems.is_empty() => return Err(invalid(name, problems)),
-        Err(error) => {
-            return Err(SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() });
+    let reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
+    if reading.problems.is_empty() {
+        let scene = reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
+        let mut problems = semantics::check(&scene);
+        // What needs a model or a start needs a scene that makes sense.
+        if problems.is_empty() {
+            start::check(&scene, &mut problems);
         }
-    };
-    let mut further = semantics::check(&scene);
-    // A mistake in the shape is likely to be the cause of a misfit in the same place.
-    further.retain(|problem| problems.iter().all(|known| !related(&known.path, &problem.path)));
-    problems.extend(further);
-    if problems.is_empty() { Ok((scene, notices)) } else { Err(invalid(name, problems)) }
+        return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
+    }
+    let mut problems = reading.problems;
+    if let Ok(scene) = reading.scene {
+        let mut misfits = semantics::check(&scene);
+        drop(scene);
+        // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
+        if !misfits.is_empty() {
+            let other = Reading::of(name, text, overrides, steps, Substitute::Most)?.scene;
+            let others = other.map(|scene| semantics::check(&scene)).unwrap_or_default();
+            let others: HashSet<&Problem> = others.iter().collect();
+            misfits.retain(|misfit| {
+                others.contains(misfit) && problems.iter().all(|known| !related(&known.path, &misfit.path))
+            });
+        }
+        problems.append(misfits);
+    }
+    Err(invalid(name, problems))
+}
+
+/// The schema, which is derived once.
+static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+
+/// A text as far as it can be read.
+struct Reading {
+    /// The mistakes of its shape.
+    problems: Problems,
+    /// The scene, in which numbers that were refused are replaced; it satisfies the schema. Or why there is none.
+    scene: Result<Scene, String>,
+    /// What was shortened for a run of so many steps.
+    notices: Vec<Warning>,
+}
+
+impl Reading {
+    fn of(
+        name: &str,
+        text: &str,
+        overrides: &[String],
+        steps: Option<u64>,
+        substitute: Substitute,
+    ) -> Result<Self, SceneError> {
+        let (mut document, mut problems) = text::parse(name, text)?;
+        problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
+        let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
+        default_integrator(&mut document);
+        default_colour(&mut document);
+        problems.append(shape::check(&SCHEMA, &mut document, substitute));
+        // What the shape check has mended may be readable, and then everything can be said at once.
+        if !problems.is_empty() {
+            fill_in(&mut document, substitute);
+        }
+        let scene = serde_json::from_value(document).map_err(|error| error.to_string());
+        Ok(Self { problems, scene, notices })
+    }
 }
 
 /// A scene that has been changed, checked like one that is read.
@@ -182,14 +225,16 @@ pub(crate) fn checked(name: &str, scene: &Scene) -> Result<Scene, SceneError> {
 }
 
 /// Numbers that further checks can do with, for those that a scene has to give and does not.
-fn fill_in(document: &mut Value) {
-    // With a run this long no interval is too long.
-    let numbers =
-        [("", "temperature", Value::from(1)), ("/time", "step", 1e-3.into()), ("/time", "steps", (1_u64 << 53).into())];
+fn fill_in(document: &mut Value, substitute: Substitute) {
+    let numbers = match substitute {
+        Substitute::Least => [1e-3.into(), 1e-3.into(), 0.into()],
+        Substitute::Most => [1e3.into(), 1.into(), (1_u64 << 53).into()],
+    };
+    let places = [("", "temperature"), ("/time", "step"), ("/time", "steps")];
     if let Some(scene) = document.as_object_mut() {
         scene.entry("time").or_insert_with(|| serde_json::json!({}));
     }
-    for (place, key, number) in numbers {
+    for ((place, key), number) in places.into_iter().zip::<[Value; 3]>(numbers) {
         if let Some(object) = document.pointer_mut(place).and_then(Value::as_object_mut) {
             object.entry(key).or_insert(number);
         }
@@ -244,8 +289,9 @@ fn default_colour(document: &mut Value) {
     }
 }
 
-fn invalid(name: &str, problems: Vec<Problem>) -> SceneError {
-    SceneError::Invalid { name: name.to_owned(), problems }
+fn invalid(name: &str, problems: Problems) -> SceneError {
+    let (problems, more) = problems.into_parts();
+    SceneError::Invalid { name: name.to_owned(), problems, more }
 }
 
 fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {

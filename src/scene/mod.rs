@@ -15,11 +15,13 @@ mod nearest;
 mod overrides;
 mod path;
 pub mod placement;
+mod problems;
 mod semantics;
 mod shallow_water;
 mod shape;
 mod shorten;
 mod stability;
+mod start;
 pub mod surface;
 mod text;
 mod types;
@@ -34,6 +36,7 @@ pub(crate) use load::checked;
 pub use load::{load, load_for, parse, parse_for, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
+pub use start::check_start;
 pub use types::*;
 pub use voronoi::{
     CellEnergy, EquationOfState, FrictionSolver, InitialMasses, TemperatureRegion, VoronoiForm, VoronoiInteraction,

@@ -15,11 +15,20 @@ const SYMBOLS: [(&str, &str); 11] = [
     ("timestep", "step"),
 ];
 
+/// Bytes of a word that anybody misspells; the comparison takes the product of two lengths.
+const LONGEST: usize = 64;
+
+/// Candidates that are looked at.
+const MOST: usize = 512;
+
 /// The candidate most like `word`, if any is like it at all.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    if word.len() > LONGEST {
+        return None;
+    }
     let word = word.to_lowercase();
     let mut best = (0.0, None);
-    for candidate in candidates {
+    for candidate in candidates.into_iter().filter(|candidate| candidate.len() <= LONGEST).take(MOST) {
         let symbols = SYMBOLS.iter().filter(|(_, key)| *key == candidate).map(|(symbol, _)| *symbol);
         // A symbol of two letters with a slip is another symbol.
         let meant = symbols.filter(|symbol| symbol.len() > 2 || *symbol == word).map(|symbol| likeness(&word, symbol));

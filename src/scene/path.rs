@@ -1,5 +1,6 @@
 //! A place in a JSON document, spelled out only when there is something to say about it.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// A place in a JSON document, as a chain towards the root.
@@ -27,11 +28,21 @@ impl fmt::Display for Path<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Path::Root => formatter.write_str(TOP_LEVEL),
-            Path::Key { parent: Path::Root, key } => formatter.write_str(key),
-            Path::Key { parent, key } => write!(formatter, "{parent}.{key}"),
+            Path::Key { parent: Path::Root, key } => formatter.write_str(&shortened(key)),
+            Path::Key { parent, key } => write!(formatter, "{parent}.{}", shortened(key)),
             Path::Index { parent: Path::Root, index } => write!(formatter, "[{index}]"),
             Path::Index { parent, index } => write!(formatter, "{parent}[{index}]"),
         }
+    }
+}
+
+/// Characters of a key that are told; no key of a scene is as long.
+const LONGEST_KEY: usize = 60;
+
+fn shortened(key: &str) -> Cow<'_, str> {
+    match key.char_indices().nth(LONGEST_KEY) {
+        Some((end, _)) => format!("{}…", &key[..end]).into(),
+        None => key.into(),
     }
 }
 

@@ -78,7 +78,7 @@ fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
     let mut images = vec![[0; 3]; state.len()];
     let Some(bonds) = &model.bonds else { return images };
     let mut bonded: Vec<Vec<usize>> = vec![Vec::new(); state.len()];
-    for [first, second] in bonds.bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
+    for [first, second] in bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
         bonded[first].push(second);
         bonded[second].push(first);
     }
@@ -118,7 +118,7 @@ fn draw_position_baths(state: &mut State, model: &Model) {
 fn draw_bond_baths(state: &mut State, model: &Model) {
     let Some(bonds) = model.bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
     let key = noise::step_key(model.seed, stream::BOND, 0);
-    let all = bonds.bonds.iter().enumerate().map(|(index, bond)| {
+    let all = bonds.iter().enumerate().map(|(index, bond)| {
         let kind = &bonds.kinds[bond.kind as usize];
         let width =
             kind.bath.filter(crate::model::BathStep::remembers).map_or(0.0, |step| step.deviation(kind.temperature));

@@ -1,9 +1,10 @@
 //! What a schema cannot say: counts, species, lengths and durations that have to fit each other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::error::Problem;
+use super::error::{Problem, named};
 use super::nearest::nearest;
+use super::problems::Problems;
 use super::{
     CorrelatedQuantity, CountedQuantity, DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities,
 };
@@ -14,23 +15,64 @@ pub const BYTES_PER_PARTICLE: u64 = 100;
 /// Particles are numbered by 32-bit words.
 const MOST_PARTICLES: u64 = u32::MAX as u64;
 
-/// All problems of a scene that has the right shape.
-pub(super) fn check(scene: &Scene) -> Vec<Problem> {
-    let mut problems = Vec::new();
+/// The number of a species has eight bits of a particle.
+const MOST_SPECIES: usize = 256;
+
+/// Bonds and angles are numbered by 32-bit words too.
+const MOST_RUNS: u64 = u32::MAX as u64;
+
+/// The species of a scene by name.
+pub(super) struct SpeciesNames<'a> {
+    known: HashSet<&'a str>,
+    /// In order of first appearance.
+    names: Vec<&'a str>,
+}
+
+impl<'a> SpeciesNames<'a> {
+    fn of(scene: &'a Scene) -> Self {
+        let mut known = HashSet::new();
+        let all = scene.particles.iter().map(|group| group.species.as_str());
+        let names = all.filter(|name| known.insert(*name)).collect();
+        Self { known, names }
+    }
+
+    /// A name has to be that of the species of some group.
+    pub fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
+        if self.known.contains(name) {
+            return true;
+        }
+        if problems.is_full() {
+            problems.push(Problem::unread());
+            return false;
+        }
+        // One without a name is a mistake of its own.
+        let names = || self.names.iter().copied().filter(|name| !name.is_empty());
+        let accepted = match names().next() {
+            None => "a species of some particle group, and there is none".to_owned(),
+            Some(_) => format!("a species of some particle group: {}", named(names())),
+        };
+        let problem = Problem::new(path, format!("found \"{name}\""), accepted);
+        problems.push(problem.suggest(nearest(name, names())));
+        false
+    }
+}
+
+/// All problems of a scene that satisfies the schema, by arithmetic: no time and no memory that grow with what it asks for.
+pub(super) fn check(scene: &Scene) -> Problems {
+    let mut problems = Problems::default();
+    check_box(scene, &mut problems);
+    let species = SpeciesNames::of(scene);
     check_groups(scene, &mut problems);
     check_number_of_particles(scene, &mut problems);
-    check_interactions(scene, &mut problems);
+    check_number_of_species(&species, &mut problems);
+    check_number_of_runs(scene, &mut problems);
+    check_interactions(scene, &species, &mut problems);
     check_durations(scene, &mut problems);
     super::colours::check(scene, &mut problems);
-    // What follows from a model or a start needs a scene that makes sense.
-    if problems.is_empty() {
-        super::couplings::check_motion(scene, &mut problems);
-        super::voronoi::check_start(scene, &mut problems);
-    }
     problems
 }
 
-fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_groups(scene: &Scene, problems: &mut Problems) {
     let dimension = scene.space.lengths.len();
     let mut first: HashMap<&str, (usize, f64)> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
@@ -61,7 +103,7 @@ fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// A group says in exactly one way how many particles it has.
-fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Vec<Problem>) {
+fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Problems) {
     if let Placement::Listed { positions } = &group.placement {
         let length = positions.len();
         if let Some(count) = group.count.filter(|count| *count != length as u64) {
@@ -82,9 +124,11 @@ fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Vec<Problem>) 
     problems.push(Problem::new(path, found, "exactly one of `count` and `number_density`"));
 }
 
-fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &mut Vec<Problem>) {
+fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &mut Problems) {
     for (index, vector) in vectors.iter().enumerate() {
-        if vector.len() != dimension {
+        if problems.is_full() && (vector.len() != dimension || vector.iter().any(|component| !component.is_finite())) {
+            problems.push(Problem::unread());
+        } else if vector.len() != dimension {
             let found = format!("found {} components", vector.len());
             let accepted = format!("{dimension} components, one for each box edge");
             problems.push(Problem::new(format!("{path}[{index}]"), found, accepted));
@@ -95,7 +139,7 @@ fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &
     }
 }
 
-fn check_number_of_particles(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
     let volume = scene.space.volume();
     // In double precision, since a density can ask for more particles than any integer holds.
     let amounts: Vec<f64> = scene
@@ -127,12 +171,68 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Vec<Problem>) {
     problems.push(Problem::new(path, found, accepted));
 }
 
+fn check_number_of_species(species: &SpeciesNames<'_>, problems: &mut Problems) {
+    let count = species.names.len();
+    if count > MOST_SPECIES {
+        let accepted =
+            format!("at most {MOST_SPECIES} species, since a particle has eight bits for the number of its own");
+        problems.push(Problem::new("particles", format!("found {count} species"), accepted));
+    }
+}
+
+/// All bonds and angles are numbered, those along chains too.
+fn check_number_of_runs(scene: &Scene, problems: &mut Problems) {
+    let along_chains = |named: Option<&[String]>, length: u64| -> u64 {
+        let asked = |group: &&ParticleGroup| named.is_none_or(|names| names.contains(&group.species));
+        let runs = scene.particles.iter().filter(asked).filter_map(|group| {
+            let beads = u64::from(group.chain.as_ref()?.beads.max(1));
+            let starts = if group.chain.as_ref()?.closed { beads } else { beads.saturating_sub(length - 1) };
+            Some((group.resolved_count(scene.space.volume()) / beads).saturating_mul(starts))
+        });
+        runs.fold(0, u64::saturating_add)
+    };
+    let (mut bonds, mut angles) = (0_u64, 0_u64);
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let (sum, found, what) = match interaction {
+            Interaction::Bonds(asked) if asked.pairs.is_empty() => {
+                (&mut bonds, along_chains(asked.species.as_deref(), 2), "bonds")
+            }
+            Interaction::Bonds(asked) => (&mut bonds, asked.pairs.len() as u64, "bonds"),
+            Interaction::Angles(asked) if asked.triples.is_empty() => {
+                (&mut angles, along_chains(asked.species.as_deref(), 3), "angles")
+            }
+            Interaction::Angles(asked) => (&mut angles, asked.triples.len() as u64, "angles"),
+            _ => continue,
+        };
+        let before = *sum;
+        *sum = before.saturating_add(found);
+        if *sum > MOST_RUNS && before <= MOST_RUNS {
+            let found = format!("found {} {what} with these", quantity(*sum as f64));
+            let accepted = format!("at most {MOST_RUNS} {what} in a scene, since they are numbered by 32-bit words");
+            problems.push(Problem::new(format!("interactions[{index}]"), found, accepted));
+        }
+    }
+}
+
+/// The longest edge of a box over the shortest: positions are resolved to 2⁻³² of an edge.
+const MOST_ELONGATED: f64 = 1e6;
+
+fn check_box(scene: &Scene, problems: &mut Problems) {
+    let longest = scene.space.lengths.iter().copied().fold(0.0, f64::max);
+    for (axis, length) in scene.space.lengths.iter().enumerate() {
+        if *length < longest / MOST_ELONGATED {
+            let accepted = format!("at least {:e}, a millionth of the longest edge", longest / MOST_ELONGATED);
+            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length:e}"), accepted));
+        }
+    }
+}
+
 /// A large number as people read it.
 fn quantity(number: f64) -> String {
     if number < 1e15 { format!("{number:.0}") } else { format!("{number:.3e}") }
 }
 
-fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
     let of_water = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_));
     let first_water = scene.interactions.iter().position(of_water);
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -146,12 +246,12 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
             }
             Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
-            Interaction::Dpd(dpd) => check_pairs(scene, dpd, &path, problems),
+            Interaction::Dpd(dpd) => check_pairs(species, dpd, &path, problems),
             Interaction::Voronoi(voronoi) => super::voronoi::check(scene, voronoi, &path, problems),
             Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
             _ => {}
         }
-        super::couplings::check_interaction(scene, interaction, &path, problems);
+        super::couplings::check_interaction(scene, species, interaction, &path, problems);
     }
     super::couplings::check_scene(scene, problems);
     if first_water.is_none() {
@@ -175,25 +275,12 @@ fn check_interactions(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-fn check_pairs(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut Vec<Problem>) {
-    let mut species: Vec<&str> = Vec::new();
-    for group in &scene.particles {
-        if !group.species.is_empty() && !species.contains(&group.species.as_str()) {
-            species.push(&group.species);
-        }
-    }
+fn check_pairs(species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
     let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
     for (index, pair) in dpd.pairs.iter().enumerate() {
         let path = format!("{path}.pairs[{index}]");
         for (end, name) in pair.between.iter().enumerate() {
-            if !species.contains(&name.as_str()) {
-                let accepted = match species.as_slice() {
-                    [] => "a species of some particle group, and there is none".to_owned(),
-                    names => format!("a species of some particle group: {}", names.join(", ")),
-                };
-                let problem = Problem::new(format!("{path}.between[{end}]"), format!("found \"{name}\""), accepted);
-                problems.push(problem.suggest(nearest(name, species.iter().copied())));
-            }
+            species.check(name, &format!("{path}.between[{end}]"), problems);
         }
         let mut key = [pair.between[0].as_str(), pair.between[1].as_str()];
         key.sort_unstable();
@@ -204,7 +291,7 @@ fn check_pairs(scene: &Scene, dpd: &DpdInteraction, path: &str, problems: &mut V
     }
 }
 
-fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_durations(scene: &Scene, problems: &mut Problems) {
     let time = &scene.time;
     if time.equilibration > time.steps {
         let accepted =
@@ -226,7 +313,7 @@ fn check_durations(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// A window that the run ends before gives no result.
-fn check_windows(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_windows(scene: &Scene, problems: &mut Problems) {
     let measured = scene.time.steps.saturating_sub(scene.time.equilibration);
     let output = &scene.output;
     let diffusion = output.diffusion.iter().map(|asked| ("diffusion".to_owned(), asked.every, asked.window));
@@ -250,7 +337,7 @@ fn check_windows(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// Every quantity has one table and one plot; only velocities have a frame, and only components an axis.
-fn check_analyses(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_analyses(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
     let mut refuse = |path: String, found: String, accepted: &str| problems.push(Problem::new(path, found, accepted));
     let once = "every quantity at most once";

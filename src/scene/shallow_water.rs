@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::error::Problem;
+use super::problems::Problems;
 use super::surface::Surface;
 use super::warnings::brief;
 use super::{Integrator, Placement, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities};
@@ -14,11 +15,14 @@ const MOST_ITERATIONS: f64 = 10_000.0;
 /// Lengths of smoothing, in edges of the box, whose square single precision can still tell from 1.
 const LARGEST_SMOOTHING: f64 = 1e6;
 
-/// Points on each axis at which the depth at the start is tried.
+/// Points on each axis at which the depth at the start is tried, where that takes no more than so many terms.
 const TRIALS: u32 = 128;
+const MOST_TERMS: f64 = 5e6;
+/// Points on each axis that are always tried.
+const FEWEST_TRIALS: u32 = 16;
 
 /// Checks a scene whose interaction at `path` is shallow water.
-pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Problems) {
     let lengths = &scene.space.lengths;
     if lengths.len() != 2 {
         let found = format!("found {} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
@@ -49,7 +53,7 @@ pub(super) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
     }
 }
 
-fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Problem>) {
+fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Problems) {
     for (axis, nodes) in water.mesh.iter().enumerate() {
         let path = format!("{path}.mesh[{axis}]");
         let least = water.spline_order + 1;
@@ -71,7 +75,7 @@ fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Vec<Pr
     }
 }
 
-fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Problems) {
     let SmoothingSolver::Chebyshev { tolerance } = water.smoothing.solver else { return };
     // Out of range it is a mistake already.
     if tolerance <= 0.0 {
@@ -89,7 +93,7 @@ fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 
     }
 }
 
-fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Vec<Problem>) {
+fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Problems) {
     let mut loops: HashMap<&str, usize> = HashMap::new();
     let first_tracer = scene.particles.iter().position(|group| group.tracer);
     for (index, group) in scene.particles.iter().enumerate() {
@@ -122,7 +126,7 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut V
     }
 }
 
-fn check_output(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_output(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
     if output.snapshot != Snapshot::default() {
         let accepted = "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how";
@@ -142,12 +146,12 @@ fn check_output(scene: &Scene, problems: &mut Vec<Problem>) {
 }
 
 /// The water has to have a depth everywhere: particles with a negative mass there are none.
-fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Problems) {
     let surface = Surface::new(&water.surface, lengths);
     if surface.is_flat() {
         return;
     }
-    let depths: Vec<(f64, [f64; 2])> = trials(lengths)
+    let depths: Vec<(f64, [f64; 2])> = trials(lengths, surface.terms_of_depth(water.smoothing.power))
         .map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point))
         .collect();
     let mean = depths.iter().map(|(depth, _)| depth).sum::<f64>() / depths.len() as f64;
@@ -168,11 +172,11 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
 }
 
 /// Flow in balance is slower than waves, and has to fit the integers, which hold twice their speed.
-fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mut Vec<Problem>) {
+fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mut Problems) {
     let balanced = scene.particles.iter().position(|group| group.velocities == Velocities::Geostrophic);
     let surface = Surface::new(&water.surface, lengths);
     let Some(group) = balanced.filter(|_| water.rotation != 0.0 && !surface.is_flat()) else { return };
-    let slopes = trials(lengths).map(|point| surface.slope(point));
+    let slopes = trials(lengths, surface.terms_of_slope()).map(|point| surface.slope(point));
     let steepest = slopes.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
     let fastest = water.wave_speed / water.rotation.abs() * steepest;
     if fastest > 2.0 {
@@ -182,16 +186,17 @@ fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 
     }
 }
 
-/// Points all over the box.
-fn trials(lengths: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
-    (0..TRIALS * TRIALS).map(move |trial| {
-        let fraction = [trial % TRIALS, trial / TRIALS].map(|place| f64::from(place) / f64::from(TRIALS));
+/// Points all over the box, fewer where each takes many terms.
+fn trials(lengths: [f64; 2], terms: f64) -> impl Iterator<Item = [f64; 2]> {
+    let along = ((MOST_TERMS / terms).sqrt() as u32).clamp(FEWEST_TRIALS, TRIALS);
+    (0..along * along).map(move |trial| {
+        let fraction = [trial % along, trial / along].map(|place| f64::from(place) / f64::from(along));
         [fraction[0] * lengths[0], fraction[1] * lengths[1]]
     })
 }
 
 /// Refuses what has no meaning without shallow water.
-pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
+pub(super) fn check_absence(scene: &Scene, problems: &mut Problems) {
     let only = "a scene with a `shallow-water` interaction only";
     if matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
         let found = format!("found `{}`", scene.integrator.name());

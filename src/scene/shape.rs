@@ -3,29 +3,55 @@
 //! The schema is derived from the types, so keys, types, ranges and choices are written once. This reads the part of
 //! JSON Schema that the derivation emits; a test refuses a schema with a keyword that is not read here.
 
+use std::collections::HashMap;
+
 use serde_json::{Map, Value};
 
 use super::error::Problem;
 use super::nearest::nearest;
 use super::path::Path;
+use super::problems::Problems;
 
-/// Checks `document` against `schema` and mends it on the way, so that later checks can go on: unknown keys, and values
-/// that cannot be read where there may be none, are taken out after they are reported; whole numbers written as `1e6` or
-/// `2000.0` become integers.
-pub(super) fn check(schema: &Value, document: &mut Value) -> Vec<Problem> {
-    let mut walker = Walker { root: schema, problems: Vec::new() };
+/// What stands in for numbers that are refused, and for lists of a wrong length: two choices that are far apart, so that
+/// whatever is said of both does not depend on what stands in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Substitute {
+    /// Small numbers and short lists.
+    Least,
+    /// Large numbers and long lists.
+    Most,
+}
+
+/// Checks `document` against `schema` and mends it on the way: afterwards it satisfies the schema wherever it can be read at
+/// all. Unknown keys, and values that cannot be read where there may be none, are taken out after they are reported; numbers
+/// out of range and lists of a wrong length are replaced; whole numbers written as `1e6` or `2000.0` become integers.
+pub(super) fn check(schema: &Value, document: &mut Value, substitute: Substitute) -> Problems {
+    let mut walker = Walker { root: schema, substitute, problems: Problems::default(), ranges: HashMap::new() };
     walker.check(schema, document, &Path::Root);
     walker.problems
 }
 
+/// Magnitudes of numbers other than zero with which a program can reckon: products of three are finite and not zero.
+const MAGNITUDES: [f64; 2] = [1e-100, 1e100];
+
+fn is_reckonable(number: f64) -> bool {
+    number == 0.0 || (MAGNITUDES[0]..=MAGNITUDES[1]).contains(&number.abs())
+}
+
 struct Walker<'a> {
     root: &'a Value,
-    problems: Vec<Problem>,
+    substitute: Substitute,
+    problems: Problems,
+    /// Ranges of the schemas of numbers met so far; of other schemas none.
+    ranges: HashMap<*const Value, Option<Range>>,
 }
 
 impl<'a> Walker<'a> {
     /// Whether the value can be read, right or wrong.
     fn check(&mut self, schema: &'a Value, value: &mut Value, path: &Path<'_>) -> bool {
+        if value.is_number() && self.is_right_number(schema, value) {
+            return true;
+        }
         let layers = layers(self.root, schema);
         if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
             return self.check_alternatives(schema, alternatives, value, path);
@@ -42,9 +68,31 @@ impl<'a> Walker<'a> {
         }
     }
 
+    /// Whether a number is one that a schema of numbers accepts. Scenes may list a hundred thousand of them.
+    fn is_right_number(&mut self, schema: &'a Value, value: &Value) -> bool {
+        let root = self.root;
+        let range = self.ranges.entry(std::ptr::from_ref(schema)).or_insert_with(|| {
+            let layers = layers(root, schema);
+            let of_numbers = |layer: &&Value| {
+                types(layer).iter().all(|kind| ["number", "integer"].contains(kind)) && alternatives(layer).is_none()
+            };
+            (layers.iter().all(of_numbers) && layers.iter().any(|layer| !types(layer).is_empty()))
+                .then(|| Range::of(&layers))
+        });
+        let Some(range) = range else { return false };
+        value.as_f64().is_some_and(|number| {
+            let whole = value.is_u64() || value.is_i64();
+            range.contains(number) && (whole || !range.integer) && (range.integer || is_reckonable(number))
+        })
+    }
+
     /// Reports what stands at `path` as not accepted by `schema`.
     fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
-        self.problems.push(Problem::new(path, found(value), accepted(self.root, schema)));
+        if self.problems.is_full() {
+            self.problems.push(Problem::unread());
+        } else {
+            self.problems.push(Problem::new(path, found(value), accepted(self.root, schema)));
+        }
     }
 
     fn check_alternatives(
@@ -72,19 +120,24 @@ impl<'a> Walker<'a> {
             return self.check_tagged(schema, alternatives, &tags, value, path);
         }
         // Whatever the value comes nearest to being is what its author meant.
-        let mut fewest: Option<(Vec<Problem>, Value, bool)> = None;
+        let mut fewest: Option<(Problems, Value, bool)> = None;
         // But for a null, nobody means none by saying something.
         for branch in alternatives.iter().filter(|branch| value.is_null() || branch["type"] != "null") {
-            let mut attempt = Walker { root: self.root, problems: Vec::new() };
+            let mut attempt = Walker {
+                root: self.root,
+                substitute: self.substitute,
+                problems: Problems::default(),
+                ranges: HashMap::new(),
+            };
             let mut mended = value.clone();
             let readable = attempt.check(branch, &mut mended, path);
-            if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.len() < problems.len()) {
+            if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.count() < problems.count()) {
                 fewest = Some((attempt.problems, mended, readable));
             }
         }
         fewest.is_some_and(|(problems, mended, readable)| {
             *value = mended;
-            self.problems.extend(problems);
+            self.problems.append(problems);
             readable
         })
     }
@@ -158,21 +211,25 @@ impl<'a> Walker<'a> {
         true
     }
 
-    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &Value, path: &Path<'_>) -> bool {
+    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &mut Value, path: &Path<'_>) -> bool {
         let range = Range::of(layers);
         // Within a whole number's format, u64 and f64 compare exactly enough: every bound is far below 2^53 or at 2^64.
         let inside = value.as_f64().is_some_and(|number| range.contains(number))
             && !(range.integer && value.as_i64().is_none() && value.as_u64().is_none());
         if !inside {
             self.refuse(schema, value, path);
+            *value = range.substitute(self.substitute);
+        } else if !range.integer
+            && let Some(number) = value.as_f64().filter(|number| !is_reckonable(*number))
+        {
+            let [least, most] = MAGNITUDES;
+            let accepted = format!(
+                "a number nearer to the others of the scene, of a magnitude from {least:e} to {most:e}: choose other units"
+            );
+            self.problems.push(Problem::new(path, format!("found {number:e}"), accepted));
+            *value = range.substitute(self.substitute);
         }
-        // Whole numbers are read into words of some length, wherever their bounds are.
-        let fits = |format: &str| match format {
-            "uint32" => value.as_u64().is_some_and(|number| u32::try_from(number).is_ok()),
-            "uint64" => value.is_u64(),
-            _ => true,
-        };
-        inside || layers.iter().filter_map(|layer| layer["format"].as_str()).all(fits)
+        true
     }
 
     fn check_text(&mut self, schema: &Value, layers: &[&Value], text: &str, path: &Path<'_>) -> bool {
@@ -190,17 +247,21 @@ impl<'a> Walker<'a> {
         true
     }
 
-    fn check_list(&mut self, schema: &Value, layers: &[&'a Value], list: &mut [Value], path: &Path<'_>) -> bool {
+    fn check_list(&mut self, schema: &'a Value, layers: &[&'a Value], list: &mut Vec<Value>, path: &Path<'_>) -> bool {
         let mut readable = true;
         for layer in layers {
             let length = list.len() as u64;
             let short = layer["minItems"].as_u64().is_some_and(|least| length < least);
             let long = layer["maxItems"].as_u64().is_some_and(|most| length > most);
             if short || long {
-                let entries = if length == 1 { "entry" } else { "entries" };
-                let found = format!("found a list of {length} {entries}");
-                self.problems.push(Problem::new(path, found, accepted(self.root, schema)));
-                readable &= layer["minItems"] != layer["maxItems"];
+                if self.problems.is_full() {
+                    self.problems.push(Problem::unread());
+                } else {
+                    let entries = if length == 1 { "entry" } else { "entries" };
+                    let found = format!("found a list of {length} {entries}");
+                    self.problems.push(Problem::new(path, found, accepted(self.root, schema)));
+                }
+                readable &= layer["minItems"] != layer["maxItems"] && self.resize(layer, list);
             }
             let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
             for (index, entry) in list.iter_mut().enumerate() {
@@ -210,6 +271,24 @@ impl<'a> Walker<'a> {
             }
         }
         readable
+    }
+
+    /// Gives a list of a wrong length a right one, if there are entries for it.
+    fn resize(&self, layer: &'a Value, list: &mut Vec<Value>) -> bool {
+        let bound = |key: &str| layer[key].as_u64().map(|bound| bound as usize);
+        let (least, most) = (bound("minItems").unwrap_or(0), bound("maxItems"));
+        let length = match self.substitute {
+            Substitute::Least => least,
+            Substitute::Most => most.unwrap_or(list.len()).max(least),
+        };
+        let items = layers(self.root, &layer["items"]);
+        let is_number = items.iter().any(|layer| types(layer).iter().any(|kind| ["number", "integer"].contains(kind)));
+        if list.len() > length {
+            list.truncate(length);
+        } else if is_number {
+            list.resize(length.min(least.max(8)), Range::of(&items).substitute(self.substitute));
+        }
+        list.len() >= least
     }
 
     fn check_object(&mut self, layers: &[&'a Value], object: &mut Map<String, Value>, path: &Path<'_>) -> bool {
@@ -235,6 +314,10 @@ impl<'a> Walker<'a> {
                 Some(_) if value.is_array() => readable = false,
                 Some(_) => {
                     readable &= !required.contains(&key.as_str());
+                    taken_out.push(key.clone());
+                }
+                None if closed && self.problems.is_full() => {
+                    self.problems.push(Problem::unread());
                     taken_out.push(key.clone());
                 }
                 None if closed => {
@@ -325,6 +408,20 @@ impl Range {
             && self.most.is_none_or(|most| number <= most)
             && self.above.is_none_or(|above| number > above)
             && self.below.is_none_or(|below| number < below)
+    }
+
+    /// A number in the range; where it has no end, one that is no extreme.
+    fn substitute(&self, substitute: Substitute) -> Value {
+        let least = self.least.or(self.above.map(|above| above + if self.integer { 1.0 } else { 1e-3 }));
+        let most = self.most.or(self.below.map(|below| below - if self.integer { 1.0 } else { 1e-3 }));
+        let number = match substitute {
+            Substitute::Least => least.or(most).unwrap_or(0.0),
+            Substitute::Most => most.unwrap_or_else(|| least.map_or(1e3, |least| 1e3 * (1.0 + least.abs()))),
+        };
+        if !self.integer {
+            return number.into();
+        }
+        if number < 0.0 { (number as i64).into() } else { (number as u64).into() }
     }
 
     fn describe(&self) -> String {
@@ -484,7 +581,7 @@ mod tests {
     }
 
     fn messages(schema: &Value, mut value: Value) -> Vec<String> {
-        check(schema, &mut value).iter().map(ToString::to_string).collect()
+        check(schema, &mut value, Substitute::Least).iter().map(ToString::to_string).collect()
     }
 
     #[test]
@@ -555,7 +652,7 @@ mod tests {
     fn whole_numbers_may_be_written_with_an_exponent() {
         let schema = json!({"type": "integer", "format": "uint64", "minimum": 0});
         let mut value = json!(1e12);
-        assert!(check(&schema, &mut value).is_empty());
+        assert!(check(&schema, &mut value, Substitute::Least).is_empty());
         assert_eq!(value, json!(1_000_000_000_000_u64));
         assert_eq!(messages(&schema, json!(1e30)).len(), 1);
         assert_eq!(messages(&schema, json!(-1.0)).len(), 1);

@@ -7,8 +7,9 @@
 //! unstable, and refused.
 
 use super::error::{Problem, Warning};
+use super::problems::Problems;
 use super::{Bath, BondPotential, BondsInteraction, Integrator, Interaction, Scene};
-use crate::model::{BathStep, BondKind, Bonds, Model};
+use crate::model::{Alike, BathStep, Bond, BondKind, Bonds, Model};
 use std::f64::consts::PI;
 
 /// B + W beyond which nothing is stable.
@@ -18,7 +19,7 @@ const LIMIT: f64 = 4.0;
 const CLEAN: f64 = 1.0;
 
 /// Bonds that an estimate looks at: the largest eigenvalue of a part is not above that of the whole.
-const MOST_BONDS: usize = 50_000;
+const MOST_BONDS: usize = 10_000;
 
 /// Rounds of the power iteration for the largest eigenvalue, which comes from below.
 const ROUNDS: usize = 40;
@@ -37,16 +38,17 @@ struct Strain {
 }
 
 /// Refuses a time step that is certainly unstable.
-pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let step = scene.time.step;
-    let Some(worst) = worst(&certain(scene, model, step)) else { return };
+    let network = model.bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let Some(worst) = worst(&certain(scene, model, network.as_ref(), step)) else { return };
     if worst.sum < LIMIT {
         return;
     }
     let found = format!("found {step}, at which B + W is {:.4} for {}", worst.sum, worst.what);
     let mut accepted = format!(
         "at most {}, so that B + W = (λₑ + K)dt²/m stays below {LIMIT}, beyond which no scheme is stable",
-        two_digits(largest_step(scene, model, worst.sum))
+        two_digits(largest_step(scene, model, network.as_ref(), worst.sum))
     );
     let spring = worst.sum - worst.bath;
     if worst.bath > 0.0 && spring < LIMIT {
@@ -62,8 +64,9 @@ pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Vec<Problem>) {
 
 /// Warns of a time step near the edge.
 pub(super) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
-    let mut strains = certain(scene, model, scene.time.step);
-    strains.extend(possible(scene, model, scene.time.step));
+    let network = model.bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let mut strains = certain(scene, model, network.as_ref(), scene.time.step);
+    strains.extend(possible(scene, model, network.as_ref(), scene.time.step));
     let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
     let verdict = if worst.sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
@@ -86,8 +89,8 @@ fn worst(strains: &[Strain]) -> Option<Strain> {
 }
 
 /// The largest step that is not certainly unstable: every strain grows with the step.
-fn largest_step(scene: &Scene, model: &Model, sum: f64) -> f64 {
-    let strain = |step: f64| worst(&certain(scene, model, step)).map_or(0.0, |strain| strain.sum);
+fn largest_step(scene: &Scene, model: &Model, network: Option<&Network>, sum: f64) -> f64 {
+    let strain = |step: f64| worst(&certain(scene, model, network, step)).map_or(0.0, |strain| strain.sum);
     let mut high = scene.time.step;
     let mut low = high * (0.5 * LIMIT / sum).min(0.5);
     for _ in 0..60 {
@@ -124,7 +127,7 @@ fn bath_strength(interaction: &Interaction) -> (&'static str, f64) {
 }
 
 /// Parts of the matrix that are there at all times.
-fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
+fn certain(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
     let mut strains = of_particles(scene, model, step);
     strains.extend(of_pairs_on_average(scene, model, step));
     if let Some(bonds) = &model.bonds {
@@ -136,17 +139,18 @@ fn certain(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
             _ => [0.0; 2],
         };
         let all = stiffnesses(scene, model, bonds, step);
-        strains.extend(of_network(scene, model, bonds, step, &|kind| if line { all[kind] } else { isotropic(kind) }));
+        let stiffness = |kind: usize| if line { all[kind] } else { isotropic(kind) };
+        strains.extend(network.and_then(|network| network.strain(step, &stiffness)));
     }
     strains
 }
 
 /// The matrix as it may be: chains that are straight, two particles in one place.
-fn possible(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
+fn possible(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
     let mut strains = Vec::new();
     if let Some(bonds) = &model.bonds {
         let all = stiffnesses(scene, model, bonds, step);
-        strains.extend(of_network(scene, model, bonds, step, &|kind| all[kind]));
+        strains.extend(network.and_then(|network| network.strain(step, &|kind| all[kind])));
     }
     strains
 }
@@ -250,27 +254,54 @@ fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
     (0..scene.interactions.len()).filter(is_bonds).collect()
 }
 
-/// The species of every particle.
-fn species_of_particles(scene: &Scene, model: &Model) -> Vec<u32> {
-    if let Some(chains) = &model.chains {
-        return chains.species_of_particles();
+/// Which species the particles of a scene are of.
+struct Members {
+    /// The first number after those of a group, and the species of the group.
+    ends: Vec<(u64, usize)>,
+}
+
+impl Members {
+    fn of(scene: &Scene, model: &Model) -> Self {
+        let mut end = 0_u64;
+        let groups = scene.particles.iter().map(|group| {
+            end = end.saturating_add(group.resolved_count(scene.space.volume()));
+            (end, model.species.iter().position(|species| species.name == group.species).unwrap_or(0))
+        });
+        let mut ends: Vec<(u64, usize)> = groups.collect();
+        if model.chains.is_some() {
+            // Their particles lie species by species.
+            for (index, species) in model.species.iter().enumerate() {
+                end = end.saturating_add(species.count);
+                ends.push((end, index));
+            }
+        }
+        Self { ends }
     }
-    let mut all = Vec::new();
-    for group in &scene.particles {
-        let index = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
-        all.resize(all.len() + group.resolved_count(scene.space.volume()) as usize, index as u32);
+
+    fn species(&self, particle: u32) -> usize {
+        let group = self.ends.partition_point(|(end, _)| *end <= u64::from(particle));
+        self.ends.get(group).map_or(0, |(_, species)| *species)
     }
-    all
 }
 
 /// Every bond by itself, on the reduced mass of its ends.
 fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
-    let species = species_of_particles(scene, model);
+    let members = Members::of(scene, model);
     let (stiffnesses, places) = (stiffnesses(scene, model, bonds, step), places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
-    for bond in &bonds.bonds {
-        let inverse: f64 = bond.ends.iter().map(|end| inverse_mass(model, species[*end as usize] as usize)).sum();
-        largest[bond.kind as usize] = largest[bond.kind as usize].max(inverse);
+    for (kind, alike) in bonds.alike() {
+        let inverse = match alike {
+            Alike::Species(species) => 2.0 * inverse_mass(model, species),
+            Alike::Ended(species, ends) => {
+                let inverse = inverse_mass(model, species);
+                (2.0 * inverse).max(inverse + inverse_mass(model, ends))
+            }
+            Alike::Listed(pairs) => {
+                let inverse = |end: &u32| inverse_mass(model, members.species(*end));
+                pairs.iter().map(|ends| ends.iter().map(inverse).sum::<f64>()).fold(0.0, f64::max)
+            }
+        };
+        largest[kind as usize] = largest[kind as usize].max(inverse);
     }
     let strain = |(kind, inverse): (usize, &f64)| {
         let [spring, bath] = stiffnesses[kind].map(|value| value * step * step * inverse);
@@ -280,49 +311,68 @@ fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Ve
     largest.iter().enumerate().filter(|(_, inverse)| **inverse > 0.0).map(strain).collect()
 }
 
-/// All bonds together as if they were in one line, by power iteration. `stiffness` gives K and λₑ of a kind.
-fn of_network(
-    scene: &Scene,
-    model: &Model,
-    bonds: &Bonds,
-    step: f64,
-    stiffness: &dyn Fn(usize) -> [f64; 2],
-) -> Option<Strain> {
-    let kinds: Vec<[f64; 2]> = (0..bonds.kinds.len()).map(stiffness).collect();
-    if kinds.iter().all(|[spring, bath]| spring + bath == 0.0) {
-        return None;
+/// The first bonds of a scene, and of their particles the numbers and inverse masses.
+struct Network {
+    /// Places of the ends among the particles, and the kind.
+    bonds: Vec<([usize; 2], usize)>,
+    particles: Vec<u32>,
+    inverse_masses: Vec<f64>,
+    kinds: usize,
+    /// The interaction that they come from.
+    place: usize,
+}
+
+impl Network {
+    fn of(scene: &Scene, model: &Model, bonds: &Bonds) -> Option<Self> {
+        let members = Members::of(scene, model);
+        let seen: Vec<Bond> = bonds.iter().take(MOST_BONDS).collect();
+        let mut particles: Vec<u32> = seen.iter().flat_map(|bond| bond.ends).collect();
+        particles.sort_unstable();
+        particles.dedup();
+        let place_of = |end: u32| particles.partition_point(|particle| *particle < end);
+        Some(Self {
+            bonds: seen.iter().map(|bond| (bond.ends.map(place_of), bond.kind as usize)).collect(),
+            inverse_masses: particles.iter().map(|end| inverse_mass(model, members.species(*end))).collect(),
+            particles,
+            kinds: bonds.kinds.len(),
+            place: *places(scene, bonds).first()?,
+        })
     }
-    let species = species_of_particles(scene, model);
-    let roots: Vec<f64> = species.iter().map(|species| inverse_mass(model, *species as usize).sqrt() * step).collect();
-    let bonds_seen = &bonds.bonds[..bonds.bonds.len().min(MOST_BONDS)];
-    let product = |vector: &[f64], part: usize| {
-        let mut result = vec![0.0; vector.len()];
-        for bond in bonds_seen {
-            let [a, b] = bond.ends.map(|end| end as usize);
-            let [spring, bath] = kinds[bond.kind as usize];
-            let pull = [spring + bath, bath][part] * (roots[a] * vector[a] - roots[b] * vector[b]);
-            result[a] += roots[a] * pull;
-            result[b] -= roots[b] * pull;
-        }
-        result
-    };
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    // Neighbours against each other, and not quite in order: near the stiffest mode of a chain and of all others.
-    let mut vector: Vec<f64> =
-        (0..species.len()).map(|id| (if id % 2 == 0 { 1.0 } else { -1.0 }) * (1.0 + 0.1 * (id as f64).sin())).collect();
-    for _ in 0..ROUNDS {
-        vector = product(&vector, 0);
-        let length = dot(&vector, &vector).sqrt();
-        if length == 0.0 {
+
+    /// All bonds together as if they were in one line, by power iteration. `stiffness` gives K and λₑ of a kind.
+    fn strain(&self, step: f64, stiffness: &dyn Fn(usize) -> [f64; 2]) -> Option<Strain> {
+        let kinds: Vec<[f64; 2]> = (0..self.kinds).map(stiffness).collect();
+        if kinds.iter().all(|[spring, bath]| spring + bath == 0.0) {
             return None;
         }
-        for component in &mut vector {
-            *component /= length;
+        let roots: Vec<f64> = self.inverse_masses.iter().map(|inverse| inverse.sqrt() * step).collect();
+        let product = |vector: &[f64], part: usize| {
+            let mut result = vec![0.0; vector.len()];
+            for &([a, b], kind) in &self.bonds {
+                let [spring, bath] = kinds[kind];
+                let pull = [spring + bath, bath][part] * (roots[a] * vector[a] - roots[b] * vector[b]);
+                result[a] += roots[a] * pull;
+                result[b] -= roots[b] * pull;
+            }
+            result
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        // Neighbours against each other, and not quite in order: near the stiffest mode of a chain and of all others.
+        let first = |id: &u32| (if id.is_multiple_of(2) { 1.0 } else { -1.0 }) * (1.0 + 0.1 * f64::from(*id).sin());
+        let mut vector: Vec<f64> = self.particles.iter().map(first).collect();
+        for _ in 0..ROUNDS {
+            vector = product(&vector, 0);
+            let length = dot(&vector, &vector).sqrt();
+            if length == 0.0 {
+                return None;
+            }
+            for component in &mut vector {
+                *component /= length;
+            }
         }
+        let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
+        Some(Strain { sum, bath, place: self.place, what: "all bonds together".to_owned() })
     }
-    let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
-    let place = *places(scene, bonds).first()?;
-    Some(Strain { sum, bath, place, what: "all bonds together".to_owned() })
 }
 
 /// The largest number of two digits below `value`: at the edge itself nothing is stable.

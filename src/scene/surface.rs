@@ -84,6 +84,18 @@ impl<'a> Surface<'a> {
         waves + sharpened(&others, point, self.step(), length, power)
     }
 
+    /// Evaluations of features that [`Self::unsmoothed`] takes.
+    pub(super) fn terms_of_depth(&self, power: u32) -> f64 {
+        let points = (1 + 4 * FIRST.len()) as f64;
+        let each = |feature| if is_wave(feature) { 1.0 } else { points.powi(power as i32) };
+        self.features.iter().map(each).sum()
+    }
+
+    /// Evaluations of features that [`Self::slope`] takes.
+    pub(super) fn terms_of_slope(&self) -> f64 {
+        (4 * FIRST.len() * self.features.len()) as f64
+    }
+
     /// Of a wave; other features have no one wave number.
     fn squared_wave_number(&self, feature: &SurfaceFeature) -> f64 {
         let SurfaceFeature::Wave { periods, .. } = feature else { return 0.0 };

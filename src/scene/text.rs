@@ -8,11 +8,12 @@ use serde_json::{Map, Number, Value};
 
 use super::error::{Problem, SceneError};
 use super::path::Path;
+use super::problems::Problems;
 
 /// The value of a JSON text, and a problem for every key that an object repeats.
-pub(super) fn parse(name: &str, text: &str) -> Result<(Value, Vec<Problem>), SceneError> {
+pub(super) fn parse(name: &str, text: &str) -> Result<(Value, Problems), SceneError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let repeated = RefCell::new(Vec::new());
+    let repeated = RefCell::new(Problems::default());
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let value = ValueAt { path: &Path::Root, repeated: &repeated }
         .deserialize(&mut deserializer)
@@ -65,7 +66,7 @@ fn hint(text: &str, line: usize, column: usize, said: &str) -> Option<&'static s
 /// Reads a value that stands at `path`.
 struct ValueAt<'a> {
     path: &'a Path<'a>,
-    repeated: &'a RefCell<Vec<Problem>>,
+    repeated: &'a RefCell<Problems>,
 }
 
 impl<'de> DeserializeSeed<'de> for ValueAt<'_> {
@@ -115,10 +116,12 @@ impl<'de> Visitor<'de> for ValueAt<'_> {
         let mut list = Vec::new();
         loop {
             let path = self.path.index(list.len());
-            match sequence.next_element_seed(ValueAt { path: &path, repeated: self.repeated })? {
-                Some(value) => list.push(value),
-                None => return Ok(Value::Array(list)),
-            }
+            let Some(value) = sequence.next_element_seed(ValueAt { path: &path, repeated: self.repeated })? else {
+                // Lists are as long as a scene is: they shall not take twice their room.
+                list.shrink_to_fit();
+                return Ok(Value::Array(list));
+            };
+            list.push(value);
         }
     }
 

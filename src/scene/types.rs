@@ -37,9 +37,11 @@ pub struct Scene {
     #[serde(default)]
     pub noise: Noise,
     /// Groups of particles.
+    #[schemars(length(max = 1024))]
     pub particles: Vec<ParticleGroup>,
     /// Forces between particles.
     #[serde(default)]
+    #[schemars(length(max = 256))]
     pub interactions: Vec<Interaction>,
     /// What the run writes.
     #[serde(default)]
@@ -397,6 +399,7 @@ pub struct ShallowWaterInteraction {
     /// The smoothed surface at the start, as features that are added to a depth of 1; the masses of the particles follow
     /// from it. Left out, the water is flat.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 100))]
     pub surface: Vec<SurfaceFeature>,
     /// A heat bath on every mesh node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -590,6 +593,7 @@ pub struct DpdInteraction {
     pub friction: f64,
     /// Pairs of species with coefficients of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 32896))]
     pub pairs: Vec<DpdPair>,
     /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
@@ -615,6 +619,7 @@ pub struct LangevinInteraction {
     pub friction: f64,
     /// Species with a friction of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
     pub species: Vec<SpeciesFriction>,
     /// The heat bath of every coordinate.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
@@ -679,6 +684,7 @@ pub struct TetherInteraction {
 pub struct BondsInteraction {
     /// Species whose chains are bonded; left out, all chains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
     pub species: Option<Vec<String>>,
     /// Pairs of particle numbers to bond, in place of chains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -733,6 +739,7 @@ pub enum BondPotential {
 pub struct AnglesInteraction {
     /// Species whose chains are stiff; left out, all chains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
     pub species: Option<Vec<String>>,
     /// Triples of particle numbers, the middle of the angle in the middle, in place of chains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -796,9 +803,11 @@ pub struct Output {
     pub chain: Option<super::ChainOutput>,
     /// Normalised autocorrelations of velocities and forces, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 16))]
     pub autocorrelations: Vec<Autocorrelation>,
     /// Histograms of velocities and accelerations, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 16))]
     pub histograms: Vec<Histogram>,
     /// How many neighbours Voronoi cells have, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -837,6 +846,7 @@ pub struct Fields {
     /// Steps between two numbered pictures and arrays; zero writes them only at the end.
     pub every: u64,
     /// Which fields.
+    #[schemars(length(max = 16))]
     pub quantities: Vec<FieldQuantity>,
     /// Ranges of colours.
     pub ranges: FieldRanges,

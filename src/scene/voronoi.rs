@@ -1,10 +1,9 @@
 //! Voronoi DPD: what a scene says about it.
 
 use super::error::Problem;
-use super::{
-    CorrelatedQuantity, CountedQuantity, Integrator, Interaction, Scene, SnapshotColor, Velocities, placement,
-};
-use crate::model::{Model, NETWORK_VISCOSITY};
+use super::problems::Problems;
+use super::{CorrelatedQuantity, CountedQuantity, Integrator, Interaction, Scene, SnapshotColor, Velocities};
+use crate::model::NETWORK_VISCOSITY;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -91,6 +90,7 @@ pub struct CellEnergy {
     pub conductivity: f64,
     /// Regions that start hotter or colder than the temperature of the scene; of several around a cell the last counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
     pub initial_temperatures: Vec<TemperatureRegion>,
 }
 
@@ -175,10 +175,10 @@ pub(crate) fn voronoi(scene: &Scene) -> Option<&VoronoiInteraction> {
 const NEIGHBOUR_BITS: u32 = 28;
 
 /// The lightest species may have this part of the mass of the heaviest, in the units of which all are counted.
-const LIGHTEST: f64 = 1e-4;
+pub(super) const LIGHTEST: f64 = 1e-4;
 
 /// Checks a scene whose interaction at `path` is Voronoi DPD.
-pub(super) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Vec<Problem>) {
+pub(super) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Problems) {
     if scene.interactions.len() > 1 {
         let accepted = "`voronoi` as the only interaction of a scene";
         problems.push(Problem::new(path, "found another interaction beside it", accepted));
@@ -198,7 +198,7 @@ pub(super) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, pro
     check_shear_wave(scene, problems);
 }
 
-fn check_fluid(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Vec<Problem>) {
+fn check_fluid(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Problems) {
     if voronoi.viscosity.is_some() && voronoi.shear_viscosity.is_some() {
         let accepted = "one of `viscosity`, of the law of friction, and `shear_viscosity`, of the network of cells";
         problems.push(Problem::new(path, "both `viscosity` and `shear_viscosity` are given", accepted));
@@ -217,7 +217,7 @@ fn check_fluid(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems
     }
 }
 
-fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_groups(scene: &Scene, problems: &mut Problems) {
     let heaviest = scene.particles.iter().map(|group| group.mass).fold(0.0, f64::max);
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
@@ -239,6 +239,14 @@ fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
     }
     let cells: u64 =
         scene.particles.iter().fold(0, |sum, group| sum.saturating_add(group.resolved_count(scene.space.volume())));
+    // A cell that is cut off on both sides by its own images is none.
+    let width = (scene.space.volume() / cells.max(1) as f64).sqrt();
+    for (axis, length) in scene.space.lengths.iter().enumerate() {
+        if scene.space.lengths.len() == 2 && *length < 0.999 * width {
+            let accepted = format!("at least {width:.3e}, the width of a cell on average");
+            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
+        }
+    }
     // More than can be numbered at all is a mistake by itself.
     if cells > 1 << NEIGHBOUR_BITS && u32::try_from(cells).is_ok() {
         let accepted = format!(
@@ -249,7 +257,7 @@ fn check_groups(scene: &Scene, problems: &mut Vec<Problem>) {
     }
 }
 
-fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Vec<Problem>) {
+fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Problems) {
     let output = &scene.output;
     if output.snapshot.color == SnapshotColor::Temperature && voronoi.energy.is_none() {
         let accepted = "`density`, `speed` or `species`; or an `energy` in the interaction";
@@ -282,7 +290,7 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Vec<
 }
 
 /// A wave can be measured only where there is one.
-fn check_shear_wave(scene: &Scene, problems: &mut Vec<Problem>) {
+fn check_shear_wave(scene: &Scene, problems: &mut Problems) {
     if scene.output.shear_wave.is_none() {
         return;
     }
@@ -310,32 +318,8 @@ pub fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
     })
 }
 
-/// Refuses a start with masses that the integers cannot hold; `scene` makes sense otherwise.
-pub(super) fn check_start(scene: &Scene, problems: &mut Vec<Problem>) {
-    let Some(voronoi) = voronoi(scene).filter(|voronoi| voronoi.initial_masses != InitialMasses::Equal) else { return };
-    let model = Model::new(scene);
-    let Some(cells) = &model.voronoi else { return };
-    let masses = placement::initial_state(scene, &model).masses;
-    let [low, high] = [LIGHTEST * 2_f64.powi(24), f64::from(u32::MAX)];
-    // What is beyond the range of integers is at its end.
-    let fits = |mass: u32| f64::from(mass) >= low && mass < u32::MAX;
-    let Some(cell) = masses.iter().position(|mass| !fits(*mass)) else { return };
-    let name = if voronoi.initial_masses == InitialMasses::UniformDensity { "density" } else { "pressure" };
-    let mass = f64::from(masses[cell]) * cells.mass_unit;
-    let most = if masses[cell] == u32::MAX { " or more" } else { "" };
-    let found =
-        format!("found `uniform-{name}`, with a mass of {mass:.3e}{most} by the volume of the cell of particle {cell}");
-    let accepted = format!(
-        "masses between {:.1e} and {:.1e}: a more even placement, as a lattice, or `equal` masses",
-        low * cells.mass_unit,
-        high * cells.mass_unit
-    );
-    let path = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
-    problems.push(Problem::new(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted));
-}
-
 /// Refuses what has no meaning without Voronoi cells.
-pub(super) fn check_absence(scene: &Scene, problems: &mut Vec<Problem>) {
+pub(super) fn check_absence(scene: &Scene, problems: &mut Problems) {
     let only = "a scene with a `voronoi` interaction only";
     let mut refuse = |path: &str, found: &str| problems.push(Problem::new(path, found, only));
     if scene.integrator == (Integrator::Euler {}) {

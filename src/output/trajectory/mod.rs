@@ -5,7 +5,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, OutputError};
-use crate::model::{Model, Species, Voronoi};
+use crate::model::{Bonds, Model, Species, Voronoi};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::path::Path;
@@ -68,7 +68,7 @@ impl Description {
             },
             specific_momenta: model.shallow_water.is_some(),
             changing_masses: model.voronoi.as_ref().is_some_and(Voronoi::exchanges_mass),
-            bonds: model.bonds.iter().flat_map(|bonds| &bonds.bonds).map(|bond| (bond.ends, bond.kind)).collect(),
+            bonds: model.bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
         }
     }
 

@@ -3,12 +3,13 @@
 use super::Builder;
 use crate::model::{BondKind, Bonds};
 use crate::noise::{self, stream};
+use crate::plan::Table;
 use crate::scene::{BondPotential, Generator};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
         let Some(bonds) = &self.model.bonds else { return };
-        let count = bonds.bonds.len() as u64;
+        let count = bonds.count();
         let groups = self.groups(count);
         let (species, kinds) = (self.model.species.len(), bonds.kinds.len());
         let key = noise::seed_key(self.model.seed, stream::BOND);
@@ -67,20 +68,17 @@ impl Builder<'_> {
 
     /// The buffers of bonds; `bonds` as `shaders/common/bond_kinds.wgsl` reads it.
     fn bond_buffers(&mut self, bonds: &Bonds) {
-        let mut words: Vec<u32> = Vec::with_capacity(4 * bonds.bonds.len());
+        let mut words: Vec<u32> = Vec::new();
         for species in 0..self.model.species.len() {
             words.extend([self.drift_per_momentum(species).to_bits(), 0, 0, 0]);
         }
         for kind in &bonds.kinds {
             words.extend(self.bond_coefficients(kind).map(f32::to_bits));
         }
-        for bond in &bonds.bonds {
-            words.extend([bond.ends[0], bond.ends[1], bond.kind, 0]);
-        }
-        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
-        self.plan.add_table("bonds", "bonds and what they are like", bytes);
+        let table = Table::Bonds { head: words, bonds: bonds.clone() };
+        self.plan.add_long_table("bonds", "bonds and what they are like", table);
         if bonds.have_memory() {
-            self.plan.add_buffer("bond_baths", "bath of each bond", 4 * bonds.bonds.len() as u64);
+            self.plan.add_buffer("bond_baths", "bath of each bond", 4 * bonds.count());
         }
     }
 
@@ -110,25 +108,11 @@ impl Builder<'_> {
     /// Partners that each particle is to be spared from, in rows of equal length; none where there are none.
     pub(super) fn exclusions(&mut self) -> &'static str {
         let Some(bonds) = self.model.bonds.as_ref().filter(|_| self.spares()) else { return "common/exclusions_off" };
-        let mut partners: Vec<Vec<u32>> = vec![Vec::new(); self.particles as usize];
-        for bond in bonds.bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion) {
-            let [a, b] = bond.ends;
-            for (end, partner) in [(a, b), (b, a)] {
-                if !partners[end as usize].contains(&partner) {
-                    partners[end as usize].push(partner);
-                }
-            }
-        }
-        let width = partners.iter().map(Vec::len).max().unwrap_or(0).max(1);
-        let rows = partners.into_iter().enumerate().flat_map(|(id, mut row)| {
-            row.resize(width, id as u32);
-            row
-        });
-        let words: Vec<u32> = rows.collect();
-        let bytes: Vec<u8> = bytemuck::cast_slice(&words).to_vec();
+        let width = bonds.most_spared().max(1) as u64;
         self.plan.constants.push(("EXCLUSIONS", width as f64));
         let purpose = "partners whose repulsion each particle is spared";
-        self.plan.add_table("exclusions", purpose, bytes);
+        let table = Table::Exclusions { bonds: bonds.clone(), particles: self.particles, width };
+        self.plan.add_long_table("exclusions", purpose, table);
         "common/exclusions_on"
     }
 }

@@ -61,7 +61,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         predicted,
         listed,
         position_baths: model.position_bath.as_ref().is_some_and(|bath| bath.memory),
-        bond_baths: model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.bonds.len()),
+        bond_baths: model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.count() as usize),
         holds: model.coloured_noise.is_some(),
         tethers: model.tether.is_some(),
     };

@@ -50,8 +50,8 @@ impl Corner {
 
 /// Adds the half kicks of all angles: those of the ends are rounded, the middle gets minus their sum.
 pub(super) fn kick(model: &Model, angles: &Angles, positions: &[[u32; 3]], kick: &mut [[i64; 3]]) {
-    for angle in &angles.angles {
-        let Some(corner) = Corner::of(model, angle, positions) else { continue };
+    for angle in angles.iter() {
+        let Some(corner) = Corner::of(model, &angle, positions) else { continue };
         let stiffness = angles.stiffness[angle.kind as usize];
         for (gradient, end) in corner.gradients().iter().zip([angle.ends[0], angle.ends[2]]) {
             let mut impulse = [0; 3];

@@ -70,9 +70,9 @@ pub(super) fn kick(
 ) -> Result<Bonded, Unstable> {
     let key = noise::step_key(model.seed, stream::BOND, state.step);
     let mut found = Bonded { baths: state.bond_baths.clone(), virial: 0.0 };
-    for (index, bond) in bonds.bonds.iter().enumerate() {
+    for (index, bond) in bonds.iter().enumerate() {
         let kind = &bonds.kinds[bond.kind as usize];
-        let pair = span(model, bond, &state.positions);
+        let pair = span(model, &bond, &state.positions);
         let Some(potential) = Potential::at(kind.potential.as_ref(), pair.distance) else {
             return Err(Unstable::Bond { step: state.step, bond: index });
         };

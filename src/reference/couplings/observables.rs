@@ -8,6 +8,7 @@ use super::angles::Corner;
 use super::bonds::{self, Potential};
 use super::{CouplingsReference, Evaluation, is_fixed, pairs, tethers};
 use crate::measure::Observables;
+use crate::model::Bonds;
 use crate::reference::pairs::{Forces, Pair, find_pairs};
 
 /// Sums of the potential and its derivatives.
@@ -99,18 +100,18 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             sums.add(&pair, [0.5 * force.cutoff * magnitude * closeness, -magnitude, repulsion / force.cutoff]);
         }
     }
-    for bond in model.bonds.iter().flat_map(|bonds| &bonds.bonds) {
+    for bond in model.bonds.iter().flat_map(Bonds::iter) {
         let kind = model.bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
-        let pair = bonds::span(model, bond, &state.positions);
+        let pair = bonds::span(model, &bond, &state.positions);
         let potential = kind.and_then(|kind| kind.potential.as_ref());
         if let Some(potential) = Potential::at(potential, pair.distance) {
             sums.add(&pair, [potential.energy, potential.slope, potential.curvature]);
         }
     }
     if let Some(angles) = &model.angles {
-        for angle in &angles.angles {
+        for angle in angles.iter() {
             let stiffness = angles.stiffness[angle.kind as usize];
-            let Some(corner) = Corner::of(model, angle, &state.positions) else { continue };
+            let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
             sums.potential += stiffness * (1.0 + corner.cosine);
             let [first, last] = corner.gradients();
             let middle = std::array::from_fn(|axis| -first[axis] - last[axis]);

@@ -1,0 +1,108 @@
+//! How long a run would take: a few steps of it, timed.
+
+use super::RunError;
+use super::simulation::plan_for;
+use crate::engine::{Engine, EngineError};
+use crate::gpu::Gpu;
+use crate::model::Model;
+use crate::plan::Options;
+use crate::scene::{self, Scene, placement};
+use std::time::{Duration, Instant};
+
+/// Particles, and nodes of a mesh, up to which steps of the scene itself are timed.
+const MOST_PARTICLES: u64 = 100_000;
+const MOST_NODES: u64 = 1 << 16;
+
+/// Time that steps are tried for.
+const PATIENCE: Duration = Duration::from_millis(250);
+
+/// A run takes this many times longer or shorter than steps of the scene itself let expect, ...
+const FACTOR_OF_SCENE: f64 = 2.0;
+/// ... and than arithmetic and the steps of another one do.
+const FACTOR_OF_ARITHMETIC: f64 = 4.0;
+
+/// How long a run is expected to take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExpectedTime {
+    /// All steps and reports of the scene; opening the adapter and drawing come on top.
+    pub seconds: f64,
+    /// It may be as many times longer or shorter.
+    pub factor: f64,
+    /// Whether steps of the scene itself were timed; else those of a small fluid, in proportion to the arithmetic.
+    pub of_scene: bool,
+    /// Steps that were timed.
+    pub steps: u64,
+}
+
+/// Times some steps on an adapter: of the scene if it is small, else of a small fluid.
+///
+/// It takes a quarter of a second beside what it takes to make the kernels.
+///
+/// ```
+/// use mesoscope::gpu::AdapterChoice;
+/// use mesoscope::{run, scene};
+///
+/// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let expected = run::expected_time(&scene, &run::adapter_for(&scene, &AdapterChoice::Best)?)?;
+/// assert!(expected.of_scene && expected.seconds > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError`] if already the first steps fail.
+pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError> {
+    let model = Model::new(scene);
+    let nodes = model.shallow_water.as_ref().map_or(0, crate::model::ShallowWater::nodes);
+    let of_scene = model.particle_count() <= MOST_PARTICLES && nodes <= MOST_NODES;
+    let (step, steps) = if of_scene {
+        time_of_step(scene, &model, gpu)?
+    } else {
+        let fluid = scene::load("dpd-fluid", &["time.equilibration=0".to_owned(), "output={}".to_owned()])?;
+        let known = Model::new(&fluid);
+        let (step, steps) = time_of_step(&fluid, &known, gpu)?;
+        let work = |scene: &Scene, model: &Model| {
+            let plan = plan_for(scene, model, gpu, Options::default());
+            plan.operations_per_particle * plan.particles as f64
+        };
+        (step * work(scene, &model) / work(&fluid, &known), steps)
+    };
+    let all = scene.time.steps as f64;
+    let plan = plan_for(scene, &model, gpu, Options::default());
+    // A report visits everything once more.
+    let reports: f64 = plan.samplers.iter().map(|sampler| all / sampler.every as f64).sum();
+    let factor = if of_scene { FACTOR_OF_SCENE } else { FACTOR_OF_ARITHMETIC };
+    Ok(ExpectedTime { seconds: step * (all + reports), factor, of_scene, steps })
+}
+
+/// Seconds a step, and how many were timed.
+fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu) -> Result<(f64, u64), RunError> {
+    let plan = plan_for(scene, model, gpu, Options::default()).without_reports();
+    let state = placement::initial_state(scene, model);
+    let mut engine = Engine::new(gpu, plan, &state)?;
+    // The first steps list neighbours and touch memory for the first time.
+    engine.advance(2, 2)?;
+    engine.finish()?;
+    let (mut done, mut steps) = (0, 1);
+    let start = Instant::now();
+    loop {
+        match engine.advance(steps, steps).and_then(|()| engine.finish()) {
+            // What begins far from equilibrium may not go well for long; its steps are as long.
+            Err(EngineError::Unstable { .. } | EngineError::GaveUp { .. } | EngineError::Crowded { .. })
+                if done > 0 =>
+            {
+                break;
+            }
+            ended => ended?,
+        };
+        done += steps;
+        let spent = start.elapsed();
+        if spent >= PATIENCE || done >= scene.time.steps.max(1) {
+            break;
+        }
+        // As many as may fit, up to as many again twice over.
+        let fit = (PATIENCE.saturating_sub(spent)).as_secs_f64() / (spent.as_secs_f64() / done as f64);
+        steps = (fit as u64).clamp(1, 2 * done);
+    }
+    Ok((start.elapsed().as_secs_f64() / done.max(1) as f64, done))
+}

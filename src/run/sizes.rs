@@ -1,0 +1,140 @@
+//! How large the files of a run will be, before it begins.
+
+use crate::model::{Bonds, Model};
+use crate::plan::{Layout, Plan};
+use crate::scene::{Scene, TrajectoryFormat};
+
+/// Bytes of a number in a table, with its comma: most have sixteen or seventeen digits.
+const NUMBER: u64 = 19;
+/// Bytes of a particle in a frame of extended XYZ: a species and six numbers.
+const XYZ_PARTICLE: u64 = 110;
+/// Bytes of a particle in a frame of GSD: position and velocity in single precision, and the image.
+const GSD_PARTICLE: u64 = 36;
+/// Bytes of a pixel in pictures, as they are compressed: measured, from .1 in plots to .4 in crowds of discs.
+const PLOT_PIXEL: f64 = 0.08;
+const PICTURE_PIXEL: f64 = 0.3;
+/// Pixels of the longer side of a snapshot.
+const LONGER_SIDE: f64 = 1200.0;
+
+/// Bytes that a run will write, file by file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Sizes {
+    /// `energies.csv`.
+    pub energies: u64,
+    /// The checkpoint; while one is replaced there are two.
+    pub checkpoint: u64,
+    /// The trajectory.
+    pub trajectory: u64,
+    /// Plots, snapshots and fields with their arrays.
+    pub pictures: u64,
+    /// Pictures and arrays with numbers.
+    pub numbered: u64,
+}
+
+impl Sizes {
+    /// The sizes for a scene, its model and a plan of it; estimates, but for trajectories and checkpoints within a few per cent.
+    ///
+    /// ```
+    /// use mesoscope::model::Model;
+    /// use mesoscope::run::Sizes;
+    /// use mesoscope::plan::{Hardware, Options, plan};
+    ///
+    /// let sizes = |set: &str| {
+    ///     let scene = mesoscope::scene::load("dpd-fluid", &[set.to_owned()])?;
+    ///     let model = Model::new(&scene);
+    ///     let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+    ///     Ok::<_, mesoscope::scene::SceneError>(Sizes::of(&scene, &model, &plan))
+    /// };
+    /// assert_eq!(sizes("seed=1")?.trajectory, 0);
+    /// let long = sizes(r#"output.trajectory={"every":1}"#)?;
+    /// // A frame a step and one at the end, of 24 000 particles.
+    /// assert!(long.trajectory > 2000 * 24_000 * 24 && long.total() > long.trajectory);
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn of(scene: &Scene, model: &Model, plan: &Plan) -> Self {
+        let output = &scene.output;
+        let times = |every: u64| scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
+        let columns = super::quantities(model).len() as u64 + 2;
+        let energies = times(output.energies.every).saturating_mul(NUMBER * columns);
+        let each = |format| match format {
+            TrajectoryFormat::Gsd => GSD_PARTICLE,
+            TrajectoryFormat::ExtendedXyz => XYZ_PARTICLE,
+        };
+        let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
+            times(asked.every).saturating_mul(each(asked.format).saturating_mul(plan.particles).saturating_add(300))
+        });
+        let width = f64::from(output.plot.width);
+        let plot_pixels = width * output.plot.height.map_or(0.75 * width, f64::from);
+        let plot = (PLOT_PIXEL * plot_pixels) as u64;
+        let (picture, pictures, numbered) = match &model.shallow_water {
+            Some(water) => {
+                let fields = output.fields.clone().unwrap_or_default();
+                let count = fields.quantities.len() as u64;
+                let field = PICTURE_PIXEL * plot_pixels;
+                (field as u64 + 8 * water.nodes() + 128, count, count.saturating_mul(times(fields.every)))
+            }
+            None if model.units.dimension == 1 => (0, 0, 0),
+            None => {
+                let snapshot = &output.snapshot;
+                // Left out, a side follows the shape of the box.
+                let sides = [snapshot.width, snapshot.height].map(|side| side.map_or(LONGER_SIDE, f64::from));
+                ((PICTURE_PIXEL * sides[0] * sides[1]) as u64, 1, times(snapshot.every))
+            }
+        };
+        let analyses = [
+            output.radial_distribution.is_some(),
+            output.diffusion.is_some(),
+            output.viscosity.is_some(),
+            output.chain_sizes.is_some(),
+            output.chain.is_some(),
+            output.neighbours.is_some(),
+            output.shear_wave.is_some(),
+        ];
+        let plots = 1
+            + analyses.iter().filter(|asked| **asked).count()
+            + output.autocorrelations.len()
+            + output.histograms.len();
+        Self {
+            energies,
+            checkpoint: checkpoint(model, plan),
+            trajectory,
+            pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots as u64)),
+            numbered: picture.saturating_mul(numbered),
+        }
+    }
+
+    /// Bytes of all files at the end.
+    #[must_use]
+    pub fn total(&self) -> u64 {
+        [self.energies, self.checkpoint, self.trajectory, self.pictures, self.numbered]
+            .into_iter()
+            .fold(0, u64::saturating_add)
+    }
+}
+
+/// Bytes of a checkpoint: the state of every particle, what a layout keeps beside, and the scene.
+fn checkpoint(model: &Model, plan: &Plan) -> u64 {
+    const SCENE: u64 = 4096;
+    // Position, momentum and species.
+    let mut particle = 28;
+    let mut beside = SCENE;
+    match plan.layout {
+        Layout::Particles { predicted, .. } => particle += if predicted { 12 } else { 0 },
+        Layout::Cells { energies } => particle += if energies { 8 } else { 4 },
+        Layout::Water { bath_nodes, .. } => {
+            particle += 4;
+            beside += 8 * bath_nodes as u64;
+        }
+        Layout::Coupled { predicted, listed, position_baths, holds, tethers, .. } => {
+            let words = [(predicted, 12), (position_baths, 12), (holds, 24), (tethers, 12)];
+            particle += words.iter().filter(|(has, _)| *has).map(|(_, bytes)| bytes).sum::<u64>();
+            if let Some(listed) = listed.filter(|listed| listed.memory) {
+                // Where it was when it was listed, and its pairs: the list has room for half again as many and twelve.
+                particle += 12 + 20 * ((listed.capacity as u64).saturating_sub(12) * 2 / 3);
+            }
+            beside += 4 * model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);
+        }
+    }
+    particle.saturating_mul(plan.particles).saturating_add(beside)
+}

@@ -1,0 +1,83 @@
+//! The mistakes of a scene, however many there are.
+
+use super::error::Problem;
+
+/// Mistakes that are kept; further ones are counted.
+const MOST: usize = 250;
+
+/// The mistakes of a scene: the first of them in words, and how many there are beyond.
+#[derive(Debug, Default)]
+pub(super) struct Problems {
+    listed: Vec<Problem>,
+    unlisted: usize,
+}
+
+impl Problems {
+    pub fn push(&mut self, problem: Problem) {
+        if self.is_full() {
+            self.unlisted += 1;
+        } else {
+            self.listed.push(problem);
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.listed.is_empty()
+    }
+
+    /// Whether further mistakes are only counted, so that nobody reads what would be said of them.
+    pub fn is_full(&self) -> bool {
+        self.listed.len() >= MOST
+    }
+
+    /// Number of mistakes.
+    pub fn count(&self) -> usize {
+        self.listed.len() + self.unlisted
+    }
+
+    /// Adds those that another found.
+    pub fn append(&mut self, other: Self) {
+        let unlisted = other.unlisted;
+        self.extend(other.listed);
+        self.unlisted += unlisted;
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &Problem> {
+        self.listed.iter()
+    }
+
+    /// Keeps those of which a predicate holds; what is only counted is not asked about.
+    pub fn retain(&mut self, keep: impl FnMut(&Problem) -> bool) {
+        self.listed.retain(keep);
+    }
+
+    /// The mistakes, and how many are not among them.
+    pub fn into_parts(self) -> (Vec<Problem>, usize) {
+        (self.listed, self.unlisted)
+    }
+}
+
+impl Extend<Problem> for Problems {
+    fn extend<T: IntoIterator<Item = Problem>>(&mut self, problems: T) {
+        for problem in problems {
+            self.push(problem);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flood_is_counted_and_not_kept() {
+        let mut problems = Problems::default();
+        problems.extend((0..5000).map(|index| Problem::new(index, "found", "none")));
+        assert_eq!((problems.count(), problems.iter().count(), problems.is_full()), (5000, MOST, true));
+        let mut all = Problems::default();
+        all.push(Problem::new("first", "found", "none"));
+        all.append(problems);
+        let (listed, unlisted) = all.into_parts();
+        assert_eq!((listed.len(), unlisted, listed[0].path.as_str()), (MOST, 4751, "first"));
+    }
+}
