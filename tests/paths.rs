@@ -45,7 +45,7 @@ fn scenes() -> Vec<(&'static str, Scene, Vec<Options>)> {
         |storage, serial| Options { storage: Some(storage), serial_memory: Some(serial), ..Options::default() };
     let chain = [
         "space.box=[12]",
-        r#"particles=[{"species":"A","count":12,"chain":{"beads":4}},{"species":"B","count":9}]"#,
+        r#"particles=[{"species":"A","count":12,"chain":{"beads":4}},{"species":"B","count":40}]"#,
         r#"interactions=[{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},{"type":"langevin","friction":0.1}]"#,
         "temperature=40",
         r#"integrator={"type":"cotter-reich"}"#,
