@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use mesoscope::model::Model;
-use mesoscope::reference::{CouplingsReference, Reference};
-use mesoscope::scene::{self, placement};
+use mesoscope::reference::{CouplingsReference, Reference, Unstable};
+use mesoscope::scene::{self, Scene, placement};
 use serde_json::{Value, json};
 
 const TEMPERATURES: [f64; 9] = [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2];
@@ -19,11 +19,11 @@ fn cases() -> Vec<(&'static str, Value, f64)> {
     let harmonic =
         |stiffness: f64, length: f64| bonds(json!({"type": "harmonic", "stiffness": stiffness, "length": length}));
     vec![
-        ("repulsion", json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]), 5.0),
+        ("repulsion", json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]), 2.0),
         (
             "repulsion and memory",
             json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {"type": "memory", "rate": 10}}]),
-            5.0,
+            2.0,
         ),
         ("bonds", json!([harmonic(1.0, 0.0)]), 0.1),
         ("stiff bonds", json!([harmonic(400.0, 0.7)]), 1.0),
@@ -41,13 +41,18 @@ fn cases() -> Vec<(&'static str, Value, f64)> {
     ]
 }
 
-/// The largest momentum after some steps and on the way, in units, and the momentum of a unit.
-fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
+fn scene_of(interactions: &Value, temperature: f64) -> Scene {
     let text = json!({
         "title": "cold", "seed": 5, "space": {"box": [8, 8, 8]}, "time": {"step": 0.01, "steps": 80}, "temperature": temperature,
         "particles": [{"species": "A", "count": 120, "chain": {"beads": 12}}], "interactions": interactions,
     });
-    let scene = scene::parse("cold", &text.to_string(), &[]).unwrap();
+    scene::parse("cold", &text.to_string(), &[]).unwrap()
+}
+
+/// The largest momentum after some steps and on the way, in units, and the momentum of a unit. Great heat may tear bonds of
+/// finite length apart, and then it is that until there.
+fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
+    let scene = scene_of(interactions, temperature);
     let model = Model::new(&scene);
     let unit = model.units.momentum;
     let state = placement::initial_state(&scene, &model);
@@ -56,7 +61,11 @@ fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     if model.is_coupled() {
         let mut run = CouplingsReference::new(model, state);
         for _ in 0..80 {
-            run.step().unwrap();
+            match run.step() {
+                Ok(()) => {}
+                Err(Unstable::Bond { .. }) if temperature >= 1.0 => break,
+                Err(problem) => panic!("{interactions}, kT = {temperature}: {problem:?}"),
+            }
             most = most.max(of(&run.state().momenta));
         }
     } else {
@@ -91,7 +100,7 @@ fn momenta_fit_and_are_resolved_at_any_temperature() {
 fn heat_rules_the_unit_where_it_is_larger_than_what_forces_do() {
     for (name, interactions, _) in cases().into_iter().filter(|(name, ..)| *name != "coloured noise") {
         for temperature in [1.0, 4.0, 100.0] {
-            let (_, unit) = largest(&interactions, temperature);
+            let unit = Model::new(&scene_of(&interactions, temperature)).units.momentum;
             assert_eq!(unit, (temperature.sqrt().log2().ceil() - 24.0).exp2(), "{name}");
         }
     }
