@@ -281,8 +281,8 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
 }
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
-/// have room for 64 of the scale that their unit follows.
-const RULED_BY_FORCES: f64 = 128.0;
+/// have room for 64 of the scale that their unit follows, and heat and neighbours add to it.
+const RULED_BY_FORCES: f64 = 40.0;
 /// Part of the largest momentum that forces are expected to make which the unit then follows.
 const PART_OF_LARGEST: f64 = 0.125;
 
