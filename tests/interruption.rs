@@ -305,7 +305,9 @@ fn resume_completes_what_is_missing() {
         fs::remove_file(place.path("swept").join(name)).unwrap();
     }
     let stale = ["seed=1", ""].map(|run| place.path("swept").join(run).join("run.json.mesoscope-1-1.tmp"));
-    stale.iter().for_each(|path| fs::write(path, "half").unwrap());
+    for path in &stale {
+        fs::write(path, "half").unwrap();
+    }
     succeeds(&["sweep", "--resume", &swept, "--quiet"]);
     assert!(stale.iter().all(|path| !path.exists()));
     for (name, kept) in missing.iter().zip(&kept).filter(|(name, _)| name.ends_with("png")) {
