@@ -318,7 +318,9 @@ fn momentum_unit(
     {
         scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
     }
-    let forced = forces::momentum(scene, heaviest, pair_force);
+    // Of the lightest: a unit for what forces make of a heavy particle could not resolve a light one.
+    let lightest = species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(heaviest);
+    let forced = forces::momentum(scene, lightest, pair_force);
     if scale == 0.0 {
         // Forces far below 1 would be lost in rounding.
         scale = if forced > 0.0 && forced < 1.0 / 1024.0 { forced } else { 1.0 };
