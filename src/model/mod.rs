@@ -281,8 +281,8 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
 }
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
-/// have room for 64 of the scale that their unit follows, and heat and neighbours add to it.
-const RULED_BY_FORCES: f64 = 40.0;
+/// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.
+const RULED_BY_FORCES: f64 = 48.0;
 /// Part of the largest momentum that forces are expected to make which the unit then follows.
 const PART_OF_LARGEST: f64 = 0.125;
 
@@ -325,7 +325,7 @@ fn momentum_unit(
         // Forces far below 1 would be lost in rounding.
         scale = if forced > 0.0 && forced < 1.0 / 1024.0 { forced } else { 1.0 };
     }
-    if forced > RULED_BY_FORCES * scale {
+    if forced > RULED_BY_FORCES * scale.log2().ceil().exp2() {
         scale = PART_OF_LARGEST * forced;
     }
     // Voronoi cells that come close throw each other apart, at steps that are too long for them by hundreds of these momenta.
