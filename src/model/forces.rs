@@ -6,15 +6,11 @@ use crate::scene::{BondPotential, BondsInteraction, Interaction, Placement, Scen
 /// Part of an edge of the box to which integer positions resolve, and some more: springs as long as they should be are off by it.
 const RESOLUTION: f64 = 1.0 / (1 << 28) as f64;
 
-/// A particle that starts among several others rolls down the repulsion of them all.
-const NEIGHBOURS: f64 = 4.0;
-
 /// The largest momentum that a particle of a mass is expected to get from potentials.
 pub(super) fn momentum(scene: &Scene, mass: f64, pair_force: Option<&PairForce>) -> f64 {
     let longest = scene.space.lengths.iter().copied().fold(0.0, f64::max);
     let of_spring = |stiffness: f64, extension: f64| (mass * stiffness).sqrt() * extension.max(RESOLUTION * longest);
-    let mut most =
-        pair_force.map_or(0.0, |force| NEIGHBOURS * (mass * force.largest_repulsion() * force.cutoff).sqrt());
+    let mut most = pair_force.map_or(0.0, |force| (mass * force.largest_repulsion() * force.cutoff).sqrt());
     for interaction in &scene.interactions {
         most = most.max(match interaction {
             Interaction::Tether(spring) => of_spring(spring.stiffness, 0.0),
