@@ -27,7 +27,7 @@ fn cases() -> Vec<(&'static str, Value, f64)> {
         ),
         ("bonds", json!([harmonic(1.0, 0.0)]), 0.1),
         ("stiff bonds", json!([harmonic(400.0, 0.7)]), 1.0),
-        ("weak bonds", json!([harmonic(1e-6, 0.0)]), 1e-4),
+        ("weak bonds", json!([harmonic(1e-6, 0.0)]), 1e-7),
         ("bonds at rest", json!([harmonic(1.0, 1.0)]), 0.0),
         ("finite bonds", json!([bonds(json!({"type": "fene", "stiffness": 30, "extent": 1.5}))]), 1.0),
         ("angles", json!([harmonic(10.0, 1.0), {"type": "angles", "stiffness": 5}]), 0.3),

@@ -322,8 +322,8 @@ fn momentum_unit(
     let lightest = species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(heaviest);
     let forced = forces::momentum(scene, lightest, pair_force);
     if scale == 0.0 {
-        // Forces far below 1 would be lost in rounding.
-        scale = if forced > 0.0 && forced < 1.0 / 1024.0 { forced } else { 1.0 };
+        // The impulses of weak forces in one step would be lost in rounding.
+        scale = if forced > 0.0 && forced < 1.0 / 16.0 { forced } else { 1.0 };
     }
     if forced > RULED_BY_FORCES * scale.log2().ceil().exp2() {
         scale = PART_OF_LARGEST * forced;
