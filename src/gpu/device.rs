@@ -125,7 +125,7 @@ impl Gpu {
     /// let counter = Arc::clone(&seen);
     /// let rewriting = Arc::new(move |_: &mut naga::Module, _| *counter.lock().unwrap() += 1);
     /// let gpu = Gpu::open_rewriting(&AdapterChoice::Best, Requirements::default(), rewriting)?;
-    /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]".to_owned()])?;
+    /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]", "output={}"].map(str::to_owned))?;
     /// # let model = Model::new(&scene);
     /// # let start = scene::placement::initial_state(&scene, &model);
     /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());

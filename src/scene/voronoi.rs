@@ -240,10 +240,10 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
     let cells: u64 =
         scene.particles.iter().fold(0, |sum, group| sum.saturating_add(group.resolved_count(scene.space.volume())));
     // A cell between its own images, many of them within its length, takes the longer to cut out the more they are.
-    let least = 0.1 * (scene.space.volume() / cells.max(1) as f64).sqrt();
+    let least = 1e-3 * (scene.space.volume() / cells.max(1) as f64).sqrt();
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if scene.space.lengths.len() == 2 && *length < least {
-            let accepted = format!("at least {least:.3e}, a tenth of the width of a cell on average");
+            let accepted = format!("at least {least:.3e}, a thousandth of the width of a cell on average");
             problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
         }
     }
