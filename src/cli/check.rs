@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu::{self, Gpu, GpuError};
+use mesoscope::engine::EngineError;
+use mesoscope::gpu::{self, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
 use mesoscope::printable;
-use mesoscope::run::{self, RunError, Sizes};
+use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{
     self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
     MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
@@ -53,10 +54,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
     let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
-    let (adapter, time) = match &opened {
-        Ok(gpu) => (gpu.description().name.clone(), Some(expected_time(&scene, gpu))),
-        Err(RunError::Gpu(GpuError::NoAdapter)) => ("none here; the plan is the one for any adapter".to_owned(), None),
-        Err(_) => ("none that could run it; the plan is the one for any adapter".to_owned(), None),
+    let trial = opened.as_ref().ok().filter(|_| scene.time.steps > 0).map(|gpu| run::expected_time(&scene, gpu));
+    let time = trial.as_ref().map(|trial| expected_time(&scene, trial));
+    let adapter = match &opened {
+        Ok(gpu) => gpu.description().name.clone(),
+        Err(RunError::Gpu(GpuError::NoAdapter)) => "none here; the plan is the one for any adapter".to_owned(),
+        Err(_) => "none that could run it; the plan is the one for any adapter".to_owned(),
     };
     let sizes = Sizes::of(&scene, &model, &plan);
     let mut text = overview(&scene, &model, &plan, &adapter, time, &sizes);
@@ -68,15 +71,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
     print(&text)?;
-    opened.map_or_else(|error| Err(error.into()), |_| Ok(()))
+    opened?;
+    match trial {
+        // A run that becomes unstable is a matter of the scene, not of the adapter.
+        Some(Err(error @ (RunError::Gpu(_) | RunError::Engine(EngineError::GaveUp { .. })))) => Err(error.into()),
+        _ => Ok(()),
+    }
 }
 
 /// How long the run takes here, in words.
-fn expected_time(scene: &Scene, gpu: &Gpu) -> String {
-    if scene.time.steps == 0 {
-        return "no steps".to_owned();
-    }
-    let expected = match run::expected_time(scene, gpu) {
+fn expected_time(scene: &Scene, trial: &Result<ExpectedTime, RunError>) -> String {
+    let expected = match trial {
         Ok(expected) => expected,
         Err(error) => return format!("unknown: a trial of the first steps ended with: {error}"),
     };
@@ -453,7 +458,8 @@ fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
     ];
     if let Some(water) = &model.shallow_water {
         if water.closed_loops().next().is_some() {
-            rows.push((files::CIRCULATION.to_owned(), format!("a row {}", interval(0, output.energies.every))));
+            let when = format!("a row {}", interval(0, output.energies.every));
+            rows.push((files::CIRCULATION.to_owned(), sized(&when, sizes.circulation)));
         }
         let fields = output.fields.clone().unwrap_or_default();
         for quantity in fields.quantities {

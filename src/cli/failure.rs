@@ -111,7 +111,7 @@ impl From<RunError> for Failure {
             )),
             RunError::Checkpoint(CheckpointError::Version { .. }) => Self::input_output(error.to_string()),
             RunError::Checkpoint(_) => Self::input_output(format!(
-                "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene anew with --force"
+                "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene again with --force"
             )),
             error => Self::of_run(&error, error.to_string()),
         }

@@ -106,6 +106,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let executed = run.execute(&choice, jobs, &mut |event| reporter.tell(event));
         reporter.clear();
         let outcome = executed?;
+        reporter.warn_of_results(&outcome);
         print(&sweep_report::results(&outcome, &directory.display().to_string()))?;
         outcome
     };

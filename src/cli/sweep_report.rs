@@ -4,6 +4,7 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::run::Progress;
 use mesoscope::scene;
@@ -28,30 +29,57 @@ pub struct Reporter {
     waiting: usize,
 }
 
+/// Lines for the user; one that concerns several variants is written once.
+#[derive(Default)]
+struct Texts<'a>(Vec<(String, Vec<&'a str>)>);
+
+impl<'a> Texts<'a> {
+    fn add(&mut self, text: String, variant: &'a str) {
+        match self.0.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, names)) => names.push(variant),
+            None => self.0.push((text, vec![variant])),
+        }
+    }
+
+    fn tell(self, variants: usize) {
+        for (text, names) in self.0 {
+            let place = if names.len() == variants { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
+            line(&format!("{text}{place}"));
+        }
+    }
+}
+
 impl Reporter {
     pub fn new(sweep: Sweep) -> Self {
         Self { sweep, bar: None, under_way: Vec::new(), done: 0, ended: 0, waiting: 0 }
     }
 
-    /// Warnings about the scenes; one that all variants share is said once.
+    /// Warnings about the scenes.
     pub fn warn(&self) {
-        let variants = self.sweep.variants();
-        let mut known: Vec<(String, Vec<&str>)> = Vec::new();
-        for variant in variants {
-            let notices = variant.notices.iter().map(|notice| format!("note: {notice}"));
-            let warnings = scene::warnings(&variant.scene);
-            for text in notices.chain(warnings.iter().map(|warning| format!("warning: {warning}"))) {
-                match known.iter_mut().find(|(other, _)| *other == text) {
-                    Some((_, names)) => names.push(&variant.name),
-                    None => known.push((text, vec![&variant.name])),
-                }
+        let mut texts = Texts::default();
+        for variant in self.sweep.variants() {
+            for notice in &variant.notices {
+                texts.add(format!("note: {notice}"), &variant.name);
+            }
+            for warning in scene::warnings(&variant.scene) {
+                texts.add(format!("warning: {warning}"), &variant.name);
             }
         }
-        for (text, names) in known {
-            let place =
-                if names.len() == variants.len() { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
-            line(&format!("{text}{place}"));
+        texts.tell(self.sweep.variants().len());
+    }
+
+    /// What the runs themselves gave rise to; means that include the way to equilibrium are marked in the table.
+    pub fn warn_of_results(&self, outcome: &SweepOutcome) {
+        let mut texts = Texts::default();
+        for (variant, summary) in self.sweep.variants().iter().zip(&outcome.summary.variants) {
+            let of_scene = scene::warnings(&variant.scene);
+            let before = variant.notices.iter().chain(&of_scene).map(ToString::to_string);
+            let known: Vec<String> = before.chain(summary.unequilibrated.as_ref().map(ToString::to_string)).collect();
+            for warning in summary.warnings.iter().filter(|warning| !known.contains(warning)) {
+                texts.add(format!("warning: {warning}"), &variant.name);
+            }
         }
+        texts.tell(self.sweep.variants().len());
     }
 
     pub fn clear(&mut self) {
@@ -153,6 +181,11 @@ impl Reporter {
     }
 }
 
+/// A mean in the table, with a mark if it includes the way to equilibrium.
+fn marked(mean: Option<String>, spoilt: bool) -> String {
+    mean.map_or_else(String::new, |mean| if spoilt { format!("{mean} †") } else { mean })
+}
+
 /// The table at the end and the files written.
 pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
@@ -165,7 +198,8 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     for variant in variants {
         let mut row = vec![variant.name.clone()];
         if variant.state == VariantState::Finished {
-            row.extend(columns.iter().map(|name| mean(&variant.means, name).unwrap_or_default()));
+            let spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
+            row.extend(columns.iter().map(|name| marked(mean(&variant.means, name), spoilt(name))));
             row.push(format!("{:.2} s", variant.wall_seconds));
         } else {
             row.push(variant.state.name().to_owned());
@@ -180,11 +214,21 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
         rows.push(header);
         for average in averages {
             let mut row = vec![average.label.clone()];
-            row.extend(columns.iter().map(|name| mean(&average.means, name).unwrap_or_default()));
+            let spoilt = |name: &str| average.unequilibrated.iter().any(|known| known == name);
+            row.extend(columns.iter().map(|name| marked(mean(&average.means, name), spoilt(name))));
             rows.push(row);
         }
     }
-    let unsettled = rows.iter().flatten().any(|cell| cell.ends_with('*'));
-    let note = if unsettled { "  * from few samples: the error may be larger\n" } else { "" };
+    let mut note = String::new();
+    if rows.iter().flatten().any(|cell| cell.trim_end_matches(" †").ends_with('*')) {
+        note.push_str("  * from few samples: the error may be larger\n");
+    }
+    if rows.iter().flatten().any(|cell| cell.ends_with('†')) {
+        let found = || variants.iter().filter_map(|variant| variant.unequilibrated.as_ref());
+        let equilibration = found().map(|found| found.equilibration).max().unwrap_or(0);
+        let steps = found().filter_map(|found| found.steps).max();
+        let arguments = Unequilibrated { means: Vec::new(), equilibration, steps }.arguments();
+        note = format!("{note}  † not yet in equilibrium: try {arguments}\n");
+    }
     format!("{}{note}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), outcome.files.join(", "))
 }

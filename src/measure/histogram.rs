@@ -153,16 +153,17 @@ pub fn maxwell_density(speed: f64, mean_square: f64, dimension: usize) -> f64 {
 /// // Over a narrow interval the mean is the density in its middle, over a wide one it is not.
 /// assert!((gaussian_mean([0.5, 0.501], 0.0, 1.0) / gaussian_density(0.5005, 0.0, 1.0) - 1.0).abs() < 1e-6);
 /// assert!(gaussian_mean([-1.0, 1.0], 0.0, 1.0) < 0.9 * gaussian_density(0.0, 0.0, 1.0));
+/// // A mean that the edges are too large to show.
+/// assert_eq!(gaussian_mean([-0.5, 0.5], 1e-19, 1.0), gaussian_mean([-0.5, 0.5], 0.0, 1.0));
 /// ```
 #[must_use]
 pub fn gaussian_mean([low, high]: [f64; 2], mean: f64, standard_deviation: f64) -> f64 {
     let density = |value: f64| gaussian_density(value, mean, standard_deviation);
     let beyond = |value: f64| 0.5 * libm::erfc((value - mean) / (SQRT_2 * standard_deviation));
-    if low + high < 2.0 * mean {
-        // Of the two tails, the differences of the smaller one have more digits.
-        return gaussian_mean([2.0 * mean - high, 2.0 * mean - low], mean, standard_deviation);
-    }
-    mean_over([low, high], standard_deviation, &density, &beyond)
+    // Of the two tails, the differences of the smaller one have more digits.
+    let mirrored = low + high < 2.0 * mean;
+    let interval = if mirrored { [2.0 * mean - high, 2.0 * mean - low] } else { [low, high] };
+    mean_over(interval, standard_deviation, &density, &beyond)
 }
 
 /// The mean of [`maxwell_density`] over an interval of speeds, none of them negative.

@@ -39,31 +39,42 @@ impl RunDirectory {
     /// removed, so that what is there afterwards belongs to one run.
     ///
     /// # Errors
-    /// [`OutputError::InUse`] when another process writes there; [`OutputError::InTheWay`] when there are files of an earlier run and `force` is not given;
-    /// [`OutputError::DirectoryInTheWay`] when a directory has the name of a result; [`OutputError::NoDirectory`] when
+    /// [`OutputError::InUse`] when another process writes there; [`OutputError::InTheWay`] when there are files of an earlier
+    /// run and `force` is not given; [`OutputError::DirectoryInTheWay`] when a directory has the name of a result; [`OutputError::NoDirectory`] when
     /// `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
+        let directory = Self::make(path)?;
+        directory.clear(force)?;
+        Ok(directory)
+    }
+
+    /// Creates the directory and takes its lock; what is in it stays.
+    pub(crate) fn make(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let path = path.into();
         if path.exists() && !path.is_dir() {
             return Err(OutputError::NoDirectory { path });
         }
         fs::create_dir_all(&path).map_err(OutputError::io("create the directory", &path))?;
-        let directory = Self::claim(path)?;
-        let in_the_way = directory.names(files::is_of_a_run)?;
+        Self::claim(path)
+    }
+
+    /// Removes the files of an earlier run, if that is allowed, and makes sure that the directory can be written to.
+    pub(crate) fn clear(&self, force: bool) -> Result<(), OutputError> {
+        let in_the_way = self.names(files::is_of_a_run)?;
         // Nothing is removed where not everything can be.
-        let mut paths = in_the_way.iter().map(|name| directory.file(name));
+        let mut paths = in_the_way.iter().map(|name| self.file(name));
         if let Some(path) = paths.find(|path| path.is_dir()) {
             return Err(OutputError::DirectoryInTheWay { path });
         }
         if let (false, Some(name)) = (force, in_the_way.first()) {
-            return Err(OutputError::InTheWay { path: directory.file(name) });
+            return Err(OutputError::InTheWay { path: self.file(name) });
         }
-        directory.probe()?;
+        self.probe()?;
         for name in in_the_way {
-            let path = directory.file(&name);
+            let path = self.file(&name);
             fs::remove_file(&path).map_err(OutputError::io("replace", &path))?;
         }
-        Ok(directory)
+        Ok(())
     }
 
     /// Takes the lock of the directory of an earlier run, to resume it or to draw its plots, and removes what a killed

@@ -28,7 +28,10 @@ pub enum OutputError {
         path: PathBuf,
     },
     /// Another process writes into the directory.
-    #[error("`{}` is in use by {holder}: wait for its end, or stop it, or choose another directory", directory.display())]
+    #[error(
+        "`{}` is in use by {holder}: wait for its end, or stop it, or choose another directory",
+        crate::printable::path(directory)
+    )]
     InUse {
         /// The directory.
         directory: PathBuf,
@@ -36,7 +39,10 @@ pub enum OutputError {
         holder: String,
     },
     /// A file that a run kept open is not what it was.
-    #[error("`{}` is not complete: {problem} while the run was under way; what it wrote since is lost, run the scene anew with --force", path.display())]
+    #[error(
+        "`{}` is not complete: {problem} while the run was under way; what it wrote since is lost, run the scene again with --force",
+        crate::printable::path(path)
+    )]
     Lost {
         /// The file.
         path: PathBuf,
@@ -91,7 +97,7 @@ pub enum OutputError {
     },
     /// A table lacks a row that was written before.
     #[error(
-        "`{}` is not what the run wrote: the row of step {step} is missing; restore the file, or run the scene anew with --force",
+        "`{}` is not what the run wrote: the row of step {step} is missing; restore the file, or run the scene again with --force",
         crate::printable::path(path)
     )]
     MissingRow {
@@ -101,16 +107,34 @@ pub enum OutputError {
         step: u64,
     },
     /// A file that a run is to go on with holds something else than was written.
-    #[error("`{}` is not what the run wrote: its length or checksum is not the one that the run noted; restore the file, or run the scene anew with --force", path.display())]
+    #[error(
+        "`{}` is not what the run wrote: its length or checksum is not the one that the run noted; restore the file, or run the scene again with --force",
+        crate::printable::path(path)
+    )]
     Altered {
         /// The table or trajectory.
         path: PathBuf,
     },
     /// Files of different runs in one directory.
-    #[error("`{}` belongs to another run than `{}`, of another scene or seed: put the files of one run together, or run the scene anew with --force", path.display(), files::CHECKPOINT)]
+    #[error(
+        "`{}` belongs to another run than `{}`, of another scene or seed: put the files of one run together, or run the scene again with --force",
+        crate::printable::path(path),
+        files::CHECKPOINT
+    )]
     OtherRun {
         /// The summary of the other run.
         path: PathBuf,
+    },
+    /// A run was taken further than its summary says, and has not ended.
+    #[error(
+        "the run in `{0}` was continued beyond step {finished} and has not ended: `mesoscope resume {0}` goes on with it",
+        crate::printable::path(directory)
+    )]
+    Continued {
+        /// The directory of the run.
+        directory: PathBuf,
+        /// The step up to which it was finished, or was to be.
+        finished: u64,
     },
     /// No run has been finished in the directory.
     #[error("`{}` is missing: {advice}", crate::printable::path(path))]
@@ -122,7 +146,7 @@ pub enum OutputError {
     },
     /// A table of a run has other columns than the run writes.
     #[error(
-        "`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene anew with --force",
+        "`{}` is not what the run wrote: it has the columns `{found}`, and the run writes `{expected}`; restore the file, or run the scene again with --force",
         crate::printable::path(path)
     )]
     Columns {

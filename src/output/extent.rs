@@ -31,9 +31,14 @@ impl Extent {
     /// # Errors
     /// [`OutputError::Io`] when it cannot be read.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
+        Self::of_beginning(path, u64::MAX)
+    }
+
+    /// The extent of a file of which at most so many bytes are looked at.
+    pub(super) fn of_beginning(path: &Path, bytes: u64) -> Result<Self, OutputError> {
         let read = || {
             let mut sum = Checksum::default();
-            let bytes = sum.read(&mut File::open(path)?)?;
+            let bytes = sum.read(&mut File::open(path)?.take(bytes))?;
             Ok(sum.extent(bytes))
         };
         read().map_err(OutputError::io("read", path))

@@ -1,6 +1,7 @@
 //! The lock of a directory: one process at a time writes there.
 
 use super::{OutputError, files};
+use crate::printable;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -44,9 +45,8 @@ impl DirectoryLock {
         loop {
             let mut file = open(&path).map_err(refused)?;
             match file.try_lock() {
-                // Protection that there is not is no reason to refuse a run.
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
-                Err(TryLockError::Error(source)) => return Err(OutputError::Io { attempted: "lock", path, source }),
+                // A file system without locks, as some network file systems are, is no reason to refuse a run.
+                Ok(()) | Err(TryLockError::Error(_)) => {}
                 Err(TryLockError::WouldBlock) => {
                     let holder = match read(&mut file) {
                         Ok(Content::Process(process)) => format!("process {process}"),
@@ -55,7 +55,6 @@ impl DirectoryLock {
                     };
                     return Err(OutputError::InUse { directory: directory.into(), holder });
                 }
-                Ok(()) => {}
             }
             // Who held the lock may have removed the file after it was opened here: then it protects nothing.
             if !is_at(&file, &path) {
@@ -95,7 +94,7 @@ impl Drop for DirectoryLock {
 /// Opens the file, or makes it; a link is not followed.
 fn open(path: &Path) -> io::Result<File> {
     if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
-        let text = format!("`{}` is not the lock of a run; move it away", path.display());
+        let text = format!("`{}` is not the lock of a run; move it away", printable::path(path));
         return Err(io::Error::new(io::ErrorKind::AlreadyExists, text));
     }
     File::options().read(true).write(true).create(true).truncate(false).open(path)

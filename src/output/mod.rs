@@ -33,3 +33,4 @@ pub use table::{Table, read_table, write_table};
 pub(crate) use table::{push_number, quoted};
 pub use temporary::write_atomically;
 pub use trajectory::TrajectoryWriter;
+pub(crate) use watch::exists;

@@ -5,6 +5,7 @@ use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 
 /// What a run did, on what, and what came out.
@@ -109,6 +110,22 @@ impl Unequilibrated {
     }
 }
 
+impl fmt::Display for Unequilibrated {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let named: Vec<String> = self.means.iter().take(3).map(|mean| format!("`{}`", mean.quantity)).collect();
+        let more = self.means.len() - named.len();
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let [verb, noun] = if self.means.len() == 1 { ["includes", "mean"] } else { ["include", "means"] };
+        let (named, arguments) = (named.join(", "), self.arguments());
+        write!(formatter, "the {noun} of {named}{more} {verb} the way to equilibrium")?;
+        if self.steps.is_some() {
+            write!(formatter, ", which this run did not reach: run longer, as with `{arguments}`")
+        } else {
+            write!(formatter, ": leave it out with `{arguments}`")
+        }
+    }
+}
+
 /// The adapter a run computed on.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct AdapterSummary {
@@ -162,13 +179,19 @@ impl Summary {
     /// Looks whether the tables in a directory are those that the run wrote.
     ///
     /// # Errors
-    /// [`OutputError::Altered`] names the first that is not, [`OutputError::Io`] the first that cannot be read.
+    /// [`OutputError::Altered`] names the first that is not, [`OutputError::Continued`] means that the run went on and was
+    /// killed, [`OutputError::Io`] names the first that cannot be read.
     pub fn check_tables(&self, directory: &RunDirectory) -> Result<(), OutputError> {
         for (name, extent) in &self.tables {
             let path = directory.file(name);
-            if Extent::of(&path)? != *extent {
-                return Err(OutputError::Altered { path });
+            if Extent::of(&path)? == *extent {
+                continue;
             }
+            if Extent::of_beginning(&path, extent.bytes)? == *extent {
+                let (directory, finished) = (directory.path().to_path_buf(), self.steps);
+                return Err(OutputError::Continued { directory, finished });
+            }
+            return Err(OutputError::Altered { path });
         }
         Ok(())
     }

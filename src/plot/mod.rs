@@ -68,10 +68,12 @@ pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use numbers::with_error;
 pub use overlay::{Curve, overlay_chart};
 pub use particles::ParticlePicture;
+pub(crate) use particles::snapshot_size;
 pub use presets::{
     EnergyTable, autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, radial_distribution_chart,
     shallow_water_chart,
 };
+pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
 pub use text::missing_glyphs;

@@ -3,7 +3,7 @@
 use super::canvas::{Area, Canvas};
 use super::error::PlotError;
 use super::palette::{Colour, Inks, inks, scale_colour};
-use super::snapshot_page::{Key, Page};
+use super::snapshot_page::{self, Key, Page};
 use crate::scene::{Snapshot, SnapshotColor, Theme};
 use bytemuck::{Pod, Zeroable};
 
@@ -110,6 +110,26 @@ fn check(picture: &ParticlePicture<'_>, style: &Snapshot) -> Result<(), PlotErro
     Ok(())
 }
 
+/// Width and height in pixels of a snapshot of a box.
+pub(crate) fn snapshot_size(style: &Snapshot, dimension: u32, lengths: [f64; 3]) -> [f64; 2] {
+    let [right, up, _] = view(dimension);
+    let lengths = visible(dimension, lengths);
+    snapshot_page::size(style, [extent(right, lengths), extent(up, lengths)])
+}
+
+/// Edges of the box that are drawn: a plane has no depth.
+fn visible(dimension: u32, mut lengths: [f64; 3]) -> [f64; 3] {
+    if dimension == 2 {
+        lengths[2] = 0.0;
+    }
+    lengths
+}
+
+/// Extent of a box along an axis of the view.
+fn extent(axis: [f64; 3], lengths: [f64; 3]) -> f64 {
+    (0..3).map(|i| axis[i].abs() * lengths[i]).sum()
+}
+
 /// Lays out a picture of the particles: shapes below and above them, and the view.
 ///
 /// # Errors
@@ -121,12 +141,9 @@ pub(super) fn lay_out(
 ) -> Result<(Canvas, SphereScene), PlotError> {
     check(picture, style)?;
     let inks = inks(theme);
-    let mut lengths = picture.lengths;
-    if picture.dimension == 2 {
-        lengths[2] = 0.0;
-    }
     let [right, up, toward] = view(picture.dimension);
-    let extent = |axis: [f64; 3]| (0..3).map(|i| axis[i].abs() * lengths[i]).sum::<f64>();
+    let lengths = visible(picture.dimension, picture.lengths);
+    let extent = |axis| extent(axis, lengths);
     let page = Page::new(style, [extent(right), extent(up)]);
     let [width, height] = page.pixels();
     let mut canvas = Canvas::new(width, height, inks.paper)?;

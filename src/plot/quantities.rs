@@ -28,7 +28,7 @@ const COLUMNS: [(&str, &str, usize); 11] = [
 /// A mean is a lower bound of its error where it comes from few samples; its name in a legend ends in this.
 pub(super) const FEW_SAMPLES: &str = "*";
 /// The name of a mean that includes the way to equilibrium ends in this.
-pub(super) const UNEQUILIBRATED: &str = "†";
+pub(crate) const UNEQUILIBRATED: &str = "†";
 
 /// Means of columns of the table of energies, taken over the end of a run.
 #[derive(Debug, Clone, PartialEq, Default)]

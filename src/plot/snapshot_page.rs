@@ -335,7 +335,7 @@ impl Page {
 }
 
 /// Width and height of the page: what the style says, and else what the shape of the view asks for.
-fn size(style: &Snapshot, shape: [f64; 2]) -> [f64; 2] {
+pub(super) fn size(style: &Snapshot, shape: [f64; 2]) -> [f64; 2] {
     let given = [style.width, style.height].map(|side| side.map(f64::from));
     if let [Some(width), Some(height)] = given {
         return [width, height];

@@ -109,10 +109,7 @@ pub(crate) fn read(path: &Path, scene: &Scene, step: u64) -> Result<Table, Outpu
 
 /// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.
 fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputError> {
-    let text = match std::fs::read_to_string(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Some(0)),
-        text => text.map_err(OutputError::io("continue", path))?,
-    };
+    let text = std::fs::read_to_string(path).map_err(OutputError::io("continue", path))?;
     let whole = text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n'));
     let mut steps = whole.map_while(|line| line.split([',', '\n']).next()?.parse::<u64>().ok());
     let mut wanted = (0..end).step_by(usize::try_from(every).unwrap_or(usize::MAX).max(1));
@@ -140,10 +137,10 @@ impl EnergyRecorder {
             None => (EnergiesFile::create(path, &names)?, Vec::new()),
             Some(written) => match EnergiesFile::resume(path, &names, written) {
                 Err(OutputError::Altered { path }) => {
-                    let missing = missing_row(&path, step, scene.output.energies.every)?;
-                    return Err(match missing {
-                        Some(step) => OutputError::MissingRow { path, step }.into(),
-                        None => OutputError::Altered { path }.into(),
+                    // The row is worth naming, if the rest can be read.
+                    return Err(match missing_row(&path, step, scene.output.energies.every) {
+                        Ok(Some(step)) => OutputError::MissingRow { path, step }.into(),
+                        _ => OutputError::Altered { path }.into(),
                     });
                 }
                 file => (file?, read_table(path)?.rows),
@@ -210,7 +207,7 @@ impl EnergyRecorder {
         if self.is_about_equilibrium {
             let EnergyTable { columns, rows } = self.table();
             summary.unequilibrated = settling::unequilibrated(&Table { columns, rows }, self.equilibration);
-            summary.warnings.extend(summary.unequilibrated.as_ref().map(settling::warning));
+            summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
         }
     }
 

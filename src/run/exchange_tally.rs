@@ -43,7 +43,7 @@ impl ExchangeTally {
     /// Completes what was measured: counts begin with the upload, and at that step no solution is known to the device.
     pub(super) fn complete(&self, observables: &mut Observables) {
         let Some(cells) = &mut observables.cells else { return };
-        cells.limited_exchanges += self.limited;
+        cells.limited_exchanges = cells.limited_exchanges.saturating_add(self.limited);
         if observables.step == self.step {
             cells.iterations = self.iterations;
             cells.residual = self.residual;
@@ -60,7 +60,7 @@ impl ExchangeTally {
         let solver = |word: usize| solver.get(word).copied().unwrap_or(0);
         let residual =
             (f64::from(f32::from_bits(solver(RESIDUAL))) * RESIDUAL_UNITS).round_ties_even() / RESIDUAL_UNITS;
-        let limited = self.limited + (high << 32 | low);
+        let limited = self.limited.saturating_add(high << 32 | low);
         if engine.step() == self.step {
             // Nothing was solved for since the upload.
             return Ok(bytes([limited as f64, self.iterations as f64, self.residual].into_iter()));

@@ -9,7 +9,7 @@ use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
 use crate::model::{Model, ShallowWater, Voronoi};
-use crate::output::{OutputError, RunDirectory, Summary, checkpoint, files, read_table, write_npy};
+use crate::output::{OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, EnergyTable, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
@@ -42,6 +42,10 @@ pub fn redraw(
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     summary.check_run(&checkpoint.scene, &directory.file(files::SUMMARY))?;
+    if checkpoint.state.step > summary.steps {
+        let (directory, finished) = (directory.path().to_path_buf(), summary.steps);
+        return Err(OutputError::Continued { directory, finished }.into());
+    }
     summary.check_tables(directory)?;
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
@@ -98,6 +102,8 @@ pub(super) struct Pictures<'a> {
     scene: &'a Scene,
     ranges: ColourRanges,
     plotter: Option<Plotter>,
+    /// Names of the files written so far.
+    written: Vec<String>,
 }
 
 impl<'a> Pictures<'a> {
@@ -108,12 +114,20 @@ impl<'a> Pictures<'a> {
         scene: &'a Scene,
         sections: &[(String, Vec<u8>)],
     ) -> Self {
-        Self { gpu, directory, scene, ranges: ColourRanges::restored(sections), plotter: None }
+        Self { gpu, directory, scene, ranges: ColourRanges::restored(sections), plotter: None, written: Vec::new() }
     }
 
     /// What a checkpoint has to keep.
     pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
         self.ranges.sections()
+    }
+
+    /// Looks whether everything that was written is still there.
+    ///
+    /// # Errors
+    /// [`OutputError::Lost`] names the first file that is not.
+    pub(super) fn check(&self) -> Result<(), OutputError> {
+        self.written.iter().try_for_each(|name| exists(&self.directory.file(name)))
     }
 
     /// Draws the table of energies with the means of a summary.
@@ -174,7 +188,7 @@ impl<'a> Pictures<'a> {
         // Nothing, if its columns are not those that the run wrote.
         if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
             let problem = format!(
-                "found the columns `{columns}`, none of which the run wrote; restore the file, or run the scene anew with --force"
+                "found the columns `{columns}`, none of which the run wrote; restore the file, or run the scene again with --force"
             );
             return Err(OutputError::Line { path: self.directory.file(name), line: 1, problem }.into());
         }
@@ -325,6 +339,7 @@ impl<'a> Pictures<'a> {
             written.push(name);
             let name = files::field(shown.stem, number, "npy");
             write_npy(&self.directory.file(&name), &field.nodes, &field.values)?;
+            self.written.push(name.clone());
             written.push(name);
         }
         Ok(written)
@@ -344,8 +359,10 @@ impl<'a> Pictures<'a> {
         Ok(self.plotter.insert(plotter))
     }
 
-    fn save(&self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
-        save(self.directory, name, drawn)
+    fn save(&mut self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+        save(self.directory, name, drawn)?;
+        self.written.push(name.to_owned());
+        Ok(())
     }
 }
 

@@ -5,12 +5,12 @@ use super::simulation::plan_for;
 use crate::engine::{Engine, EngineError};
 use crate::gpu::Gpu;
 use crate::model::Model;
-use crate::plan::Options;
+use crate::plan::{Options, Plan};
 use crate::scene::{self, Scene, placement};
 use std::time::{Duration, Instant};
 
-/// Particles, and nodes of a mesh, up to which steps of the scene itself are timed.
-const MOST_PARTICLES: u64 = 100_000;
+/// The work of a step and the nodes of a mesh, relative to the small fluid, up to which steps of the scene itself are timed.
+const MOST_WORK: f64 = 4.0;
 const MOST_NODES: u64 = 1 << 16;
 
 /// Time that steps are tried for.
@@ -36,7 +36,7 @@ pub struct ExpectedTime {
 
 /// Times some steps on an adapter: of the scene if it is small, else of a small fluid.
 ///
-/// It takes a quarter of a second beside what it takes to make the kernels.
+/// It takes a quarter of a second, or three steps where these are longer, beside what it takes to make the kernels.
 ///
 /// ```
 /// use mesoscope::gpu::AdapterChoice;
@@ -53,22 +53,20 @@ pub struct ExpectedTime {
 /// [`RunError`] if already the first steps fail.
 pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError> {
     let model = Model::new(scene);
+    let plan = plan_for(scene, &model, gpu, Options::default());
+    let fluid = scene::load("dpd-fluid", &["time.equilibration=0".to_owned(), "output={}".to_owned()])?;
+    let known = Model::new(&fluid);
+    let work = |plan: &Plan| plan.operations_per_particle * plan.particles as f64;
+    let relative = work(&plan) / work(&plan_for(&fluid, &known, gpu, Options::default()));
     let nodes = model.shallow_water.as_ref().map_or(0, crate::model::ShallowWater::nodes);
-    let of_scene = model.particle_count() <= MOST_PARTICLES && nodes <= MOST_NODES;
+    let of_scene = relative <= MOST_WORK && nodes <= MOST_NODES;
     let (step, steps) = if of_scene {
-        time_of_step(scene, &model, gpu)?
+        time_of_step(scene, &model, gpu, Options::default())?
     } else {
-        let fluid = scene::load("dpd-fluid", &["time.equilibration=0".to_owned(), "output={}".to_owned()])?;
-        let known = Model::new(&fluid);
-        let (step, steps) = time_of_step(&fluid, &known, gpu)?;
-        let work = |scene: &Scene, model: &Model| {
-            let plan = plan_for(scene, model, gpu, Options::default());
-            plan.operations_per_particle * plan.particles as f64
-        };
-        (step * work(scene, &model) / work(&fluid, &known), steps)
+        let (step, steps) = time_of_step(&fluid, &known, gpu, Options::default())?;
+        (step * relative, steps)
     };
     let all = scene.time.steps as f64;
-    let plan = plan_for(scene, &model, gpu, Options::default());
     // A report visits everything once more.
     let reports: f64 = plan.samplers.iter().map(|sampler| all / sampler.every as f64).sum();
     let factor = if of_scene { FACTOR_OF_SCENE } else { FACTOR_OF_ARITHMETIC };
@@ -76,13 +74,18 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
 }
 
 /// Seconds a step, and how many were timed.
-fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu) -> Result<(f64, u64), RunError> {
-    let plan = plan_for(scene, model, gpu, Options::default()).without_reports();
+fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Result<(f64, u64), RunError> {
+    let plan = plan_for(scene, model, gpu, options).without_reports();
     let state = placement::initial_state(scene, model);
     let mut engine = Engine::new(gpu, plan, &state)?;
     // The first steps list neighbours and touch memory for the first time.
-    engine.advance(2, 2)?;
-    engine.finish()?;
+    match engine.advance(2, 2).and_then(|()| engine.finish()) {
+        // As a run does.
+        Err(EngineError::Crowded { .. }) if options.has_room_left() => {
+            return time_of_step(scene, model, gpu, options.with_room(model.particle_count()));
+        }
+        ended => ended?,
+    };
     let (mut done, mut steps) = (0, 1);
     let start = Instant::now();
     loop {

@@ -52,23 +52,6 @@ pub(super) fn unequilibrated(table: &Table, equilibration: u64) -> Option<Unequi
     (!means.is_empty()).then_some(Unequilibrated { means, equilibration: wait, steps })
 }
 
-/// What to tell the user.
-pub(super) fn warning(found: &Unequilibrated) -> String {
-    let named: Vec<String> = found.means.iter().take(3).map(|mean| format!("`{}`", mean.quantity)).collect();
-    let more = found.means.len() - named.len();
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    let [verb, noun] = if found.means.len() == 1 { ["includes", "mean"] } else { ["include", "means"] };
-    let (named, arguments) = (named.join(", "), found.arguments());
-    if found.steps.is_some() {
-        format!(
-            "the {noun} of {named}{more} {verb} the way to equilibrium, which this run did not reach: run longer, as with \
-             `{arguments}`"
-        )
-    } else {
-        format!("the {noun} of {named}{more} {verb} the way to equilibrium: leave it out with `{arguments}`")
-    }
-}
-
 /// The next number of at most two digits and zeros.
 fn rounded_up(number: u64) -> u64 {
     let mut unit = 1;
@@ -107,7 +90,7 @@ mod tests {
             "the mean of `temperature` includes the way to equilibrium: leave it out with `--set time.equilibration={}`",
             found.equilibration
         );
-        assert_eq!(warning(&found), told);
+        assert_eq!(found.to_string(), told);
         // Which indeed leaves it out.
         assert_eq!(unequilibrated(&table, found.equilibration), None);
     }
@@ -116,7 +99,7 @@ mod tests {
     fn a_run_that_never_settles_is_to_be_longer() {
         let found = unequilibrated(&table(100, 60.0), 0).unwrap();
         assert_eq!((found.equilibration, found.steps, found.means[0].settled_from), (990, Some(1980), None));
-        let told = warning(&found);
+        let told = found.to_string();
         assert!(told.ends_with("run longer, as with `--set time.equilibration=990 --steps 1980`"), "{told}");
     }
 

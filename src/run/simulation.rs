@@ -19,7 +19,9 @@ use crate::measure::observables_of;
 use crate::model::{Model, ShallowWater};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, files};
+use crate::output::{
+    Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files,
+};
 use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::{self, Scene, TrajectoryFormat, Warning, placement};
 use std::path::{Path, PathBuf};
@@ -277,7 +279,8 @@ impl Task {
     fn stopped(&self, error: RunError, checkpoint_step: u64) -> RunError {
         let checkpoint = self.directory.file(files::CHECKPOINT);
         match error {
-            RunError::Output(source) if checkpoint.exists() => {
+            // What is lost no checkpoint goes on from.
+            RunError::Output(source) if checkpoint.exists() && !matches!(source, OutputError::Lost { .. }) => {
                 RunError::Stopped { source, checkpoint, checkpoint_step }
             }
             error => error,
@@ -616,6 +619,8 @@ impl<'a> Run<'a> {
         if let Some(trajectory) = &self.trajectory {
             trajectory.check()?;
         }
+        self.pictures.check()?;
+        exists(&self.directory.file(files::CHECKPOINT))?;
         let written: Vec<&str> = files::ALL.into_iter().filter(written).collect();
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;

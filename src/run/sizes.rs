@@ -2,6 +2,7 @@
 
 use crate::model::{Bonds, Model};
 use crate::plan::{Layout, Plan};
+use crate::plot::snapshot_size;
 use crate::scene::{Scene, TrajectoryFormat};
 
 /// Bytes of a number in a table, with its comma: most have sixteen or seventeen digits.
@@ -10,17 +11,19 @@ const NUMBER: u64 = 19;
 const XYZ_PARTICLE: u64 = 110;
 /// Bytes of a particle in a frame of GSD: position and velocity in single precision, and the image.
 const GSD_PARTICLE: u64 = 36;
+/// Bytes that a checkpoint keeps of a row of the table of energies: sums for the configurational temperature.
+const ROW_KEPT: u64 = 16;
 /// Bytes of a pixel in pictures, as they are compressed: measured, from .1 in plots to .4 in crowds of discs.
 const PLOT_PIXEL: f64 = 0.08;
 const PICTURE_PIXEL: f64 = 0.3;
-/// Pixels of the longer side of a snapshot.
-const LONGER_SIDE: f64 = 1200.0;
 
 /// Bytes that a run will write, file by file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sizes {
     /// `energies.csv`.
     pub energies: u64,
+    /// `circulation.csv`; tables of other analyses are small.
+    pub circulation: u64,
     /// The checkpoint; while one is replaced there are two.
     pub checkpoint: u64,
     /// The trajectory.
@@ -61,11 +64,13 @@ impl Sizes {
             TrajectoryFormat::Gsd => GSD_PARTICLE,
             TrajectoryFormat::ExtendedXyz => XYZ_PARTICLE,
         };
+        let loops = model.shallow_water.as_ref().map_or(0, |water| water.closed_loops().count() as u64);
+        let circulation =
+            if loops == 0 { 0 } else { times(output.energies.every).saturating_mul(NUMBER * (loops + 2)) };
         let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
             times(asked.every).saturating_mul(each(asked.format).saturating_mul(plan.particles).saturating_add(300))
         });
-        let width = f64::from(output.plot.width);
-        let plot_pixels = width * output.plot.height.map_or(0.75 * width, f64::from);
+        let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
         let (picture, pictures, numbered) = match &model.shallow_water {
             Some(water) => {
@@ -76,10 +81,9 @@ impl Sizes {
             }
             None if model.units.dimension == 1 => (0, 0, 0),
             None => {
-                let snapshot = &output.snapshot;
-                // Left out, a side follows the shape of the box.
-                let sides = [snapshot.width, snapshot.height].map(|side| side.map_or(LONGER_SIDE, f64::from));
-                ((PICTURE_PIXEL * sides[0] * sides[1]) as u64, 1, times(snapshot.every))
+                let [width, height] =
+                    snapshot_size(&output.snapshot, model.units.dimension as u32, model.units.lengths);
+                ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))
             }
         };
         let analyses = [
@@ -97,7 +101,8 @@ impl Sizes {
             + output.histograms.len();
         Self {
             energies,
-            checkpoint: checkpoint(model, plan),
+            circulation,
+            checkpoint: checkpoint(model, plan).saturating_add(times(output.energies.every).saturating_mul(ROW_KEPT)),
             trajectory,
             pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots as u64)),
             numbered: picture.saturating_mul(numbered),
@@ -107,13 +112,13 @@ impl Sizes {
     /// Bytes of all files at the end.
     #[must_use]
     pub fn total(&self) -> u64 {
-        [self.energies, self.checkpoint, self.trajectory, self.pictures, self.numbered]
+        [self.energies, self.circulation, self.checkpoint, self.trajectory, self.pictures, self.numbered]
             .into_iter()
             .fold(0, u64::saturating_add)
     }
 }
 
-/// Bytes of a checkpoint: the state of every particle, what a layout keeps beside, and the scene.
+/// Bytes of a checkpoint: the state of every particle, what a layout keeps beside, open windows, and the scene.
 fn checkpoint(model: &Model, plan: &Plan) -> u64 {
     const SCENE: u64 = 4096;
     // Position, momentum and species.
@@ -135,6 +140,12 @@ fn checkpoint(model: &Model, plan: &Plan) -> u64 {
             }
             beside += 4 * model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);
         }
+    }
+    if plan.paths.are_followed() {
+        particle += 12;
+    }
+    for window in plan.samplers.iter().filter_map(|sampler| sampler.window) {
+        beside += plan.buffers.iter().find(|buffer| buffer.name == window.buffer).map_or(0, |buffer| buffer.bytes);
     }
     particle.saturating_mul(plan.particles).saturating_add(beside)
 }

@@ -22,6 +22,9 @@ pub struct SeedAverage {
     pub seeds: usize,
     /// The mean over seeds of every quantity of the variants, with its standard error from their scatter.
     pub means: Map<String, Value>,
+    /// Quantities of which the mean of some seed includes the way to equilibrium.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unequilibrated: Vec<String>,
 }
 
 /// Variants that belong together, in order of the first of each.
@@ -61,10 +64,12 @@ impl Group<'_> {
         let others: Vec<Vec<Observable>> = others.iter().map(|variant| observables(variant)).collect();
         let average = |observable: Observable| {
             let found = others.iter().map(|others| others.iter().find(|other| other.name == observable.name));
-            let rest: Vec<f64> = found.map(|found| found.map(|other| other.value)).collect::<Option<_>>()?;
-            let values: Vec<f64> = std::iter::once(observable.value).chain(rest).collect();
+            let rest: Vec<&Observable> = found.collect::<Option<_>>()?;
+            let all = || std::iter::once(&observable).chain(rest.iter().copied());
+            let values: Vec<f64> = all().map(|observable| observable.value).collect();
+            let unequilibrated = all().any(|observable| observable.unequilibrated);
             let (value, error) = mean(&values);
-            Some(Observable { name: observable.name, value, error: Some(error) })
+            Some(Observable { name: observable.name, value, error: Some(error), unequilibrated })
         };
         observables(first).into_iter().filter_map(average).collect()
     }
@@ -91,7 +96,10 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
                 keys.iter().position(|known| *known == key).map_or_else(|| key.to_owned(), |index| short[index].clone())
             };
             let settings: Vec<Setting> = group.settings.iter().map(|setting| (*setting).clone()).collect();
-            let means = group.observables().into_iter().map(|Observable { name, value, error }| {
+            let observables = group.observables();
+            let spoilt = observables.iter().filter(|observable| observable.unequilibrated);
+            let unequilibrated = spoilt.map(|observable| observable.name.clone()).collect();
+            let means = observables.into_iter().map(|Observable { name, value, error, .. }| {
                 let estimate = Estimate {
                     mean: value,
                     standard_error: error,
@@ -103,7 +111,7 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
                 (name, serde_json::to_value(estimate).unwrap_or_default())
             });
             let label = if settings.is_empty() { "all".to_owned() } else { naming::label(&settings, short) };
-            SeedAverage { label, settings, seeds, means: means.collect() }
+            SeedAverage { label, settings, seeds, means: means.collect(), unequilibrated }
         })
         .collect()
 }
@@ -132,6 +140,7 @@ mod tests {
                 .as_object()
                 .cloned()
                 .unwrap_or_default(),
+            unequilibrated: None,
             warnings: Vec::new(),
         }
     }

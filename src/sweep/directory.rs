@@ -4,11 +4,12 @@ use super::expansion::Sweep;
 use super::files;
 use super::summary::SweepSummary;
 use crate::output::{OutputError, RunDirectory};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// Creates the directory of a sweep, takes its lock and makes sure that it can be written to. With `force`, the runs and files of an
-/// earlier sweep there, or of a single run, are removed; anything else is left alone.
+/// Creates the directory of a sweep, takes its lock and makes sure that it can be written to. With `force`, the runs and
+/// files of an earlier sweep there, or of a single run, are removed; anything else is left alone.
 ///
 /// # Errors
 /// [`OutputError::InTheWay`] when there are such files and `force` is not given; [`OutputError::Io`].
@@ -18,18 +19,19 @@ pub(super) fn create(path: &Path, sweep: &Sweep, force: bool) -> Result<RunDirec
         return Err(OutputError::InTheWay { path: first.clone() });
     }
     let earlier = SweepSummary::load(path).map(|summary| summary.variants).unwrap_or_default();
-    let directory = RunDirectory::create(path, force)?;
+    let directory = RunDirectory::make(path)?;
     let names = earlier.iter().map(|variant| &variant.name).chain(sweep.variants().iter().map(|variant| &variant.name));
     let of_variants = names.filter(|name| is_plain(name)).map(|name| path.join(name));
-    let of_variants: Vec<PathBuf> = of_variants.filter(|path| path.is_dir()).collect();
-    for variant in &of_variants {
-        // Nothing is removed where a run is under way.
-        RunDirectory::claim(variant)?;
-    }
-    for variant in &of_variants {
-        RunDirectory::create(variant, true)?;
-        // What else is in there belongs to the user, and so does then the directory.
-        let _ = fs::remove_dir(variant);
+    let of_variants: BTreeSet<PathBuf> = of_variants.filter(|path| path.is_dir()).collect();
+    // Nothing is removed where a run is under way.
+    let of_variants = of_variants.into_iter().map(RunDirectory::claim).collect::<Result<Vec<_>, _>>()?;
+    directory.clear(force)?;
+    for variant in of_variants {
+        variant.clear(true)?;
+        let path = variant.path().to_path_buf();
+        // With its lock goes the last file of ours; what else is in there belongs to the user, and so does the directory.
+        drop(variant);
+        let _ = fs::remove_dir(path);
     }
     for file in in_the_way.iter().filter(|path| path.is_file()) {
         fs::remove_file(file).map_err(OutputError::io("replace", file))?;

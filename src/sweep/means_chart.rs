@@ -7,7 +7,7 @@ use super::observables::Observable;
 use super::plots::Look;
 use super::summary::SweepSummary;
 use super::variation::Setting;
-use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, quantity_label};
+use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
 use serde_json::Value;
 
 /// Panels of one picture.
@@ -36,6 +36,8 @@ pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<
     } else {
         "means over time after equilibration, bars: standard errors".to_owned()
     };
+    let marked = panels.iter().any(|panel| panel.y.label.ends_with(UNEQUILIBRATED));
+    let subtitle = subtitle + if marked { ", † some with the way to equilibrium" } else { "" };
     let chart =
         |panels: &[Panel]| Chart { title: title.to_owned(), subtitle: subtitle.clone(), panels: panels.to_vec() };
     panels.chunks(PANELS).map(chart).collect()
@@ -112,7 +114,10 @@ impl<'a> MeansAxis<'a> {
 
     fn panel(&self, quantity: &str, found: &[(&Group<'_>, Vec<Observable>)]) -> Option<Panel> {
         let last = quantity.rsplit('.').next().unwrap_or(quantity);
-        let mut panel = Panel { x: self.axis.clone(), ..Panel::new("", &quantity_label(last, false)) };
+        let spoilt = found.iter().filter_map(|(_, found)| value_of(found, quantity)).any(|found| found.unequilibrated);
+        let mark = if spoilt { format!(" {UNEQUILIBRATED}") } else { String::new() };
+        let label = quantity_label(last, false) + &mark;
+        let mut panel = Panel { x: self.axis.clone(), ..Panel::new("", &label) };
         // Points with their errors, curve by curve.
         let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
         for (group, observables) in found {
@@ -224,6 +229,24 @@ mod tests {
         assert_eq!(panel.series[0].points, [[1.0, 1.0], [4.5, 2.0], [9.0, 0.0]]);
         assert_eq!(panel.series[0].errors.as_deref(), Some(&[0.125; 3][..]));
         assert_eq!((panel.references[0].label.as_str(), panel.references[0].value), ("temperature = 0", 3.0));
+    }
+
+    #[test]
+    fn means_with_the_way_to_equilibrium_are_marked() {
+        let sweep = Sweep::load("dpd-fluid", &[], None, &["temperature=1,2".to_owned()], &[]).unwrap();
+        let mut summary = SweepSummary::new(&sweep, Look::default());
+        for (number, variant) in summary.variants.iter_mut().enumerate() {
+            variant.state = VariantState::Finished;
+            let value = json!({"mean": number, "standard_error": 0.125});
+            variant.means.insert("pressure".to_owned(), value.clone());
+            variant.means.insert("temperature".to_owned(), value);
+        }
+        let spoilt = json!({"means": [{"quantity": "pressure", "settled_from": null, "mean_from_there": 1.0}],
+                            "equilibration": 10, "steps": null});
+        summary.variants[1].unequilibrated = serde_json::from_value(spoilt).unwrap();
+        let chart = &charts(&sweep, &summary, &Look::default())[0];
+        assert!(!chart.panels[0].y.label.contains('†') && chart.panels[1].y.label.ends_with('†'));
+        assert!(chart.subtitle.contains('†'));
     }
 
     #[test]

@@ -12,11 +12,17 @@ pub(super) struct Observable {
     pub value: f64,
     /// Its standard error.
     pub error: Option<f64>,
+    /// Whether it is a mean that includes the way to equilibrium.
+    pub unequilibrated: bool,
 }
 
 /// All numbers of a variant, in order.
 pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
-    let means = variant.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
+    let is_spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
+    let mean = |name: &String, mean: &Value| {
+        Some(Observable { unequilibrated: is_spoilt(name), ..observable(name.clone(), mean)? })
+    };
+    let means = variant.means.iter().filter_map(|(name, found)| mean(name, found));
     let results = variant.results.iter().flat_map(|(name, result)| results(name, result));
     means.chain(results).collect()
 }
@@ -24,7 +30,7 @@ pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
 /// A number, or an object with a mean or a value and maybe a standard error.
 pub(super) fn observable(name: String, found: &Value) -> Option<Observable> {
     let value = found.as_f64().or_else(|| found["mean"].as_f64()).or_else(|| found["value"].as_f64())?;
-    Some(Observable { name, value, error: found["standard_error"].as_f64() })
+    Some(Observable { name, value, error: found["standard_error"].as_f64(), unequilibrated: false })
 }
 
 /// The numbers in the result of an analysis: `radial_distribution.peak_height`.

@@ -9,7 +9,7 @@ use super::{default_jobs, files, table};
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::model::Model;
 use crate::output::summary::AdapterSummary;
-use crate::output::{RunDirectory, Summary, files as run_files};
+use crate::output::{OutputError, RunDirectory, Summary, files as run_files};
 use crate::plan::{self, Hardware, Options};
 use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
 use crate::scene::Scene;
@@ -106,7 +106,8 @@ impl SweepRun {
     /// this process from now on, until the sweep is dropped or executed.
     ///
     /// # Errors
-    /// [`SweepError::NoSweep`], [`SweepError::Output`] when another process writes there, and what [`Sweep::load`] and the files of the sweep give rise to.
+    /// [`SweepError::NoSweep`], [`SweepError::Output`] when another process writes there, and what [`Sweep::load`] and the
+    /// files of the sweep give rise to.
     pub fn resume(directory: impl Into<PathBuf>, look: Option<Look>) -> Result<Self, SweepError> {
         let directory = directory.into();
         // Nothing is written where there is no sweep, no lock either.
@@ -239,8 +240,8 @@ impl SweepRun {
                             break;
                         }
                         let variant = &sweep.variants()[*number];
-                        let simulation = simulation(variant, &directory.join(&variant.name), resuming).until(interrupt);
-                        work(*number, simulation, choice, &sender);
+                        let simulation = simulation(variant, &directory.join(&variant.name), resuming);
+                        work(*number, simulation, interrupt, choice, &sender);
                     }
                 });
             }
@@ -282,26 +283,43 @@ fn save(directory: &Path, sweep: &Sweep, summary: &SweepSummary) -> Result<(), S
 }
 
 /// The run of a variant: from its checkpoint if a sweep is resumed and there is one, else from the beginning.
-fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Simulation {
+fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Result<Simulation, RunError> {
     let steps = variant.scene.time.steps;
     let begin = |force| Simulation::start(variant.scene.clone(), directory, force).noting(&variant.notices);
-    match Simulation::resume(directory, Some(steps)) {
-        // The run of another scene is nothing to go on from, nor to be overwritten.
-        Ok(simulation) if !is_of(variant, simulation.scene()) => begin(false),
-        Ok(simulation) if resuming && simulation.first_step() <= steps => simulation,
-        // What is there without a checkpoint is the beginning of this very run.
-        _ => begin(resuming),
+    if !directory.join(run_files::CHECKPOINT).exists() {
+        // What a resumed sweep finds without a checkpoint is the beginning of this very run.
+        return Ok(begin(resuming));
     }
+    if !resuming {
+        return Ok(begin(false));
+    }
+    let simulation = Simulation::resume(directory, Some(steps))?;
+    if !is_of(variant, simulation.scene()) {
+        // The run of another scene is nothing to go on from, nor to be overwritten.
+        return Ok(begin(false));
+    }
+    if simulation.first_step() > steps {
+        return Err(OutputError::Continued { directory: directory.to_path_buf(), finished: steps }.into());
+    }
+    Ok(simulation)
 }
 
-fn work(number: usize, simulation: Simulation, choice: &AdapterChoice, sender: &mpsc::Sender<(usize, Message)>) {
+fn work(
+    number: usize,
+    simulation: Result<Simulation, RunError>,
+    interrupt: &Interrupt,
+    choice: &AdapterChoice,
+    sender: &mpsc::Sender<(usize, Message)>,
+) {
     // If nobody listens any more, there is nobody to tell.
     let tell = |message: Message| drop(sender.send((number, message)));
-    tell(Message::Begun(simulation.first_step()));
-    let result = simulation.execute(choice, &mut |event| {
-        if let Event::Advanced(progress) = event {
-            tell(Message::Advanced(progress));
-        }
+    let result = simulation.and_then(|simulation| {
+        tell(Message::Begun(simulation.first_step()));
+        simulation.until(interrupt).execute(choice, &mut |event| {
+            if let Event::Advanced(progress) = event {
+                tell(Message::Advanced(progress));
+            }
+        })
     });
     tell(Message::Ended(Box::new(result)));
 }

@@ -6,7 +6,7 @@ use super::expansion::Sweep;
 use super::files;
 use super::plots::Look;
 use super::variation::{Setting, Variation};
-use crate::output::summary::AdapterSummary;
+use crate::output::summary::{AdapterSummary, Unequilibrated};
 use crate::output::{OutputError, Summary, write_atomically};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -67,6 +67,9 @@ pub struct VariantSummary {
     pub means: Map<String, Value>,
     /// Results of the analyses, as in `run.json`.
     pub results: Map<String, Value>,
+    /// Means that include the way to equilibrium, as in `run.json`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unequilibrated: Option<Unequilibrated>,
     /// What the user should know before trusting the numbers.
     pub warnings: Vec<String>,
 }
@@ -110,6 +113,7 @@ impl SweepSummary {
             particle_steps_per_second: 0.0,
             means: Map::new(),
             results: Map::new(),
+            unequilibrated: None,
             warnings: Vec::new(),
         };
         Self {
@@ -153,7 +157,7 @@ impl SweepSummary {
             read => read.map_err(|source| OutputError::Io { attempted: "read", path: path.clone(), source })?,
         };
         serde_json::from_slice(&text).map_err(|error| {
-            let problem = format!("this is no summary of a sweep ({error}); run the sweep anew with --force");
+            let problem = format!("this is no summary of a sweep ({error}); run the sweep again with --force");
             let line = error.line() as u64;
             SweepError::Output(OutputError::Line { path, line, problem })
         })
@@ -177,6 +181,7 @@ impl VariantSummary {
         self.particle_steps_per_second = run.particle_steps_per_second;
         self.means.clone_from(&run.means);
         self.results.clone_from(&run.results);
+        self.unequilibrated.clone_from(&run.unequilibrated);
         self.warnings.clone_from(&run.warnings);
     }
 

@@ -144,6 +144,7 @@ mod tests {
             particle_steps_per_second: 160.0,
             means: object(means),
             results: object(results),
+            unequilibrated: None,
             warnings: Vec::new(),
         }
     }

@@ -91,7 +91,7 @@ pub enum CheckpointError {
         path: PathBuf,
     },
     /// The scene in it is refused, as it would be in a file of its own.
-    #[error("`{}` is no valid checkpoint: {source}", path.display())]
+    #[error("`{}` is no valid checkpoint: {source}", crate::printable::path(path))]
     Scene {
         /// The file.
         path: PathBuf,

@@ -2,7 +2,8 @@
 //!
 //! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
 //! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
-//! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses, bonds) is written in the first frame, from which readers take it for all others.
+//! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
+//! bonds) is written in the first frame, from which readers take it for all others.
 
 use super::Description;
 use crate::output::extent::Checksum;
@@ -125,7 +126,8 @@ impl GsdTrajectory {
                 hash_frame(&self.path, file, self.frames, &mut self.checksum)?;
                 self.frames += 1;
             }
-            self.length = file_length(&self.path)?;
+            // What became of a file that is no longer there is said at the end of the run.
+            self.length = self.watch.length().unwrap_or(self.length);
         }
         Ok(())
     }
