@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
+use mesoscope::run::Sizes;
 use mesoscope::scene::{self, SceneError};
 use peak_alloc::PeakAlloc;
 use rand::rngs::StdRng;
@@ -51,6 +52,7 @@ fn answer(text: &str) -> Answer {
     for hardware in [Hardware::default(), hardware] {
         let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
         assert!(plan.bytes() >= plan.largest_buffer());
+        assert!(Sizes::of(&scene, &model, &plan).total() > 0);
         if plan::check_precision(&scene, &plan).is_err() {
             return Answer::Refused;
         }
@@ -309,7 +311,9 @@ impl Mutator {
                 object.remove(key);
             }
             1 => {
-                let renamed = format!("{}{word}", &key[..key.len() - 1]);
+                let mut renamed = key.clone();
+                renamed.pop();
+                renamed.push_str(word);
                 let value = object.remove(key).unwrap();
                 object.insert(renamed, value);
             }
