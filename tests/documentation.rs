@@ -89,7 +89,8 @@ impl Document {
             let heading: String = line[level..].trim().to_lowercase().chars().filter(kept).collect();
             let slug = heading.replace(' ', "-");
             let numbered = (1..).map(|number| format!("{slug}-{number}"));
-            let anchor = std::iter::once(slug.clone()).chain(numbered).find(|anchor| !anchors.contains(anchor)).unwrap();
+            let anchor =
+                std::iter::once(slug.clone()).chain(numbered).find(|anchor| !anchors.contains(anchor)).unwrap();
             anchors.insert(anchor);
         }
         anchors
@@ -137,7 +138,8 @@ fn markdown(folder: &Path) -> Vec<String> {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "md") {
-                let parts: Vec<_> = path.strip_prefix(root()).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
+                let parts: Vec<_> =
+                    path.strip_prefix(root()).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
                 found.push(parts.join("/"));
             }
         }
@@ -154,8 +156,8 @@ fn pages() -> Vec<String> {
 
 /// README, then the pages in the order of reading, then what stands next to README.
 fn documents() -> Vec<Document> {
-    let beside = ["ARCHITECTURE.md", "CONTRIBUTING.md"].map(str::to_owned);
-    let paths = [README.to_owned()].into_iter().chain(pages()).chain(beside);
+    let others = ["ARCHITECTURE.md", "CONTRIBUTING.md"].map(str::to_owned);
+    let paths = [README.to_owned()].into_iter().chain(pages()).chain(others);
     paths.map(|path| Document::read(&path)).collect()
 }
 
@@ -212,8 +214,8 @@ fn links_lead_to_files_and_headings() {
             let folder = Path::new(&path).parent().unwrap();
             let file = if target.is_empty() { PathBuf::from(&path) } else { folder.join(target) };
             let exists = root().join(&file).exists();
-            let is_there = anchor.is_empty()
-                || exists && Document::read(file.to_str().unwrap()).anchors().contains(anchor);
+            let is_there =
+                anchor.is_empty() || exists && Document::read(file.to_str().unwrap()).anchors().contains(anchor);
             if !exists || !is_there {
                 complaints.push(format!("{path}:{line}: {link}"));
             }
@@ -312,7 +314,7 @@ fn long_commands_are_correct() {
 
 /// The options exist, and what is to be simulated is correct.
 fn check_command(command: &[String], place: &str) {
-    let help = mesoscope(root(), &[&command[0], "--help"]);
+    let help = mesoscope(root(), &[command[0].as_str(), "--help"]);
     let help = String::from_utf8_lossy(&help.stdout);
     for option in command.iter().filter(|word| word.starts_with("--")) {
         assert!(help.contains(option.as_str()), "{place}: `{option}` is unknown");
@@ -355,11 +357,10 @@ fn scenes_and_their_parts_are_correct() {
 #[test]
 fn the_scene_of_the_readme_runs() {
     let readme = Document::read(README).blocks();
-    let [own] = &readme.iter().filter(|block| block.kind == "json").collect::<Vec<_>>()[..] else {
-        panic!("README has one scene");
-    };
+    let scenes: Vec<&Block> = readme.iter().filter(|block| block.kind == "json").collect();
+    assert_eq!(scenes.len(), 1);
     let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("mine.json"), &own.text).unwrap();
+    std::fs::write(directory.path().join("mine.json"), &scenes[0].text).unwrap();
     mesoscope(directory.path(), &["run", "mine.json", "--quiet"]);
     assert!(directory.path().join("mine/energies.png").exists());
 }
