@@ -29,13 +29,14 @@ run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 # Short tests of the device, to be run a second time with the plans that every GPU gets; those of determinism compare both plans anyway.
 ON_GPU_PLANS := reference_and_device harmonic_chain smoothing tessellation
 
-test: cargo adapter ## formatting, lints, all tests, documentation
+test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
 	cargo test --locked
 	MESOSCOPE_PLAN=gpu cargo test --locked $(addprefix --test ,$(ON_GPU_PLANS))
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
+	@if command -v mdbook >/dev/null; then mdbook build; fi
 
 validate: cargo adapter ## the long tests, and all tests on other drivers
 	@sh .ci/spirv.sh

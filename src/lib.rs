@@ -53,7 +53,7 @@ pub mod state;
 pub mod sweep;
 pub mod tessellation;
 
-/// The Rust example of the README compiles.
+/// The examples of the documentation compile.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../docs/guide/library.md")]
+struct LibraryPage;

@@ -21,8 +21,8 @@ use super::{AdapterArgument, Failure, SceneArguments, print};
 /// Check a scene: all mistakes at once, or else what it requires - memory, time, files, warnings
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The time is an estimate: a few steps are made on the adapter and timed, of the scene itself if it is small. That takes a
-quarter of a second beside the start of the adapter and the making of the kernels; without an adapter there is none.
+The time is an estimate: a few steps are run on the adapter and timed, of the scene itself if it is small. That takes about a
+quarter of a second, and the adapter has to start and compile the kernels first; without an adapter there is no estimate.
 
 Exit code 0 means that the adapter (the one named, else the best) can run the scene.
 
@@ -124,7 +124,7 @@ fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
         ("Every step: before anything is measured", &plan.before_report),
         ("Every step without a measurement", &plan.advance),
         ("Every step with a measurement: measure", &plan.report),
-        ("Every step with a measurement: go on", &plan.finish_report),
+        ("Every step with a measurement: finish it", &plan.finish_report),
     ];
     let shared = Shared::of(plan)?;
     if !shared.modules.is_empty() {
@@ -198,12 +198,12 @@ fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
     };
     let noun = if listed.capacity == 1 { "pair" } else { "pairs" };
     let each = if listed.memory {
-        "12 bytes a pair (neighbour 4, memory 8), twice for the time a new list is made"
+        "12 bytes a pair (neighbour 4, memory 8), twice while the list is rebuilt"
     } else {
         "4 bytes a pair"
     };
     let text = format!(
-        "within {} of each other (cutoff {}, margin {}), room for {} {noun} a particle owns; {each}",
+        "within {} of each other (cutoff {}, margin {}), capacity for {} {noun} a particle owns; {each}",
         short(force.cutoff + force.skin),
         short(force.cutoff),
         short(force.skin),

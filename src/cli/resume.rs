@@ -12,7 +12,7 @@ use super::{AdapterArgument, Failure, print, report, whole_number};
 #[command(after_help = "\
 Examples:
   mesoscope resume dpd-fluid                 finish a run that was interrupted
-  mesoscope resume dpd-fluid --steps 50000   go on to step 50000")]
+  mesoscope resume dpd-fluid --steps 50000   continue to step 50000")]
 pub struct Arguments {
     /// Directory of the run
     directory: PathBuf,

@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE,…", required_unless_present = "resume")]
     vary: Vec<String>,
 
-    /// One more variant beside the combinations, with settings of its own; may be repeated
+    /// One more variant besides the combinations, with settings of its own; may be repeated
     #[arg(long, value_name = "PATH=VALUE,…")]
     also: Vec<String>,
 
