@@ -6,20 +6,24 @@ fn inverse_mass_of(species: i32) -> f32 { return coefficient_entry(u32(species))
 fn drift_of(species: i32) -> f32 { return DRIFT * inverse_mass_of(species); }
 fn kinetic_of(species: i32) -> f32 { return KINETIC * inverse_mass_of(species); }
 
-// Whether a particle is the first of its pair, the one with the smaller id. What depends on the masses is computed in this
-// order, so that both ends round alike even where products and sums are contracted.
-fn ordered(me: Particle, other: Particle) -> bool { return me.position.w < other.position.w; }
-// Rate of a pair among others, of its particles in their order.
+// Whether what belongs to this particle is computed before what belongs to the other one: at both ends that of the smaller id is
+// the first, so that both round alike even where products and sums are contracted.
+fn mine_first(me: Particle, other: Particle) -> bool { return me.position.w < other.position.w; }
+// Rate of a pair among others, from what its particles feel from these.
 // Rates are kept per mass of their particle, so that they mean the same in every unit of mass.
 fn rate_scale_of(species: i32) -> f32 { return inverse_mass_of(species); }
-fn pair_rate(first: i32, second: i32, own: f32, of_first: f32, of_second: f32) -> f32 {
-    let a = inverse_mass_of(first);
-    let b = inverse_mass_of(second);
-    return own * (a + b) + (of_first * a + of_second * b) / (a + b) * (1.0 / f32(DIMENSION));
+fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
+    let in_order = mine_first(me, other);
+    let my_inverse = inverse_mass_of(species_of(me));
+    let their_inverse = inverse_mass_of(species_of(other));
+    let both = my_inverse + their_inverse;
+    let shared = select(theirs, mine, in_order) * select(their_inverse, my_inverse, in_order)
+        + select(mine, theirs, in_order) * select(my_inverse, their_inverse, in_order);
+    return own * both + shared / both * (1.0 / f32(DIMENSION));
 }
 // The difference of two velocities, odd under exchange to the last bit.
 fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
-    let in_order = ordered(me, other);
+    let in_order = mine_first(me, other);
     let first = Vector(select(theirs, mine, in_order));
     let second = Vector(select(mine, theirs, in_order));
     let mine_inverse = inverse_mass_of(species_of(me));

@@ -10,7 +10,9 @@ mod rewriting;
 
 use std::sync::Arc;
 
-use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::gpu::Gpu;
+
+use crate::support;
 
 pub use contraction::Contraction;
 pub use functions::{Deviation, Functions};
@@ -42,9 +44,7 @@ impl Compiler {
 
     /// The adapter of the tests with this compiler.
     pub fn gpu(self) -> Gpu {
-        let name = std::env::var("MESOSCOPE_ADAPTER").ok();
         let rewriting = Arc::new(move |module: &mut naga::Module, features| self.rewrite(module, features));
-        Gpu::open_rewriting(&AdapterChoice::parse(name.as_deref()), Requirements::default(), rewriting)
-            .expect("an adapter")
+        Gpu::open_rewriting(&support::adapter(), support::requirements(), rewriting).expect("an adapter")
     }
 }

@@ -14,20 +14,26 @@ use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference,
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-/// The adapter of the tests: the one named by `MESOSCOPE_ADAPTER`, or the best. With `MESOSCOPE_PLAN=gpu` nothing is used of it
-/// that only some adapters have: plans are the ones for any GPU, on software adapters too.
+/// Which adapter the tests take: the one named by `MESOSCOPE_ADAPTER`, or the best.
+pub fn adapter() -> AdapterChoice {
+    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
+}
+
+/// What they ask of it. With `MESOSCOPE_PLAN=gpu` nothing is used that only some adapters have: plans are the ones for any GPU, on
+/// software adapters too.
+pub fn requirements() -> Requirements {
+    let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
+        Err(_) => false,
+        Ok("gpu") => true,
+        Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
+    };
+    Requirements { portable, ..Requirements::default() }
+}
+
+/// The adapter of the tests.
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| {
-        let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-        let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
-            Err(_) => false,
-            Ok("gpu") => true,
-            Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
-        };
-        let requirements = Requirements { portable, ..Requirements::default() };
-        Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements).expect("an adapter")
-    })
+    GPU.get_or_init(|| Gpu::open(&adapter(), requirements()).expect("an adapter"))
 }
 
 /// What plans may use of it.
