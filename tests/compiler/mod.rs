@@ -5,6 +5,7 @@
 mod contraction;
 mod flattening;
 mod functions;
+mod fusion;
 mod operands;
 mod rewriting;
 
@@ -16,6 +17,7 @@ use crate::support;
 
 pub use contraction::Contraction;
 pub use functions::{Deviation, Functions};
+pub use fusion::can_contract;
 
 /// What a compiler does to arithmetic, after it has put all functions into the kernel where that can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +37,7 @@ impl Compiler {
         match self {
             Self::Plain => {}
             Self::Contracting(contraction) => {
-                // A fused multiplication and addition need not be one on the device: in double precision it is.
+                // A fused multiplication and addition need not be one on the device, see `can_contract`: in double precision it is.
                 contraction::contract(module, contraction, features.contains(wgpu::Features::SHADER_F64));
             }
             Self::Erring(which, deviation) => functions::perturb(module, which, deviation),
