@@ -17,9 +17,9 @@ fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) ->
     let my_inverse = inverse_mass_of(species_of(me));
     let their_inverse = inverse_mass_of(species_of(other));
     let both = my_inverse + their_inverse;
-    let shared = select(theirs, mine, in_order) * select(their_inverse, my_inverse, in_order)
+    let weighed = select(theirs, mine, in_order) * select(their_inverse, my_inverse, in_order)
         + select(mine, theirs, in_order) * select(my_inverse, their_inverse, in_order);
-    return own * both + shared / both * (1.0 / f32(DIMENSION));
+    return own * both + weighed / both * (1.0 / f32(DIMENSION));
 }
 // The difference of two velocities, odd under exchange to the last bit.
 fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {

@@ -1,6 +1,6 @@
 //! Another compiler, played by rewriting modules before pipelines are made of them: what WGSL leaves to drivers, and lavapipe
 //! does in one way only. See [`mesoscope::gpu::Gpu::open_rewriting`].
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod contraction;
 mod flattening;
