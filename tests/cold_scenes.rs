@@ -217,10 +217,10 @@ fn springs_start_as_far_from_rest_as_the_scene_says() {
             // Neither is it a failure on the device.
             let mut device = Device::new(&scene);
             device.step(120);
-            let found = largest_of(&device.state().momenta);
-            let expected = largest_of(&run.state().momenta);
-            let off = found.abs_diff(expected);
-            assert!(f64::from(off) < 1e-3 * f64::from(units) + 64.0, "{name}: {found} units, not {expected}");
+            let momenta = [&device.state(), run.state()].map(|state| f64::from(largest_of(&state.momenta)) * unit);
+            let [found, expected] = momenta;
+            // Single precision knows lengths to 1e-7, of which the stiffest spring makes 1e-6 in a step.
+            assert!((found - expected).abs() < 1e-3 * momentum + 5e-4, "{name}: {found}, not {expected}");
         }
         // At a temperature of one its momenta are resolved as those of any other scene, unless the springs make far more.
         text["temperature"] = json!(1.0);

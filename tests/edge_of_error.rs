@@ -13,7 +13,9 @@ use mesoscope::plan::{self, Hardware, Options};
 use mesoscope::scene::{self, Scene};
 use mesoscope::self_test::{self, Verdict};
 use mesoscope::state::State;
-use support::{COTTER_REICH, GROOT_WARREN, SPLITTING, cells, fluid, largest_difference, oscillators, start};
+use support::{
+    COTTER_REICH, GROOT_WARREN, SPLITTING, cells, fluid, largest_difference, oscillators, start, units_of_a_step,
+};
 
 const GAUSSIAN: &str = r#"noise={"distribution":"gaussian"}"#;
 /// Particles at random places are at equilibrium where nothing repels them.
@@ -135,8 +137,7 @@ fn every_function_at_the_edge_of_its_error() {
     }
 }
 
-/// What the comparisons with the reference allow, a hundred units of 2⁻²⁴ of a thermal momentum a step and four hundred where
-/// there are powers, holds whatever the driver makes of functions.
+/// What the comparisons with the reference allow holds whatever the driver makes of functions.
 #[test]
 fn steps_are_those_of_the_reference_at_the_edge_of_error() {
     const POWERS: &str = "interactions.0.weight_exponent=1";
@@ -161,7 +162,7 @@ fn steps_are_those_of_the_reference_at_the_edge_of_error() {
                 let found = device.state().unwrap();
                 let (momentum, _) = largest_difference(&found, reference.state());
                 println!("{deviation:?} {changes:?}, step {step}: {momentum} units");
-                let allowed = if changes.contains(&POWERS) { 400 } else { 100 };
+                let allowed = units_of_a_step(changes.contains(&POWERS));
                 assert!(momentum <= allowed * step, "{deviation:?} {changes:?}: {momentum} units after step {step}");
                 assert_eq!(found.total_momentum(), state.total_momentum(), "{deviation:?} {changes:?}");
             }

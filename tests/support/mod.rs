@@ -12,6 +12,7 @@ use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Traversal};
 use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::{self, Scene};
+use mesoscope::self_test::{Function, errors_of_functions};
 use mesoscope::state::State;
 
 /// Which adapter the tests take: the one named by `MESOSCOPE_ADAPTER`, or the best.
@@ -34,6 +35,24 @@ pub fn requirements() -> Requirements {
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| Gpu::open(&adapter(), requirements()).expect("an adapter"))
+}
+
+/// Pairs of a particle in the standard fluid, or some more.
+const PAIRS: i64 = 25;
+/// Units in the last place by which the impulse of a pair may be off, and so units of momentum: it is at most 2²³ of them or so.
+const PLACES: i64 = 4;
+
+/// Units of momentum by which a step of the standard fluid may differ from the reference. Where weights are powers, the impulses of
+/// pairs are as wrong as these are on the adapter.
+pub fn units_of_a_step(powers: bool) -> i64 {
+    static OF_POWERS: OnceLock<i64> = OnceLock::new();
+    let of_powers = || {
+        let errors = errors_of_functions(gpu()).expect("a kernel");
+        let power = errors.iter().find(|error| error.function == Function::Power).expect("all functions");
+        assert!(power.of_allowed <= 1.0, "{power:?}");
+        power.last_places.ceil() as i64
+    };
+    PAIRS * (PLACES + if powers { *OF_POWERS.get_or_init(of_powers) } else { 0 })
 }
 
 /// What plans may use of it.
