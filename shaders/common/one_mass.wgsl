@@ -7,8 +7,8 @@ fn inverse_mass_of(species: i32) -> f32 { return INVERSE_MASS; }
 fn drift_of(species: i32) -> f32 { return DRIFT; }
 fn kinetic_of(species: i32) -> f32 { return KINETIC; }
 
-// Whether what belongs to this particle is computed before what belongs to the other one. At either end it is: without masses in
-// it, what is added up or subtracted is integers, or the same either way round.
+// Whether what belongs to this particle is computed before what belongs to the other one. At either end it is: there is no mass in
+// it that would round differently.
 fn mine_first(me: Particle, other: Particle) -> bool { return true; }
 // Rate of a pair among others, from what its particles feel from these; rates are per mass.
 fn rate_scale_of(species: i32) -> f32 { return 1.0; }
