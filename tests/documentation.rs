@@ -89,7 +89,8 @@ impl Document {
             let heading: String = line[level..].trim().to_lowercase().chars().filter(kept).collect();
             let slug = heading.replace(' ', "-");
             let numbered = (1..).map(|number| format!("{slug}-{number}"));
-            let anchor = std::iter::once(slug.clone()).chain(numbered).find(|anchor| !anchors.contains(anchor)).unwrap();
+            let anchor =
+                std::iter::once(slug.clone()).chain(numbered).find(|anchor| !anchors.contains(anchor)).unwrap();
             anchors.insert(anchor);
         }
         anchors
@@ -137,7 +138,8 @@ fn markdown(folder: &Path) -> Vec<String> {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "md") {
-                let parts: Vec<_> = path.strip_prefix(root()).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
+                let parts: Vec<_> =
+                    path.strip_prefix(root()).unwrap().iter().map(|part| part.to_str().unwrap()).collect();
                 found.push(parts.join("/"));
             }
         }
@@ -212,8 +214,8 @@ fn links_lead_to_files_and_headings() {
             let folder = Path::new(&path).parent().unwrap();
             let file = if target.is_empty() { PathBuf::from(&path) } else { folder.join(target) };
             let exists = root().join(&file).exists();
-            let is_there = anchor.is_empty()
-                || exists && Document::read(file.to_str().unwrap()).anchors().contains(anchor);
+            let is_there =
+                anchor.is_empty() || exists && Document::read(file.to_str().unwrap()).anchors().contains(anchor);
             if !exists || !is_there {
                 complaints.push(format!("{path}:{line}: {link}"));
             }

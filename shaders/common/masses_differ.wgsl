@@ -19,7 +19,9 @@ fn rate_scale_of(species: i32) -> f32 { return inverse_mass_of(species); }
 fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
     let a = inverse_mass_of(species_of(me));
     let b = inverse_mass_of(species_of(other));
-    return own * (a + b) + ((mine + theirs) + (a - b) / (a + b) * (mine - theirs)) * (0.5 / f32(DIMENSION));
+    // Of what is even only: a quotient may err to one side.
+    let reciprocal = 1.0 / (a + b);
+    return own * (a + b) + ((mine + theirs) + (a - b) * reciprocal * (mine - theirs)) * (0.5 / f32(DIMENSION));
 }
 // The difference of two velocities.
 fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
