@@ -27,7 +27,7 @@ run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
 
 # Short tests of the device, to be run a second time with the plans that every GPU gets; those of determinism compare both plans anyway.
-ON_GPU_PLANS := reference_and_device harmonic_chain smoothing tessellation
+ON_GPU_PLANS := reference_and_device harmonic_chain smoothing
 
 test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh

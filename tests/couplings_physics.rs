@@ -776,6 +776,9 @@ fn a_fluid_with_memory_does_not_know_of_its_list() {
 ///
 /// Impulses are rounded to some 2⁻²⁴ of a thermal momentum; single precision adds a relative error of some 2⁻²³ to impulses
 /// of at most about 2²³ units for each of some dozen pairs. A hundred units are a hundred-thousandth of the noise of a step.
+///
+/// A pair that is as far apart as the cutoff, to the digits of single precision, may meet here and not there: of some 4 000 pairs
+/// with three times as many per unit of distance, one in 1 500 steps. It has no weight there, and moves less than 0.1 in a step.
 #[test]
 fn every_step_of_the_device_is_one_of_the_reference() {
     for (changes, steps) in [
@@ -793,7 +796,8 @@ fn every_step_of_the_device_is_one_of_the_reference() {
         let scene = fluid(&changes);
         let (model, state) = start(&scene);
         let mut device = Device::from_state(&scene, &state, Options::default());
-        let mut lists = 0;
+        let cutoff = model.pair_force.as_ref().unwrap().cutoff;
+        let (mut lists, mut doubtful) = (0, 0);
         let mut before = state;
         for step in 0..steps {
             let mut reference = CouplingsReference::new(model.clone(), before.clone());
@@ -808,13 +812,22 @@ fn every_step_of_the_device_is_one_of_the_reference() {
             assert_eq!(found.anchors, expected.anchors, "{what}");
             assert_eq!(found.pair_baths.len(), expected.pair_baths.len(), "{what}");
             for (a, b) in found.pair_baths.iter().zip(&expected.pair_baths) {
-                assert_eq!([a.first, a.second, a.stamp], [b.first, b.second, b.stamp], "{what}");
+                assert_eq!([a.first, a.second], [b.first, b.second], "{what}");
+                if a.stamp != b.stamp {
+                    let ends = [a.first, a.second].map(|id| found.positions[id as usize]);
+                    let way = model.units.displacement(ends[0], ends[1]);
+                    let distance = way.iter().map(|component| component * component).sum::<f64>().sqrt();
+                    assert!((distance - cutoff).abs() < 0.1, "{what}: {a:?} {b:?} at a distance of {distance}");
+                    doubtful += 1;
+                    continue;
+                }
                 let [a, b] = [a, b].map(|bath| f32::from_bits(bath.memory));
                 assert!((a - b).abs() < 1e-4, "{what}: {a} {b}");
             }
             before = found;
         }
         assert!(lists > 3, "{changes:?}: {lists} lists");
+        assert!(doubtful <= 3, "{changes:?}: {doubtful} pairs met here and not there");
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Both round impulses to 2⁻²⁴ of the thermal momentum and positions to 2⁻³² of the box. Single precision adds a relative
 //! error of some 2⁻²³ to an impulse of at most about 2²³ units, so one step may differ by a few units for each of some
-//! dozen pairs; a hundred units allows for that and for little else: the noise of a step is ten thousand times larger.
+//! dozen pairs; a hundred units (`support::units_of_a_step`) allow for that and for little else: the noise of a step is ten
+//! thousand times larger.
 //! That holds on every driver, for `tests/edge_of_error.rs` makes functions err as much as they may.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -10,11 +11,7 @@ mod support;
 
 use mesoscope::plan::{Options, Traversal};
 use mesoscope::reference::Reference;
-use support::{engine, fluid, largest_difference, observables, predictions_agree, reference, start};
-
-const UNITS: i64 = 100;
-/// The same where drivers compute powers, which are off by up to some 10⁻⁶ of themselves.
-const UNITS_OF_POWERS: i64 = 400;
+use support::{engine, fluid, largest_difference, observables, predictions_agree, reference, start, units_of_a_step};
 
 fn check(changes: &[&str], options: Options) {
     let scene = fluid(changes);
@@ -22,7 +19,7 @@ fn check(changes: &[&str], options: Options) {
     let mut device = engine(&scene, &state, options);
     let mut reference = reference(&scene, &state);
     let powers = changes.iter().any(|change| change.starts_with("interactions.0.weight_exponent"));
-    let units = if powers { UNITS_OF_POWERS } else { UNITS };
+    let units = units_of_a_step(powers);
     for step in 1..=3 {
         device.advance(1, 1).unwrap();
         reference.step().unwrap();
@@ -172,13 +169,14 @@ fn the_step_counter_has_two_words() {
     let scene = fluid(&[LEAPFROG, EVERY_STEP]);
     let (_, mut state) = start(&scene);
     state.step = u64::from(u32::MAX) - 1;
+    let units = units_of_a_step(false);
     let mut device = engine(&scene, &state, Options::default());
     let mut reference = reference(&scene, &state);
     for step in 1..=4 {
         device.advance(1, 1).unwrap();
         reference.step().unwrap();
         let (momentum, position) = largest_difference(&device.state().unwrap(), reference.state());
-        assert!(momentum <= UNITS * step && position <= 4 * UNITS * step);
+        assert!(momentum <= units * step && position <= 4 * units * step);
     }
     assert_eq!(device.finish().unwrap().last().unwrap().step, u64::from(u32::MAX) + 3);
 }

@@ -19,6 +19,8 @@ struct Control {
 // take it that there is no NaN, and the larger of NaN and a number is the number.
 fn is_within(value: f32, limit: f32) -> bool { return (bitcast<u32>(value) & 0x7fffffffu) < bitcast<u32>(limit); }
 
+fn is_number(value: f32) -> bool { return (bitcast<u32>(value) & 0x7fffffffu) < 0x7f800000u; }
+
 fn closing_of(step: vec2<u32>) -> i32 { return select(1, 0, all(step == vec2<u32>(0u))); }
 
 const FAILURE_IMPULSE: u32 = 1u;   // the impulses on a particle left the range of integers, or were not numbers

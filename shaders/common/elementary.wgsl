@@ -1,4 +1,4 @@
-// Logarithm, sine and cosine for random numbers, by polynomials of least largest error: how far they are off is known on every
+// Logarithm, sine and cosine, for random numbers above all, by polynomials of least largest error: how far they are off is known on every
 // driver, where the built-in sine and cosine may be off by 2⁻¹¹, and a logarithm that may be off by 2⁻²¹ is not always below 0.
 // `tests/elementary.rs` compares them with double precision.
 
@@ -7,21 +7,26 @@ fn centred_uniform(word: u32) -> f32 { return (f32(bitcast<i32>(word) >> 8u) + 0
 
 // -2 ln(½ + c) of such a number: above 0, and off by less than 4e-7 of itself.
 fn minus_two_log(c: f32) -> f32 {
-    // ½ + c is 2ᵉ (1 + x) with x in [-⅓, ⅓), and -2 ln(1 + x) is x (-2 + x p(x)).
+    // ½ + c is 2ᵉ (1 + x) with x in [-⅓, ⅓), and -2 ln(1 + x) is -2 x + x² p(x).
     let bits = bitcast<i32>(c + 0.5) - 0x3f2aaaab; // ⅔
     let exponent = bits >> 23u;
     let small = bitcast<f32>((bits & 0x007fffff) + 0x3f2aaaab) - 1.0;
     // Above ½ the sum is rounded, but these are not.
     let x = select(small, select(c + c, c - 0.5, exponent == 0), c > 0.0);
-    let p = 0.9999992 + x * (-0.6667347 + x * (0.50012642 + x * (-0.39636335 + x * (0.32881646
-        + x * (-0.33981132 + x * 0.30533537)))));
-    return f32(exponent) * -1.3862944 + x * (-2.0 + x * p); // -2 ln 2
+    // In pairs: they do not wait for each other.
+    let square = x * x;
+    let first = 0.9999992 + x * -0.6667347;
+    let second = 0.50012642 + x * -0.39636335;
+    let last = (0.32881646 + x * -0.33981132) + square * 0.30533537;
+    return (f32(exponent) * -1.3862944 - (x + x)) + square * (first + square * (second + square * last)); // -2 ln 2
 }
 
 // Sine of an angle from minus to plus a quarter of a turn, off by less than 3e-7.
 fn sine_of_quarter(turns: f32) -> f32 {
     let square = turns * turns;
-    return turns * (6.2831853 + square * (-41.341677 + square * (81.602232 + square * (-76.574993 + square * 39.71092))));
+    let first = 6.2831853 + square * -41.341677;
+    let last = (81.602232 + square * -76.574993) + (square * square) * 39.71092;
+    return turns * (first + (square * square) * last);
 }
 // Cosine and sine of an angle from minus to plus half a turn.
 fn cosine_of_turns(turns: f32) -> f32 { return sine_of_quarter(0.25 - abs(turns)); }

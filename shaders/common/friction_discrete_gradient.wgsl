@@ -3,7 +3,7 @@
 override FRICTION_PER_LENGTH: f32; // impulse unit of momentum per length: turns a change of phi into a motion
 
 fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
-    let in_order = ordered(me, other);
+    let in_order = mine_first(me, other);
     let first = drift_steps(select(other.momentum, me.momentum, in_order));
     let second = drift_steps(select(me.momentum, other.momentum, in_order));
     let drifted = select(second - first, first - second, in_order);

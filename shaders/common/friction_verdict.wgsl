@@ -11,7 +11,8 @@ fn judge(sums: vec4<f32>) {
     let curvature = sums.y - select(turn * square / solver.step_length, 0.0, first);
     solver.residual = select(0.0, sqrt(square / solver.scale), square > 0.0);
     // What is not a number ends the iterations too.
-    if (solver.iterations < ITERATIONS && square > TOLERANCE * TOLERANCE * solver.scale && curvature > 0.0) {
+    let numbers = is_number(square) && is_number(curvature);
+    if (numbers && solver.iterations < ITERATIONS && square > TOLERANCE * TOLERANCE * solver.scale && curvature > 0.0) {
         solver.square = square;
         solver.turn = turn;
         solver.step_length = square / curvature;

@@ -5,8 +5,10 @@ var<private> cuts: u32;
 // What is to come from the other cell, or to go there if negative.
 fn limited(wanted: f32, mine: f32, theirs: f32) -> f32 {
     let most = EXCHANGE_LIMIT * select(mine, theirs, wanted > 0.0);
-    cuts += select(0u, 1u, abs(wanted) > most);
-    return clamp(wanted, -most, most);
+    // What is not a number stays so, for `exchange` to tell.
+    let cut = is_number(wanted) && abs(wanted) > most;
+    cuts += select(0u, 1u, cut);
+    return select(wanted, select(-most, most, wanted > 0.0), cut);
 }
 // A loop, not a branch: see `raise`.
 fn report_cuts() {

@@ -6,15 +6,15 @@
 // friction finds it.
 const RATE_UNIT: f32 = 65536.0;    // integer units of the rate, so that its sum does not depend on the order
 const RATE_LIMIT: i32 = 8388607;   // what fits beside the species
+const RATE_MOST: f32 = 100.0;      // of a pair
 
 fn friction_rate(c: Coefficients, root: f32) -> f32 { return 2.0 * c.friction * root * root; }
-fn whole_units(rate: f32) -> f32 { return round(min(rate, 100.0) * RATE_UNIT); }
-fn rate_units(rate: f32) -> u32 { return u32(whole_units(rate)); }
-// What a particle feels from its pairs other than this one. The difference of two whole numbers below 2²⁴ is exact, and no
-// product of them is left to contract: see `relaxation_impulse`.
-fn rate_of_others(momentum: vec4<i32>, rate: f32) -> f32 {
-    let own = whole_units(rate * rate_scale_of(species_in(momentum)));
-    return max(f32(momentum.w >> 8u) - own, 0.0) * (1.0 / RATE_UNIT);
+fn rate_units(rate: f32) -> u32 { return u32(round(min(rate, RATE_MOST) * RATE_UNIT)); }
+// What a particle feels from its pairs other than this one. There is nothing to contract, see `relaxation_impulse`: one product
+// is exact, for the unit is a power of two, and the other is inside `min`.
+fn rate_of_others(particle: Particle, rate: f32) -> f32 {
+    let own = min(rate * rate_scale_of(species_of(particle)), RATE_MOST);
+    return max(f32(particle.momentum.w >> 8u) * (1.0 / RATE_UNIT) - own, 0.0);
 }
 
 // (1 - exp(-s)) / s
@@ -25,14 +25,11 @@ fn relaxed_share(s: f32) -> f32 {
 // Impulse along the line of centres that relaxes the pair and makes its noise.
 //
 // Both ends compute it, and must find the same bits. A compiler may contract a product and a sum at one place and not at
-// another, so whatever belongs to one particle is put in the order of the ids before anything is rounded, or stays in
+// another, so whatever belongs to one particle has no product in a sum, or is odd or even under exchange, or stays in
 // integers: CONTRIBUTING.md, "Exact on any compiler". `tests/any_compiler.rs` plays such compilers.
 fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
     let rate = friction_rate(c, root);
-    let in_order = ordered(me, other);
-    let first = select(other.momentum, me.momentum, in_order);
-    let second = select(me.momentum, other.momentum, in_order);
-    let s = pair_rate(species_in(first), species_in(second), rate, rate_of_others(first, rate), rate_of_others(second, rate));
+    let s = pair_rate(me, other, rate, rate_of_others(me, rate), rate_of_others(other, rate));
     let share = relaxed_share(s);
     let motion = relative_motion(me, other, steps_of(me.momentum), steps_of(other.momentum));
     let noise = random_impulse(c, root, me, other) * sqrt(2.0 * share * (2.0 - s * share));

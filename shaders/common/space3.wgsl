@@ -21,10 +21,6 @@ fn sum_of_components(v: Vector) -> f32 { return v.x + v.y + v.z; }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return parts.xyz * unit_lengths(); }
-// Whether every component is a number smaller than a limit, whatever its sign: see `is_within`.
-fn all_within(v: Vector, limit: f32) -> bool {
-    return all((bitcast<Fraction>(v) & Fraction(0x7fffffffu)) < Fraction(bitcast<u32>(limit)));
-}
 // Three of four words as a bath of every coordinate, and back.
 fn bath_of(word: vec4<f32>) -> Vector { return word.xyz; }
 fn bath_word(bath: Vector) -> vec4<f32> { return vec4<f32>(bath, 0.0); }

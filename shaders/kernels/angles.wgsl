@@ -6,8 +6,6 @@ override FIRST_ANGLE: u32;
 // the middle, and the bits of the stiffness: an impulse times a length.
 @group(0) @binding(34) var<storage, read> angles: array<vec4<u32>>;
 
-const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
-
 struct Corner {
     slots: vec3<u32>,
     mobile: vec3<bool>,

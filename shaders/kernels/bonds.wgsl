@@ -2,8 +2,6 @@
 override BONDS: u32;
 @group(0) @binding(33) var<storage, read_write> slots: array<u32>;
 
-const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
-
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
 @compute @workgroup_size(WORKGROUP)

@@ -7,11 +7,6 @@ override ENERGY_STEPS: f32;  // units of energy in one
 
 const UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
 
-// By bits: see `is_within`.
-fn all_below(exact: vec4<f32>) -> bool {
-    return all((bitcast<vec4<u32>>(exact) & vec4<u32>(0x7fffffffu)) < vec4<u32>(bitcast<u32>(UNITS_LIMIT)));
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -36,7 +31,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
             + rubbing_impulse(facet, mine, theirs);
         let energy = energy_through(facet, twist, impulse, mass, mine, theirs);
         let exact = vec4<f32>(impulse * IMPULSE_STEPS, mass * MASS_STEPS, energy * ENERGY_STEPS);
-        fits = fits && all_below(exact);
+        fits = fits && all_within(exact.xy, UNITS_LIMIT) && all_within(exact.zw, UNITS_LIMIT);
         let units = vec4<i32>(round(exact));
         total += units;
         move_units(other, -units);

@@ -27,6 +27,5 @@ fn main(@builtin(local_invocation_index) lane: u32) {
             directions[slot] = step_along(slot, directions[PARTICLES + slot].xy, directions[slot]);
         }
         storageBarrier();
-        workgroupBarrier();
     }
 }

@@ -7,8 +7,6 @@ override BATH_RESPONSE: f32;    // per unit of integer mass
 @group(0) @binding(17) var<storage, read_write> previous_masses: array<u32>;
 @group(0) @binding(20) var<storage, read_write> surface: array<f32>;
 
-const BATH_LIMIT: f32 = 1e30; // which any number is below
-
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -21,7 +19,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
         let change = f32(bitcast<i32>(mass - previous_masses[node]));
         s = BATH_PERSISTENCE * s + BATH_RESPONSE * change + mesh_noise(node);
         node_bath[node] = s;
-        raise(select(FAILURE_IMPULSE, 0u, is_within(s, BATH_LIMIT)));
+        raise(select(FAILURE_IMPULSE, 0u, is_number(s)));
     }
     previous_masses[node] = mass;
     surface[node] = depths[node] + s;

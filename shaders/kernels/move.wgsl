@@ -5,7 +5,6 @@ override DISPLACEMENT_LIMIT: f32;
 @group(0) @binding(22) var<storage, read_write> kicks: array<vec4<i32>>;
 
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
-const IMPULSE_LIMIT: f32 = 134217728.0;
 
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {

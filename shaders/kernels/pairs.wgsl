@@ -2,8 +2,6 @@
 // both ends.
 override PARTICLES: u32;
 
-const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
-
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

@@ -3,8 +3,6 @@ override PARTICLES: u32;
 override TETHER: f32; // impulse of half a step per length
 @group(0) @binding(35) var<storage, read_write> tethers: array<vec4<u32>>; // by number
 
-const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27: several of them still fit the sum
-
 @compute @workgroup_size(WORKGROUP)
 fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

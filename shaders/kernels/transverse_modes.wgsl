@@ -14,10 +14,10 @@ fn main(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
             var sine = Sum64(0u);
             if (id < PARTICLES) {
                 let particle = stored_particle(id);
-                let angle = f32(bitcast<i32>(particle.position[axis])) * 1.4629181e-9; // 2 pi / 2^32
+                let turns = f32(bitcast<i32>(particle.position[axis])) * 2.3283064e-10; // 2^-32
                 let momentum = f32(particle.momentum[(axis + across) % DIMENSION]);
-                cosine = sum64_of_f32(momentum * cos(angle));
-                sine = sum64_of_f32(momentum * sin(angle));
+                cosine = sum64_of_f32(momentum * cosine_of_turns(turns));
+                sine = sum64_of_f32(momentum * sine_of_turns(turns));
             }
             reduce_quantity(group, lane, quantity, cosine);
             reduce_quantity(group, lane, quantity + 1u, sine);

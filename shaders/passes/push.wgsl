@@ -1,13 +1,12 @@
 // Moves the particles of a cell by one step, from before the closing kick or, after a report, from the report point.
 override CLOSES: u32; // 1 from before the closing kick
 override LEAST_DEPTH: f32; // less its mean
-const MOST_DEPTH: f32 = 1e30; // which any number is below
 
 fn visit_cell(cell: u32) {
     let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
     let depth = depth_in_cell(cell, nodes);
-    raise_at(select(FAILURE_DEPTH, 0u, is_within(depth, MOST_DEPTH) && depth > LEAST_DEPTH), cell);
+    raise_at(select(FAILURE_DEPTH, 0u, is_number(depth) && depth > LEAST_DEPTH), cell);
     let polynomial = surface_of(nodes);
     let closes = CLOSES == 1u && clock_closing() == 1;
     let bin = opened_bin(cell);

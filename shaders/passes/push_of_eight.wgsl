@@ -2,7 +2,6 @@
 // report, from the report point.
 override CLOSES: u32; // 1 from before the closing kick
 override LEAST_DEPTH: f32; // less its mean
-const MOST_DEPTH: f32 = 1e30; // which any number is below
 
 const NO_CELL: u32 = 0xffffffffu;
 var<private> dry_cell: u32 = NO_CELL; // the first without a depth
@@ -16,7 +15,7 @@ fn visit_cell(cell: u32) {
     let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
     // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
     let depth = depth_in_cell(cell, nodes);
-    dry_cell = select(min(dry_cell, cell), dry_cell, is_within(depth, MOST_DEPTH) && depth > LEAST_DEPTH);
+    dry_cell = select(min(dry_cell, cell), dry_cell, is_number(depth) && depth > LEAST_DEPTH);
     let polynomial = surface_of(nodes);
     let closes = CLOSES == 1u && clock_closing() == 1;
     let bin = opened_bin(cell);

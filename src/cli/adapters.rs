@@ -49,7 +49,7 @@ fn list() -> Result<(), Failure> {
 fn check(choice: &AdapterChoice) -> Result<(), Failure> {
     let gpu = Gpu::open(choice, Requirements::default())?;
     let AdapterDescription { name, kind, backend, driver } = gpu.description();
-    let subgroups = gpu.subgroup_size().map_or("of no fixed size".to_owned(), |size| format!("of {size} lanes"));
+    let subgroups = gpu.subgroup_size().map_or("not used".to_owned(), |size| format!("of {size} lanes"));
     let memory = if gpu.serial_memory() { "lane by lane" } else { "usual" };
     let head = [
         ("mesoscope", env!("CARGO_PKG_VERSION").to_owned()),

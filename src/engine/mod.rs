@@ -4,6 +4,7 @@
 mod error;
 mod pipeline;
 mod readback;
+mod recording;
 mod texels;
 mod timing;
 
@@ -19,6 +20,7 @@ use crate::plan::{Hardware, Layout, Misfit, Paths, Plan, TIDYING};
 use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
+use recording::Recording;
 use texels::Texels;
 
 /// Words of the control buffer, as `shaders/common/control.wgsl` declares them.
@@ -313,24 +315,21 @@ impl<'a> Engine<'a> {
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));
-            let mut encoder = self.gpu.encoder("batch");
-            {
-                let mut pass = compute_pass(&mut encoder, "batch");
-                let mut done = 0;
-                while done < now && self.room_for_samples() {
-                    self.record_sample(&mut pass);
-                    let reported = self.phase == Phase::Sorted { reported: true };
-                    let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
-                    for &kernel in kernels {
-                        self.dispatch(kernel, &mut pass);
-                    }
-                    self.phase = Phase::Advanced;
-                    self.step += 1;
-                    done += 1;
+            let mut recording = Recording::new(self.gpu, "batch");
+            let mut done = 0;
+            while done < now && self.room_for_samples() {
+                self.record_sample(&mut recording);
+                let reported = self.phase == Phase::Sorted { reported: true };
+                let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
+                for &kernel in kernels {
+                    recording.dispatch(&self.stages[kernel]);
                 }
-                left -= done;
+                self.phase = Phase::Advanced;
+                self.step += 1;
+                done += 1;
             }
-            self.submit(encoder)?;
+            left -= done;
+            self.submit(recording.finish())?;
         }
         Ok(())
     }
@@ -341,12 +340,11 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
-        let mut encoder = self.gpu.encoder("samples at the end");
+        let mut recording = Recording::new(self.gpu, "samples at the end");
         if !matches!(self.phase, Phase::Sorted { reported: true }) {
-            let mut pass = compute_pass(&mut encoder, "samples at the end");
-            self.record_sample(&mut pass);
+            self.record_sample(&mut recording);
         }
-        self.submit(encoder)?;
+        self.submit(recording.finish())?;
         self.wait_all()?;
         Ok(std::mem::take(&mut self.collected))
     }
@@ -373,13 +371,10 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn reported(&mut self) -> Result<State, EngineError> {
-        let mut encoder = self.gpu.encoder("report");
-        {
-            let mut pass = compute_pass(&mut encoder, "report");
-            self.record_sample(&mut pass);
-            self.record_report(&mut pass);
-        }
-        self.submit(encoder)?;
+        let mut recording = Recording::new(self.gpu, "report");
+        self.record_sample(&mut recording);
+        self.record_report(&mut recording);
+        self.submit(recording.finish())?;
         let Some(buffer) = self.plan.reported else {
             let mut state = self.download()?;
             state.predicted.clear();
@@ -465,16 +460,16 @@ impl<'a> Engine<'a> {
     }
 
     /// Sorts, if that is still to be done, and takes whatever samples are due.
-    fn record_sample(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+    fn record_sample(&mut self, recording: &mut Recording<'_>) {
         if self.phase == Phase::Advanced {
             if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
                 for &kernel in &self.plan.paths.kernels {
-                    self.dispatch(kernel, pass);
+                    recording.dispatch(&self.stages[kernel]);
                 }
             }
             let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
             for &kernel in self.plan.sort.iter().chain(tidy).chain(&self.plan.before_report) {
-                self.dispatch(kernel, pass);
+                recording.dispatch(&self.stages[kernel]);
             }
             self.phase = Phase::Sorted { reported: false };
         } else {
@@ -484,20 +479,20 @@ impl<'a> Engine<'a> {
         let due: Vec<usize> =
             (0..self.plan.samplers.len()).filter(|&sampler| self.plan.samplers[sampler].due(self.step)).collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
-            self.record_report(pass);
+            self.record_report(recording);
         }
         for sampler in due {
             for &kernel in &self.plan.samplers[sampler].kernels {
-                self.dispatch(kernel, pass);
+                recording.dispatch(&self.stages[kernel]);
             }
             self.pending_rows[sampler] += 1;
         }
     }
 
-    fn record_report(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+    fn record_report(&mut self, recording: &mut Recording<'_>) {
         if self.phase == (Phase::Sorted { reported: false }) {
             for &kernel in &self.plan.report {
-                self.dispatch(kernel, pass);
+                recording.dispatch(&self.stages[kernel]);
             }
             self.phase = Phase::Sorted { reported: true };
         }

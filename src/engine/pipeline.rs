@@ -16,6 +16,8 @@ pub(super) struct Stage {
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
     size: Size,
+    /// As [`Kernel::takes_long`].
+    pub takes_long: bool,
 }
 
 enum Size {
@@ -100,5 +102,5 @@ fn stage(
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
-    Ok(Stage { pipeline, bindings, size })
+    Ok(Stage { pipeline, bindings, size, takes_long: kernel.takes_long })
 }

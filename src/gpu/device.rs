@@ -165,7 +165,8 @@ impl Gpu {
         if serial_memory {
             limits.max_storage_textures_per_shader_stage = STORAGE_TEXTURES;
         }
-        let subgroups = !requirements.portable && adapter.features().contains(wgpu::Features::SUBGROUP);
+        // Only these take particles in eights.
+        let subgroups = serial_memory && adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -217,7 +218,7 @@ impl Gpu {
         &self.queue
     }
 
-    /// The number of lanes of every subgroup, if it is fixed and subgroup operations can be used.
+    /// The number of lanes of every subgroup, if it is fixed and subgroup operations are used: where memory is serial.
     #[must_use]
     pub fn subgroup_size(&self) -> Option<u32> {
         self.subgroup_size

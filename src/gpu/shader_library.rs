@@ -358,6 +358,7 @@ library![
     "common/weight_standard",
     "common/words_pcg4d",
     "common/words_threefry",
+    "common/within",
     "common/workgroup_scan",
     "kernels/alone",
     "kernels/angles",

@@ -52,10 +52,9 @@ impl PairForce {
 
     /// No force: nothing reaches further than half the shortest edge.
     pub(crate) fn none(units: &crate::state::Units, species: usize) -> Self {
-        let shortest = units.lengths[..units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
         let zeros = vec![0.0; species * species];
         Self {
-            cutoff: 0.5 * shortest,
+            cutoff: 0.5 * units.shortest_length(),
             weight_exponent: 2.0,
             temperature: 0.0,
             bath: Bath::default(),

@@ -140,17 +140,17 @@ impl Model {
         let chain_groups = topology::chain_groups(scene, |name| index_of(&species, name));
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
-        if let Some(force) = &mut pair_force {
-            // Of two images of a neighbour a list must see only one.
-            let shortest = scene.space.lengths.iter().copied().fold(f64::INFINITY, f64::min);
-            force.skin = force.skin.min(0.5 * shortest - force.cutoff).max(0.0);
-        }
         let momentum = match &shallow_water {
             Some(water) => velocity_unit(scene, water),
             None => momentum_unit(scene, &species, pair_force.as_ref(), chains.as_ref()),
         };
+        let units = Units { dimension: scene.space.lengths.len(), lengths, momentum };
+        if let Some(force) = &mut pair_force {
+            // Of two images of a neighbour a list must see only one.
+            force.skin = force.skin.min(0.5 * units.shortest_length() - force.cutoff).max(0.0);
+        }
         Self {
-            units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
+            units,
             chain_groups,
             species,
             temperature: scene.temperature,
@@ -285,6 +285,9 @@ fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
 const RULED_BY_FORCES: f64 = 48.0;
 /// Part of the largest momentum that forces are expected to make which the unit then follows.
 const PART_OF_LARGEST: f64 = 0.125;
+/// Times that the momenta of the lightest particles may be smaller than the scale that the unit follows: of its 2²⁴ units they have
+/// 2¹² then.
+const RESOLVED: f64 = 4096.0;
 
 /// A power of two near 2⁻²⁴ (2⁻²⁰ for Voronoi cells) of the largest momentum a species has for a reason: thermal, that of its
 /// fastest listed particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a
@@ -318,9 +321,13 @@ fn momentum_unit(
     {
         scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
     }
-    // Of the lightest: a unit for what forces make of a heavy particle could not resolve a light one.
     let lightest = species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(heaviest);
-    let forced = forces::momentum(scene, lightest, pair_force);
+    let [mut forced, of_lightest] =
+        [f64::INFINITY, lightest].map(|heaviest| forces::momentum(scene, species, pair_force, heaviest));
+    // A unit for what forces make of a particle that is heavier by far could not resolve a light one.
+    if forced > of_lightest * RESOLVED / PART_OF_LARGEST {
+        forced = of_lightest;
+    }
     if scale == 0.0 {
         // The impulses of weak forces in one step would be lost in rounding.
         scale = if forced > 0.0 && forced < 1.0 / 16.0 { forced } else { 1.0 };

@@ -278,7 +278,7 @@ impl Builder<'_> {
         let dimension = self.reported.model.units.dimension;
         self.sums(SumSampler {
             name: "viscosity",
-            modules: vec!["kernels/transverse_modes"],
+            modules: vec!["common/elementary", "kernels/transverse_modes"],
             constants: Vec::new(),
             renamed: Vec::new(),
             before: Vec::new(),

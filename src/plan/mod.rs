@@ -216,6 +216,9 @@ pub struct Kernel {
     pub constants: Vec<(&'static str, f64)>,
     /// Variables whose buffer has another name: `(variable, buffer)`.
     pub renamed: Vec<(&'static str, &'static str)>,
+    /// Whether it may take so long that nothing is to follow it in one submission: systems that watch over their displays end
+    /// one of seconds.
+    pub takes_long: bool,
 }
 
 /// What a buffer holds before the first step.
@@ -374,7 +377,7 @@ impl Kernel {
     /// A kernel of at least one workgroup, without constants of its own.
     fn new(name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> Self {
         let workgroups = workgroups.max(1) as u32;
-        Self { name, modules, workgroups, demand: None, constants: Vec::new(), renamed: Vec::new() }
+        Self { name, modules, workgroups, demand: None, constants: Vec::new(), renamed: Vec::new(), takes_long: false }
     }
 
     /// The same with constants of its own.

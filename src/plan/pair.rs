@@ -134,6 +134,7 @@ fn space(units: &Units, predicted: bool) -> Vec<&'static str> {
         "common/cells",
         "common/cells_buffer",
         "common/ranks",
+        "common/within",
         "common/control",
         "common/clock",
         "common/dispatch",

@@ -13,6 +13,9 @@ const CAPACITY: u64 = 16;
 /// what takes seconds.
 const PAIRS: u64 = 1 << 30;
 
+/// Part of them that takes no time to speak of, one over this: a batch of steps may have many such histograms.
+const SHORT: u128 = 64;
+
 /// The most dispatches that share a histogram.
 const MOST_DISPATCHES: u64 = 1 << 12;
 
@@ -44,7 +47,8 @@ impl PairHistogram<'_> {
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
         let shares = self.grid.rows() * segments * parts;
-        let dispatches = self.dispatches(plan.particles, spans).min(shares);
+        let (dispatches, takes_long) = self.dispatches(plan.particles, spans);
+        let dispatches = dispatches.min(shares);
         modules.push(if dispatches > 1 { "common/shares_in_turn" } else { "common/shares_at_once" });
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
@@ -59,7 +63,8 @@ impl PairHistogram<'_> {
         if dispatches > 1 {
             constants.push(("SHARES", shares as f64));
         }
-        let count = plan.add_kernel(Kernel::new("pair_histogram", modules, shares).with(constants));
+        let kernel = Kernel::new("pair_histogram", modules, shares).with(constants);
+        let count = plan.add_kernel(Kernel { takes_long, ..kernel });
         if dispatches > 1 {
             let next = Kernel::new("next_dispatch", vec!["kernels/next_dispatch"], 1);
             let next = plan.add_kernel(next.with(vec![("DISPATCHES", dispatches as f64)]));
@@ -93,13 +98,14 @@ impl PairHistogram<'_> {
         (2 * (self.asked.range / width).ceil() as u64 + 1).min(self.grid.cells[axis].into())
     }
 
-    /// Dispatches that share the pairs.
-    fn dispatches(&self, particles: u64, spans: [u64; 3]) -> u64 {
+    /// Dispatches that share the pairs, and whether each takes so long that those of a batch are not to be added up.
+    fn dispatches(&self, particles: u64, spans: [u64; 3]) -> (u64, bool) {
         let cells_around = spans.iter().product::<u64>();
         let candidates =
             u128::from(particles) * u128::from(particles) * u128::from(cells_around) / u128::from(self.grid.count());
-        let at_once = self.options.pairs_in_dispatch.unwrap_or(PAIRS).max(1);
-        candidates.div_ceil(at_once.into()).clamp(1, MOST_DISPATCHES.into()) as u64
+        let at_once = u128::from(self.options.pairs_in_dispatch.unwrap_or(PAIRS).max(1));
+        let dispatches = candidates.div_ceil(at_once).clamp(1, MOST_DISPATCHES.into());
+        (dispatches as u64, candidates / dispatches > at_once / SHORT)
     }
 
     /// Workgroups that share the particles of a row, and those that share the rows around each of these: enough to fill the
@@ -123,6 +129,20 @@ impl PairHistogram<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Over a thousand million pairs are shared; a batch may have many histograms of some millions each.
+    #[test]
+    fn histograms_that_take_long_are_shared_and_submitted_by_themselves() {
+        for (range, expected) in [(1.0, (1, false)), (5.0, (1, true)), (25.0, (15, true))] {
+            let units = Units { dimension: 3, lengths: [50.0; 3], momentum: 1.0 };
+            let particles = 125_000;
+            let grid = Grid::new(&units, 1.0, particles);
+            let asked = RadialDistribution { every: 1, range, bins: 10 };
+            let histogram = PairHistogram { units: &units, grid: &grid, options: Options::default(), asked: &asked };
+            let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
+            assert_eq!(histogram.dispatches(particles, spans), expected, "{range}");
+        }
+    }
 
     #[test]
     fn no_lane_makes_more_turns_than_software_adapters_do() {

@@ -165,7 +165,7 @@ fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, 
 }
 
 fn half_box(scene: &Scene) -> f64 {
-    scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0
+    0.5 * scene.space.shortest_length()
 }
 
 fn check_integrator(scene: &Scene, problems: &mut Problems) {

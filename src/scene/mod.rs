@@ -51,6 +51,11 @@ impl Space {
     pub fn volume(&self) -> f64 {
         self.lengths.iter().product()
     }
+
+    /// The shortest edge of the box.
+    pub(crate) fn shortest_length(&self) -> f64 {
+        self.lengths.iter().copied().fold(f64::INFINITY, f64::min)
+    }
 }
 
 impl Interaction {

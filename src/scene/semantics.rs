@@ -302,7 +302,7 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
     check_analyses(scene, problems);
     let output = &scene.output;
     if let Some(radial) = &output.radial_distribution {
-        let half = scene.space.lengths.iter().fold(f64::INFINITY, |least, length| least.min(*length)) / 2.0;
+        let half = 0.5 * scene.space.shortest_length();
         // A box that is none is a mistake of its own.
         if half > 0.0 && radial.range > half {
             let accepted = format!("at most {half}, half the shortest box edge");

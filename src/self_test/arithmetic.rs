@@ -7,8 +7,9 @@ use crate::gpu::{Gpu, GpuError};
 
 const POINTS: u32 = 1 << 12;
 
-/// How a difference of two products is rounded, and whether its mirror image is the same number.
-pub(super) fn contraction(gpu: &Gpu) -> Result<Finding, GpuError> {
+/// How a difference of two products is rounded, and whether its mirror image is the same number; and whether products are
+/// contracted anywhere.
+pub(super) fn contraction(gpu: &Gpu) -> Result<(Finding, bool), GpuError> {
     let points: Vec<[f32; 4]> =
         (0..POINTS).map(|number| std::array::from_fn(|part| (1.0 + uniform(number, part as u32)) as f32)).collect();
     let text = include_str!("../../shaders/check/mirror.wgsl");
@@ -24,5 +25,6 @@ pub(super) fn contraction(gpu: &Gpu) -> Result<Finding, GpuError> {
         0 => "mirrored expressions are alike",
         _ => "mirrored expressions are not alike",
     };
-    Ok(Finding::noted("contraction", format!("{contraction}; {mirror} ({unlike} of {POINTS} differ)")))
+    let found = format!("{contraction}; {mirror} ({unlike} of {POINTS} differ)");
+    Ok((Finding::noted("contraction", found), contracted > 0))
 }

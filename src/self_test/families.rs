@@ -116,17 +116,17 @@ const CASES: [Case; 11] = [
 
 /// Steps after which sums are looked at again.
 const STEPS: u64 = 20;
-/// What a difference of one step may be of what the step has changed: single precision is off by a few in 10⁵, a wrong number,
-/// or one that is lost, by parts of one.
-const TOLERANCE: f64 = 1e-3;
+/// What a difference of one step may be of what the step has changed. Drivers whose functions are nearly exact are off by 5e-6 at
+/// most, those whose functions err as much as WGSL lets them by 1e-5, as `tests/edge_of_error.rs` finds by playing one; a wrong
+/// number, or one that is lost, is off by parts of one.
+const TOLERANCE: f64 = 1e-4;
 /// Changes of fewer units than that say little: they are rounded.
 const FEWEST_UNITS: f64 = 1e5;
 
-/// Checks every family; `error_of_noise` is that of the functions that noise is made from.
-pub(super) fn check(gpu: &Gpu, error_of_noise: f64, report: &mut dyn FnMut(Finding)) {
+/// Checks every family; `contracts` says whether the driver contracts products and sums.
+pub(super) fn check(gpu: &Gpu, contracts: bool, report: &mut dyn FnMut(Finding)) {
     for case in &CASES {
-        let found = against_the_reference(gpu, case, TOLERANCE + 4.0 * error_of_noise);
-        report(match found {
+        report(match against_the_reference(gpu, case, contracts) {
             Ok(found) => Finding::new(case.name, true, found),
             Err(found) => Finding::new(case.name, false, found),
         });
@@ -211,24 +211,20 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
 }
 
 /// What was found, or what is wrong.
-fn against_the_reference(gpu: &Gpu, case: &Case, tolerance: f64) -> Result<String, String> {
+fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<String, String> {
     let scene = case.scene()?;
     let model = Model::new(&scene);
     let start = scene::placement::initial_state(&scene, &model);
     let words = |error: EngineError| error.to_string();
-    let hardware = Hardware::from(gpu);
-    let engine = |hardware| {
-        let plan = plan(&model, 0, &scene.output, hardware, Options::default());
-        Engine::new(gpu, plan, &start).map_err(words)
-    };
-    let mut device = engine(hardware)?;
+    let plan = |hardware| plan(&model, 0, &scene.output, hardware, Options::default());
+    let mut device = Engine::new(gpu, plan(Hardware::from(gpu)), &start).map_err(words)?;
     device.advance(1, 1).map_err(words)?;
     let (part, name) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
     device.advance(STEPS - 1, STEPS).map_err(words)?;
     let last = device.state().map_err(words)?;
     let mut found = format!("a step is off by {part:.0e} of its change at most ({name})");
-    if part > tolerance {
-        return Err(format!("{found}, more than {tolerance:.0e}"));
+    if part > TOLERANCE {
+        return Err(format!("{found}, more than {TOLERANCE:.0e}"));
     }
     let (before, after) = (constants(&model, &start), constants(&model, &last));
     for ((sum, before), (_, after)) in before.iter().zip(&after) {
@@ -241,11 +237,17 @@ fn against_the_reference(gpu: &Gpu, case: &Case, tolerance: f64) -> Result<Strin
         let names: Vec<&str> = before.iter().map(|(sum, _)| *sum).collect();
         found = format!("{found}; total {} constant to the last bit", names.join(", "));
     }
-    if case.twice && hardware != Hardware::default() {
-        let mut portable = engine(Hardware::default())?;
+    let portable = plan(Hardware::default());
+    if case.twice && portable != *device.plan() {
+        let mut portable = Engine::new(gpu, portable, &start).map_err(words)?;
         portable.advance(STEPS, STEPS).map_err(words)?;
         if portable.state().map_err(words)? != last {
-            return Err(format!("the plan for any adapter gives other bits after {STEPS} steps"));
+            let difference = format!("the plan for any adapter gives other bits after {STEPS} steps");
+            if !contracts {
+                return Err(difference);
+            }
+            // Compilers may contract the same expression in one kernel and not in another.
+            found = format!("{found}; {difference}");
         }
     }
     Ok(found)

@@ -211,13 +211,6 @@ pub fn errors_of_functions(gpu: &Gpu) -> Result<Vec<FunctionError>, GpuError> {
     Function::ALL.into_iter().map(|function| function.error(gpu)).collect()
 }
 
-/// The largest error of what noise is made from.
-pub(super) fn error_of_noise(errors: &[FunctionError]) -> f64 {
-    let of_noise =
-        |error: &&FunctionError| matches!(error.function, Function::Logarithm | Function::Sine | Function::Cosine);
-    errors.iter().filter(of_noise).map(|error| error.absolute).fold(0.0, f64::max)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -63,12 +63,12 @@ impl Finding {
 /// # Errors
 /// [`GpuError`] if the adapter refuses the kernels of the arithmetic; whatever fails in a simulation is a finding.
 pub fn run(gpu: &Gpu, report: &mut dyn FnMut(Finding)) -> Result<(), GpuError> {
-    let errors = errors_of_functions(gpu)?;
-    for error in &errors {
+    for error in errors_of_functions(gpu)? {
         report(error.finding());
     }
-    report(arithmetic::contraction(gpu)?);
-    families::check(gpu, functions::error_of_noise(&errors), report);
+    let (contraction, contracts) = arithmetic::contraction(gpu)?;
+    report(contraction);
+    families::check(gpu, contracts, report);
     report(speed::of_the_standard_fluid(gpu));
     Ok(())
 }

@@ -1,19 +1,23 @@
 //! Another compiler, played by rewriting modules before pipelines are made of them: what WGSL leaves to drivers, and lavapipe
 //! does in one way only. See [`mesoscope::gpu::Gpu::open_rewriting`].
-#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod contraction;
 mod flattening;
 mod functions;
+mod fusion;
 mod operands;
 mod rewriting;
 
 use std::sync::Arc;
 
-use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::gpu::Gpu;
+
+use crate::support;
 
 pub use contraction::Contraction;
 pub use functions::{Deviation, Functions};
+pub use fusion::can_contract;
 
 /// What a compiler does to arithmetic, after it has put all functions into the kernel where that can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,7 +37,7 @@ impl Compiler {
         match self {
             Self::Plain => {}
             Self::Contracting(contraction) => {
-                // A fused multiplication and addition need not be one on the device: in double precision it is.
+                // A fused multiplication and addition need not be one on the device, see `can_contract`: in double precision it is.
                 contraction::contract(module, contraction, features.contains(wgpu::Features::SHADER_F64));
             }
             Self::Erring(which, deviation) => functions::perturb(module, which, deviation),
@@ -42,9 +46,7 @@ impl Compiler {
 
     /// The adapter of the tests with this compiler.
     pub fn gpu(self) -> Gpu {
-        let name = std::env::var("MESOSCOPE_ADAPTER").ok();
         let rewriting = Arc::new(move |module: &mut naga::Module, features| self.rewrite(module, features));
-        Gpu::open_rewriting(&AdapterChoice::parse(name.as_deref()), Requirements::default(), rewriting)
-            .expect("an adapter")
+        Gpu::open_rewriting(&support::adapter(), support::requirements(), rewriting).expect("an adapter")
     }
 }

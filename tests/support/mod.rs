@@ -12,22 +12,47 @@ use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Traversal};
 use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::{self, Scene};
+use mesoscope::self_test::{Function, errors_of_functions};
 use mesoscope::state::State;
 
-/// The adapter of the tests: the one named by `MESOSCOPE_ADAPTER`, or the best. With `MESOSCOPE_PLAN=gpu` nothing is used of it
-/// that only some adapters have: plans are the ones for any GPU, on software adapters too.
+/// Which adapter the tests take: the one named by `MESOSCOPE_ADAPTER`, or the best.
+pub fn adapter() -> AdapterChoice {
+    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
+}
+
+/// What they ask of it. With `MESOSCOPE_PLAN=gpu` nothing is used that only some adapters have: plans are the ones for any GPU, on
+/// software adapters too.
+pub fn requirements() -> Requirements {
+    let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
+        Err(_) => false,
+        Ok("gpu") => true,
+        Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
+    };
+    Requirements { portable, ..Requirements::default() }
+}
+
+/// The adapter of the tests.
 pub fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| {
-        let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-        let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
-            Err(_) => false,
-            Ok("gpu") => true,
-            Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
-        };
-        let requirements = Requirements { portable, ..Requirements::default() };
-        Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements).expect("an adapter")
-    })
+    GPU.get_or_init(|| Gpu::open(&adapter(), requirements()).expect("an adapter"))
+}
+
+/// Pairs of a particle in the standard fluid, or some more.
+const PAIRS: i64 = 25;
+/// Units in the last place by which the impulse of a pair may be off, and so units of momentum: it is at most 2²³ of them or so.
+const PLACES: i64 = 4;
+
+/// Units of momentum by which a step of the standard fluid may differ from the reference. Where weights are powers, the impulses of
+/// pairs are as wrong as these are on the adapter.
+pub fn units_of_a_step(powers: bool) -> i64 {
+    static OF_POWERS: OnceLock<i64> = OnceLock::new();
+    let of_powers = || {
+        let errors = errors_of_functions(gpu()).expect("a kernel");
+        let power = errors.iter().find(|error| error.function == Function::Power).expect("all functions");
+        assert!(power.of_allowed <= 1.0, "{power:?}");
+        power.last_places.ceil() as i64
+    };
+    PAIRS * (PLACES + if powers { *OF_POWERS.get_or_init(of_powers) } else { 0 })
 }
 
 /// What plans may use of it.

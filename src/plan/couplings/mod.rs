@@ -198,7 +198,7 @@ impl Builder<'_> {
     fn space(&self) -> Vec<&'static str> {
         let mut modules = vec![self.dimensions()];
         modules.push(if self.predicted() { "common/particle_predicted" } else { "common/particle" });
-        modules.extend(["common/control", "common/clock", "common/dispatch"]);
+        modules.extend(["common/within", "common/control", "common/clock", "common/dispatch"]);
         modules
     }
 

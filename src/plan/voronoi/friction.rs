@@ -47,7 +47,7 @@ impl Builder<'_> {
         }
         let image =
             self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
-        let judge = [&sums[..], &["common/friction_verdict", "kernels/friction_judge"]].concat();
+        let judge = [&sums[..], &["common/control", "common/friction_verdict", "kernels/friction_judge"]].concat();
         let judge = self.plan.add_kernel(Kernel::new("friction_judge", judge, 1));
         self.plan.kernels[judge].constants = verdict;
         let step = self.kernel("friction_step", &[&sums[..], &equations, &["kernels/friction_step"]].concat(), groups);

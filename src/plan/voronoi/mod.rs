@@ -49,7 +49,8 @@ fn quanta(model: &Model) -> Quanta {
 }
 
 /// Modules of the plane and of the cells in it.
-const SPACE: [&str; 5] = ["common/space2", "common/particle", "common/control", "common/clock", "common/dispatch"];
+const SPACE: [&str; 6] =
+    ["common/space2", "common/within", "common/particle", "common/control", "common/clock", "common/dispatch"];
 
 struct Builder<'a> {
     model: &'a Model,

@@ -1,0 +1,37 @@
+//! Commands on their way to the device.
+
+use super::pipeline::Stage;
+use crate::gpu::{Gpu, compute_pass};
+
+/// Kernels of a batch, recorded and not yet submitted.
+pub(super) struct Recording<'a> {
+    gpu: &'a Gpu,
+    label: &'static str,
+    encoder: wgpu::CommandEncoder,
+    pass: Option<wgpu::ComputePass<'static>>,
+}
+
+impl<'a> Recording<'a> {
+    pub(super) fn new(gpu: &'a Gpu, label: &'static str) -> Self {
+        Self { gpu, label, encoder: gpu.encoder(label), pass: None }
+    }
+
+    /// Records a kernel; after one that takes long, submits what there is. Systems that watch over their displays time a whole
+    /// submission.
+    pub(super) fn dispatch(&mut self, stage: &Stage) {
+        let (encoder, label) = (&mut self.encoder, self.label);
+        let pass = self.pass.get_or_insert_with(|| compute_pass(encoder, label).forget_lifetime());
+        stage.dispatch(pass);
+        if stage.takes_long {
+            self.pass = None;
+            let full = std::mem::replace(&mut self.encoder, self.gpu.encoder(self.label));
+            self.gpu.queue.submit([full.finish()]);
+        }
+    }
+
+    /// What has not been submitted.
+    pub(super) fn finish(mut self) -> wgpu::CommandEncoder {
+        self.pass = None;
+        self.encoder
+    }
+}
