@@ -31,7 +31,7 @@ impl Watch {
     /// The length of the file, as long as it is the same.
     pub(super) fn length(&self) -> Option<u64> {
         let metadata = fs::metadata(&self.path).ok()?;
-        (identity(&metadata) == self.identity).then(|| metadata.len())
+        (identity(&metadata) == self.identity).then_some(metadata.len())
     }
 
     /// Looks whether the same file is there, as long as it was written.

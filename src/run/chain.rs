@@ -101,10 +101,8 @@ impl Chains {
     pub(super) fn restore(&mut self, sections: &Sections<'_>) -> Result<(), CheckpointError> {
         let taken = samples(self.every, 0, sections.step);
         let clusters = self.trios.pulse.clusters;
-        let width = 4 + 3 * clusters;
-        let series = ThermalSeries::numbers_after(self.trios.thermal.clusters, taken);
-        let count = (width as u64).saturating_mul(taken).saturating_add(1).saturating_add(series.saturating_mul(3));
-        let Some(numbers) = sections.numbers(SECTION, count)? else { return Ok(()) };
+        let width = pulse_width(&self.trios);
+        let Some(numbers) = sections.numbers(SECTION, numbers_kept(&self.trios, taken))? else { return Ok(()) };
         let (pulses, rest) = numbers[1..].split_at(width * taken as usize);
         let sample = |words: &[f64]| PulseSample {
             step: words[0],
@@ -332,6 +330,17 @@ impl<'a> ExactPulse<'a> {
         let energy = chain.frictionless().energy(&displacements, &momenta) / self.energy;
         (displacements, energy)
     }
+}
+
+/// Numbers of a sample of a pulse.
+fn pulse_width(trios: &ChainTrios) -> usize {
+    4 + 3 * trios.pulse.clusters
+}
+
+/// Numbers that a checkpoint keeps after so many samples.
+pub(super) fn numbers_kept(trios: &ChainTrios, samples: u64) -> u64 {
+    let series = ThermalSeries::numbers_after(trios.thermal.clusters, samples);
+    (pulse_width(trios) as u64).saturating_mul(samples).saturating_add(1).saturating_add(series.saturating_mul(3))
 }
 
 /// Running integrals against ω₀t, in equal ratios of time, and the plateau of the largest clusters.

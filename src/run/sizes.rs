@@ -1,5 +1,6 @@
 //! How large the files of a run will be, before it begins.
 
+use super::chain::numbers_kept;
 use crate::model::{Bonds, Model};
 use crate::plan::{Layout, Plan};
 use crate::plot::snapshot_size;
@@ -13,9 +14,9 @@ const XYZ_PARTICLE: u64 = 110;
 const GSD_PARTICLE: u64 = 36;
 /// Bytes that a checkpoint keeps of a row of the table of energies: sums for the configurational temperature.
 const ROW_KEPT: u64 = 16;
-/// Bytes of a pixel in pictures, as they are compressed: measured, from .1 in plots to .4 in crowds of discs.
-const PLOT_PIXEL: f64 = 0.08;
-const PICTURE_PIXEL: f64 = 0.3;
+/// Bytes of a pixel in pictures, as they are compressed: measured, from .04 to .15 in plots, to .7 in crowds of discs.
+const PLOT_PIXEL: f64 = 0.1;
+const PICTURE_PIXEL: f64 = 0.5;
 
 /// Bytes that a run will write, file by file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -67,6 +68,10 @@ impl Sizes {
         let loops = model.shallow_water.as_ref().map_or(0, |water| water.closed_loops().count() as u64);
         let circulation =
             if loops == 0 { 0 } else { times(output.energies.every).saturating_mul(NUMBER * (loops + 2)) };
+        let of_chains = match (&output.chain, &model.chains) {
+            (Some(asked), Some(trios)) => numbers_kept(trios, times(asked.every)).saturating_mul(8),
+            _ => 0,
+        };
         let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
             times(asked.every).saturating_mul(each(asked.format).saturating_mul(plan.particles).saturating_add(300))
         });
@@ -102,7 +107,9 @@ impl Sizes {
         Self {
             energies,
             circulation,
-            checkpoint: checkpoint(model, plan).saturating_add(times(output.energies.every).saturating_mul(ROW_KEPT)),
+            checkpoint: [times(output.energies.every).saturating_mul(ROW_KEPT), of_chains]
+                .into_iter()
+                .fold(checkpoint(model, plan), u64::saturating_add),
             trajectory,
             pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots as u64)),
             numbered: picture.saturating_mul(numbered),
