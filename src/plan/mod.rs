@@ -527,7 +527,14 @@ impl Plan {
         self.report.clear();
         self.finish_report.clear();
         let mut kept: Vec<usize> = Vec::new();
-        let stages = [&mut self.prepare, &mut self.sort, &mut self.tidy, &mut self.before_report, &mut self.advance];
+        let stages = [
+            &mut self.prepare,
+            &mut self.sort,
+            &mut self.tidy,
+            &mut self.before_report,
+            &mut self.advance,
+            &mut self.paths.kernels,
+        ];
         for kernel in stages.into_iter().flatten() {
             let place = kept.iter().position(|known| known == kernel).unwrap_or(kept.len());
             if place == kept.len() {
@@ -548,7 +555,29 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use super::folded;
+    #![allow(clippy::unwrap_used)]
+    use super::{Hardware, Options, folded, plan};
+    use crate::model::Model;
+    use crate::scene;
+
+    #[test]
+    fn plans_without_reports_have_the_kernels_they_name() {
+        for builtin in scene::builtin() {
+            // One whose particles are followed too.
+            for set in [&[][..], &[r#"output.trajectory={"every":5}"#.to_owned()]] {
+                let scene = scene::load(builtin.name, set).unwrap();
+                let model = Model::new(&scene);
+                let whole = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+                let steps = whole.clone().without_reports();
+                let stages = |plan: &super::Plan| {
+                    let stages = [&plan.prepare, &plan.sort, &plan.tidy, &plan.before_report, &plan.advance];
+                    let named = stages.into_iter().chain([&plan.paths.kernels]).flatten();
+                    named.map(|kernel| plan.kernels[*kernel].name).collect::<Vec<_>>()
+                };
+                assert_eq!(stages(&steps), stages(&whole), "{}", builtin.name);
+            }
+        }
+    }
 
     #[test]
     fn folding_covers_every_workgroup() {
