@@ -164,7 +164,7 @@ pub enum Distribution {
     /// it lacks: it raises the configurational temperature of `groot-warren` by 0.003 at a step of 0.06.
     #[default]
     Uniform,
-    /// Gaussian, by Box and Muller's transform; a step takes some 2 % longer.
+    /// Gaussian, by Box and Muller's transform; a step takes 7 to 17 % longer.
     Gaussian,
 }
 
