@@ -7,7 +7,7 @@ mod support;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use compiler::{Compiler, Contraction, Deviation, Functions};
+use compiler::{Compiler, Contraction, Deviation, Functions, kernel};
 use mesoscope::gpu::{Gpu, link_texts, module_text};
 use mesoscope::noise;
 
@@ -27,43 +27,10 @@ const COUNT: u32 = 1 << 21;
 
 /// -2 ln(½ + c), cosine and sine of c turns, and a Gaussian number, for `COUNT` words.
 fn on_the_device(gpu: &Gpu, module: &naga::Module, first: u32, stride: u32) -> Vec<[f32; 4]> {
-    let device = gpu.device();
-    let size = 16 * u64::from(COUNT);
-    let buffer =
-        |usage| device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false });
-    let found = buffer(wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-    let staging = buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Naga(Cow::Owned(module.clone())),
-    });
     let constants = [("FIRST", f64::from(first)), ("STRIDE", f64::from(stride))];
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: None,
-        module: &module,
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-        cache: None,
-    });
-    let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: found.as_entire_binding() }],
-    });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &bindings, &[]);
-        pass.dispatch_workgroups(COUNT / 128, 1, 1);
-    }
-    encoder.copy_buffer_to_buffer(&found, 0, &staging, 0, size);
-    gpu.queue().submit([encoder.finish()]);
-    staging.slice(..).map_async(wgpu::MapMode::Read, |mapped| mapped.unwrap());
-    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
-    let bytes = staging.slice(..).get_mapped_range().unwrap();
-    bytemuck::pod_collect_to_vec(&bytes)
+    let source = wgpu::ShaderSource::Naga(Cow::Owned(module.clone()));
+    let found = kernel::run(gpu, source, &constants, &vec![0.0; 4 * COUNT as usize], COUNT / 128);
+    found.as_chunks().0.to_vec()
 }
 
 /// The largest errors, and the least of what has to be above zero.

@@ -296,10 +296,25 @@ fn runs_that_were_continued_are_left_as_they_are() {
     fails(&["sweep", "--resume", &out], 5, &["`seed=1`", "was continued beyond step 30"]);
     let after: Vec<_> = listing(&path).into_iter().map(|name| bytes(&path.join(name))).collect();
     assert!(before == after);
-    // Killed before it saved anything, it goes on from what was finished.
-    fs::write(path.join(files::CHECKPOINT), bytes(&place.path("out/seed=2").join(files::CHECKPOINT))).unwrap();
-    fails(&["sweep", "--resume", &out], 5, &["`seed=1`"]);
-    assert!(path.join(files::ENERGIES_PLOT).exists());
+}
+
+/// One that was killed before it saved anything goes on from what was finished.
+#[test]
+fn a_continued_run_that_saved_nothing_goes_back_to_its_end() {
+    let place = place().with("/time/steps", json!(30));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    succeeds(&["sweep", &scene, "--vary", "seed=1,2", "--out", &out, "--quiet"]);
+    let (variant, path) = (format!("{out}/seed=2"), place.path("out/seed=2"));
+    let table = bytes(&path.join(files::ENERGIES));
+    let mut child = { command(&["resume", &variant, "--steps", "50000000", "--quiet"]) };
+    let mut child = child.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    wait_for(&mut child, || bytes(&path.join(files::ENERGIES)).len() > table.len() + 500);
+    send("-KILL", &child, 1);
+    ended(child);
+    fails(&["plot", &variant], 5, &["was continued beyond step 30"]);
+    succeeds(&["sweep", "--resume", &out, "--quiet"]);
+    assert!(bytes(&path.join(files::ENERGIES)) == table);
+    succeeds(&["plot", &variant]);
 }
 
 /// A checkpoint that cannot be read is a reason to ask, not to begin again.

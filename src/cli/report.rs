@@ -189,7 +189,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     for (column, label) in columns {
         if let Some(value) = mean(&summary.means, column) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
-            rows.push(vec![label.to_owned(), if spoilt { format!("{value} †") } else { value }]);
+            rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }
     }
     for (label, path) in [
@@ -239,12 +239,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
     }
-    let marked = |mark: char| rows.iter().any(|row| row[1].ends_with(mark) || row[1].contains(&format!("{mark} ")));
+    let has = |mark: char| rows.iter().any(|row| row[1].ends_with(mark) || row[1].contains(&format!("{mark} ")));
     let mut note = String::new();
-    if marked('*') {
+    if has('*') {
         note.push_str("  * from few samples: the error may be larger\n");
     }
-    if let Some(found) = summary.unequilibrated.as_ref().filter(|_| marked('†')) {
+    if let Some(found) = summary.unequilibrated.as_ref().filter(|_| has('†')) {
         note = format!("{note}  † not yet in equilibrium: try {}\n", found.arguments());
     }
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
@@ -269,6 +269,11 @@ pub fn mean(means: &serde_json::Map<String, serde_json::Value>, column: &str) ->
     // An error that has not settled is a lower bound.
     let unsettled = mean["converged"] == false && mean["standard_error"].is_number();
     Some(if unsettled { format!("{text} *") } else { text })
+}
+
+/// A mean, with a mark if it includes the way to equilibrium.
+pub fn marked(mean: String, unequilibrated: bool) -> String {
+    if unequilibrated { format!("{mean} †") } else { mean }
 }
 
 /// A value to the second digit of its error.

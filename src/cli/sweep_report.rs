@@ -10,7 +10,7 @@ use mesoscope::run::Progress;
 use mesoscope::scene;
 use mesoscope::sweep::{Sweep, SweepEvent, SweepOutcome, VariantState, VariantSummary};
 
-use super::report::{duration, mean};
+use super::report::{duration, marked, mean};
 use super::table::{aligned, prefixed};
 use super::{line, print};
 
@@ -181,11 +181,6 @@ impl Reporter {
     }
 }
 
-/// A mean in the table, with a mark if it includes the way to equilibrium.
-fn marked(mean: Option<String>, spoilt: bool) -> String {
-    mean.map_or_else(String::new, |mean| if spoilt { format!("{mean} †") } else { mean })
-}
-
 /// The table at the end and the files written.
 pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
@@ -195,11 +190,12 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     header.extend(columns.iter().map(|name| name.replace('_', " ").to_uppercase()));
     header.push("TIME".to_owned());
     let mut rows = vec![header];
+    let shown = |means: &_, name: &str, spoilt| mean(means, name).map_or_else(String::new, |mean| marked(mean, spoilt));
     for variant in variants {
         let mut row = vec![variant.name.clone()];
         if variant.state == VariantState::Finished {
             let spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
-            row.extend(columns.iter().map(|name| marked(mean(&variant.means, name), spoilt(name))));
+            row.extend(columns.iter().map(|name| shown(&variant.means, name, spoilt(name))));
             row.push(format!("{:.2} s", variant.wall_seconds));
         } else {
             row.push(variant.state.name().to_owned());
@@ -215,7 +211,7 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
         for average in averages {
             let mut row = vec![average.label.clone()];
             let spoilt = |name: &str| average.unequilibrated.iter().any(|known| known == name);
-            row.extend(columns.iter().map(|name| marked(mean(&average.means, name), spoilt(name))));
+            row.extend(columns.iter().map(|name| shown(&average.means, name, spoilt(name))));
             rows.push(row);
         }
     }
@@ -224,11 +220,10 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
         note.push_str("  * from few samples: the error may be larger\n");
     }
     if rows.iter().flatten().any(|cell| cell.ends_with('†')) {
-        let found = || variants.iter().filter_map(|variant| variant.unequilibrated.as_ref());
-        let equilibration = found().map(|found| found.equilibration).max().unwrap_or(0);
-        let steps = found().filter_map(|found| found.steps).max();
-        let arguments = Unequilibrated { means: Vec::new(), equilibration, steps }.arguments();
-        note = format!("{note}  † not yet in equilibrium: try {arguments}\n");
+        let found = variants.iter().filter_map(|variant| variant.unequilibrated.clone());
+        let all = found.reduce(Unequilibrated::and);
+        let arguments = all.map_or_else(String::new, |all| format!(": try {}", all.arguments()));
+        note = format!("{note}  † not yet in equilibrium{arguments}\n");
     }
     format!("{}{note}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), outcome.files.join(", "))
 }

@@ -40,8 +40,9 @@ impl RunDirectory {
     ///
     /// # Errors
     /// [`OutputError::InUse`] when another process writes there; [`OutputError::InTheWay`] when there are files of an earlier
-    /// run and `force` is not given; [`OutputError::DirectoryInTheWay`] when a directory has the name of a result; [`OutputError::NoDirectory`] when
-    /// `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed, cleared or written to.
+    /// run and `force` is not given; [`OutputError::DirectoryInTheWay`] when a directory has the name of a result;
+    /// [`OutputError::NoDirectory`] when `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed,
+    /// cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
         let directory = Self::make(path)?;
         directory.clear(force)?;

@@ -40,7 +40,7 @@ pub enum OutputError {
     },
     /// A file that a run kept open is not what it was.
     #[error(
-        "`{}` is not complete: {problem} while the run was under way; what it wrote since is lost, run the scene again with --force",
+        "`{}` is not complete: {problem} while the run was under way; what was in it is lost: run the scene again with --force to have it",
         crate::printable::path(path)
     )]
     Lost {

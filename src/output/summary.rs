@@ -103,6 +103,17 @@ impl Unequilibrated {
         format!("--set time.equilibration={}{steps}", self.equilibration)
     }
 
+    /// Those of two runs, with what does for both.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.means.extend(other.means);
+        Self {
+            means: self.means,
+            equilibration: self.equilibration.max(other.equilibration),
+            steps: self.steps.max(other.steps),
+        }
+    }
+
     /// Whether the mean of a column is among them.
     #[must_use]
     pub fn includes(&self, column: &str) -> bool {

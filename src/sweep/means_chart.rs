@@ -37,7 +37,8 @@ pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<
         "means over time after equilibration, bars: standard errors".to_owned()
     };
     let marked = panels.iter().any(|panel| panel.y.label.ends_with(UNEQUILIBRATED));
-    let subtitle = subtitle + if marked { ", † some with the way to equilibrium" } else { "" };
+    let mark = if marked { format!(", {UNEQUILIBRATED} some with the way to equilibrium") } else { String::new() };
+    let subtitle = subtitle + &mark;
     let chart =
         |panels: &[Panel]| Chart { title: title.to_owned(), subtitle: subtitle.clone(), panels: panels.to_vec() };
     panels.chunks(PANELS).map(chart).collect()

@@ -6,6 +6,7 @@ mod contraction;
 mod flattening;
 mod functions;
 mod fusion;
+pub mod kernel;
 mod operands;
 mod rewriting;
 
