@@ -3,6 +3,9 @@
 //! A word depends on (seed, stream, step, two counters) and on nothing else, so it does not matter who draws it, when,
 //! or how often. The counters of a pair are its smaller and its larger particle id.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// One stream number per use of random numbers; two uses never share one.
 pub mod stream {
     /// Noise of a pair in DPD.
@@ -25,6 +28,18 @@ pub mod stream {
     pub const CHAIN: u32 = 9;
     /// Noise of a face of two Voronoi cells.
     pub const FACE: u32 = 10;
+}
+
+/// A counter-based random number generator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+pub enum Generator {
+    /// Word w of pcg4d: the fast path (default).
+    #[default]
+    #[serde(rename = "pcg4d")]
+    Pcg4d,
+    /// Threefry2x32 with 20 rounds: the conservative choice.
+    #[serde(rename = "threefry2x32-20")]
+    Threefry2x32,
 }
 
 /// One round of the pcg4d hash of Jarzynski and Olano, JCGT 9(3), 2020.
@@ -104,8 +119,7 @@ pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
 /// The two random words of a pair of counters under a step's key.
 ///
 /// ```
-/// use mesoscope::noise::{step_key, stream, words};
-/// use mesoscope::scene::Generator;
+/// use mesoscope::noise::{Generator, step_key, stream, words};
 ///
 /// // The noise of particles 7 and 12 at step 1000 of the run with seed 1: the same whenever it is drawn.
 /// let key = step_key(1, stream::PAIR, 1000);
@@ -114,20 +128,20 @@ pub fn step_key(seed: u64, stream: u32, step: u64) -> [u32; 2] {
 /// assert_ne!(noise, words(Generator::Threefry2x32, step_key(1, stream::PAIR, 1001), [7, 12]));
 /// ```
 #[must_use]
-pub fn words(generator: crate::scene::Generator, key: [u32; 2], counters: [u32; 2]) -> [u32; 2] {
+pub fn words(generator: Generator, key: [u32; 2], counters: [u32; 2]) -> [u32; 2] {
     match generator {
-        crate::scene::Generator::Pcg4d => {
+        Generator::Pcg4d => {
             let hash = pcg4d([counters[0], counters[1], key[0], key[1]]);
             [hash[3], hash[2]]
         }
-        crate::scene::Generator::Threefry2x32 => threefry2x32(counters, key),
+        Generator::Threefry2x32 => threefry2x32(counters, key),
     }
 }
 
 /// The counters of the words of the face between two Voronoi cells.
 ///
 /// In a small box two cells may share several faces, each with another image of the other. `image` is the code of the
-/// face's image as the cell `smaller` sees it, [`crate::tessellation::Face::image_code`]; `part` tells the draws of one
+/// face's image as the cell `smaller` sees it, the tessellation's `Face::image_code`; `part` tells the draws of one
 /// face from each other. There are at most 2²⁸ cells.
 ///
 /// ```

@@ -5,6 +5,7 @@
 mod support;
 
 use mesoscope::engine::{Engine, EngineError};
+use mesoscope::model::Instability;
 use mesoscope::plan::Options;
 use mesoscope::reference::CouplingsReference;
 use mesoscope::scene::{self, Scene};
@@ -366,10 +367,11 @@ fn a_bond_that_is_torn_ends_the_run() {
             "velocities": {"type": "listed", "velocities": speeds}}],
         "interactions": interactions,
     }));
-    let (_, state) = start(&scene);
+    let (model, state) = start(&scene);
     let mut device = engine(&scene, &state, Options::default());
     device.advance(10, 10).unwrap();
-    let Err(EngineError::Unstable { step, quantity, .. }) = device.finish() else { panic!("the bond holds") };
+    let Err(EngineError::Unstable(failure)) = device.finish() else { panic!("the bond holds") };
+    let Instability { step, quantity, .. } = Instability::new(&failure, device.plan(), &model);
     assert_eq!(quantity, "bond 1 is stretched beyond the extent of its potential");
     assert_eq!(step, 1);
 }

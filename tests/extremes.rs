@@ -5,7 +5,7 @@ mod support;
 
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::model::Model;
+use mesoscope::model::{Instability, Model};
 use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::reference::Reference;
 use mesoscope::scene::Scene;
@@ -257,13 +257,14 @@ fn friction_from_none_to_too_much() {
 
 /// The run fails as unstable within one batch, says when, and suggests a smaller step that is not zero.
 fn unstable(scene: &Scene, batch: u64) {
-    let (_, state) = start(scene);
+    let (model, state) = start(scene);
     for traversal in traversals() {
         let mut engine = engine(scene, &state, options(traversal));
         let outcome = engine.advance(batch, batch).and_then(|()| engine.finish().map(drop));
         match outcome {
-            Err(error @ EngineError::Unstable { .. }) => {
-                let EngineError::Unstable { step, quantity, suggested_step } = &error else { unreachable!() };
+            Err(EngineError::Unstable(failure)) => {
+                let error = Instability::new(&failure, engine.plan(), &model);
+                let Instability { step, quantity, suggested_step } = &error;
                 assert!(*step < batch, "{error}");
                 assert!(!quantity.is_empty());
                 let suggested_step = suggested_step.unwrap();
@@ -310,7 +311,7 @@ fn the_first_failing_step_is_named() {
     for batch in [1, 4, 50] {
         let mut engine = engine(&scene, &state, Options::default());
         match engine.advance(50, batch).and_then(|()| engine.finish().map(drop)) {
-            Err(EngineError::Unstable { step, .. }) => assert!([9, 10].contains(&step), "step {step}"),
+            Err(EngineError::Unstable(failure)) => assert!([9, 10].contains(&failure.step), "{failure:?}"),
             other => panic!("{other:?}"),
         }
     }

@@ -5,7 +5,7 @@ mod support;
 
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::model::{Model, ShallowWater};
+use mesoscope::model::{Instability, Model, ShallowWater};
 use mesoscope::plan::{Options, Storage, Traversal};
 use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
@@ -93,7 +93,7 @@ fn agrees(changes: &[&str], steps: u64, units: i64) {
 }
 
 /// The failure of a run from a state, after so many steps in one batch.
-fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> EngineError {
+fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> Result<Instability, EngineError> {
     let mut engine = engine(scene, state, options);
     match engine.advance(batch, batch).and_then(|()| engine.finish().map(drop)) {
         Err(error) => {
@@ -102,18 +102,23 @@ fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> Engine
             if !matches!(engine.upload(&first), Err(EngineError::Crowded { .. })) {
                 assert_eq!(engine.state().unwrap().positions, first.positions);
             }
-            error
+            explained(error, &engine, scene)
         }
         Ok(()) => panic!("no failure in {batch} steps ({:?}, {options:?})", scene.interactions),
     }
 }
 
-/// Step, quantity and suggested time step of an unstable run.
-fn unstable(error: &EngineError) -> (u64, &str, f64) {
+/// What an unstable run says.
+fn explained(error: EngineError, engine: &Engine<'_>, scene: &Scene) -> Result<Instability, EngineError> {
     match error {
-        EngineError::Unstable { step, quantity, suggested_step } => (*step, quantity, suggested_step.unwrap_or(0.0)),
-        other => panic!("{other:?} instead of an unstable run"),
+        EngineError::Unstable(failure) => Ok(Instability::new(&failure, engine.plan(), &Model::new(scene))),
+        other => Err(other),
     }
+}
+
+/// Step, quantity and suggested time step of an unstable run.
+fn unstable(error: &Instability) -> (u64, &str, f64) {
+    (error.step, &error.quantity, error.suggested_step.unwrap_or(0.0))
 }
 
 // ---- Few particles
@@ -363,7 +368,7 @@ fn a_bath_that_is_too_stiff_is_caught() {
     let bath = r#"interactions.0.bath={"type":"memory","epsilon":1e12,"scheme":"symmetric"}"#;
     let scene = water(&[bath, WARM]);
     let (_, state) = start(&scene);
-    let error = failure(&scene, &state, stored(Storage::Sorted), 50);
+    let error = failure(&scene, &state, stored(Storage::Sorted), 50).unwrap();
     let (step, _, suggested) = unstable(&error);
     assert!(step < 50 && suggested > 0.0 && suggested < 1e-6, "{error}");
 }
@@ -386,10 +391,11 @@ fn a_time_step_far_beyond_stability_is_caught_and_the_suggested_one_works() {
             let mut suggestions = Vec::new();
             for storage in STORAGES {
                 let error = failure(&scene, &state, stored(storage), STEPS);
-                if matches!(error, EngineError::Crowded { .. }) {
+                if matches!(error, Err(EngineError::Crowded { .. })) {
                     assert_eq!(storage, Storage::Bins);
                     continue;
                 }
+                let error = error.unwrap();
                 let (at, quantity, suggested) = unstable(&error);
                 assert!(at < STEPS && !quantity.is_empty(), "{error}");
                 let message = error.to_string();
@@ -426,7 +432,7 @@ fn a_velocity_that_leaves_its_range_is_caught_with_its_step() {
                     engine.finish().unwrap();
                     continue;
                 }
-                let error = failure(&scene, &state, stored(storage), 20);
+                let error = failure(&scene, &state, stored(storage), 20).unwrap();
                 let (at, quantity, _) = unstable(&error);
                 assert_eq!(at, step, "{error}");
                 assert_eq!(
@@ -462,7 +468,7 @@ fn a_path_of_half_the_box_is_caught() {
         state.momenta.clone_from(&listed.momenta);
         for storage in STORAGES {
             if fails {
-                let error = failure(&fast, &state, stored(storage), 5);
+                let error = failure(&fast, &state, stored(storage), 5).unwrap();
                 assert_eq!(
                     (unstable(&error).0, unstable(&error).1),
                     (0, "a velocity is above 2.000, which may go half round the box in one step")
@@ -536,6 +542,7 @@ fn a_negative_depth_is_caught_with_place_and_step_and_only_the_spectral_symbol_m
                 match engine.advance(2, 2).and_then(|()| engine.finish().map(drop)) {
                     Ok(()) => assert!(positive && expected.is_ok(), "{solver}"),
                     Err(error) => {
+                        let error = explained(error, &engine, &scene).unwrap();
                         let (step, quantity, _) = unstable(&error);
                         let Err(Unstable::Depth { step: known, node: [k, l] }) = expected else { panic!("{error}") };
                         assert!(!positive && (step, known) == (first, first), "{error}");
@@ -662,7 +669,7 @@ fn more_mass_than_fits_is_caught() {
         }
         for first in [0, 9] {
             let state = State { step: first, ..crowd(&scene, around) };
-            let error = failure(&scene, &state, stored(Storage::Sorted), 4);
+            let error = failure(&scene, &state, stored(Storage::Sorted), 4).unwrap();
             let (step, quantity, _) = unstable(&error);
             assert_eq!(step, first, "{error}");
             assert!(quantity.starts_with("over a hundred times the mean mass"), "{error}");
@@ -682,7 +689,7 @@ fn four_cells_that_fit_and_a_node_between_them_that_does_not() {
             [index & 1, index >> 1 & 1].map(|side| if side == 1 { 1_000_u32 } else { 0_u32.wrapping_sub(1_000) });
         *position = [node[0].wrapping_add(hair[0]), node[1].wrapping_add(hair[1]), 0];
     }
-    let error = failure(&scene, &state, stored(Storage::Sorted), 2);
+    let error = failure(&scene, &state, stored(Storage::Sorted), 2).unwrap();
     let (step, quantity, _) = unstable(&error);
     assert_eq!(step, 0);
     assert!(quantity.contains("around mesh node (7, 12)"), "{error}");

@@ -5,7 +5,7 @@ mod support;
 
 use mesoscope::engine::EngineError;
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
+use mesoscope::model::{Instability, Model};
 use mesoscope::plan::Options;
 use mesoscope::reference::VoronoiReference;
 use mesoscope::scene::Scene;
@@ -285,7 +285,9 @@ fn failure(scene: &Scene, state: &State, steps: u64) -> String {
     let mut engine = engine(scene, state, Options::default());
     let advanced = engine.advance(steps, 10).and_then(|()| engine.finish());
     match advanced {
-        Err(error @ EngineError::Unstable { .. }) => error.to_string(),
+        Err(EngineError::Unstable(failure)) => {
+            Instability::new(&failure, engine.plan(), &Model::new(scene)).to_string()
+        }
         other => panic!("{other:?}"),
     }
 }

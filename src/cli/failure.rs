@@ -120,7 +120,7 @@ impl From<RunError> for Failure {
 
 fn exit_code(error: &RunError) -> u8 {
     match error {
-        RunError::Unstable { .. } => 4,
+        RunError::Unstable { .. } | RunError::GaveUp { .. } => 4,
         RunError::Scene(SceneError::Read { .. }) => 5,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)

@@ -16,7 +16,7 @@ use std::collections::{HashMap, VecDeque};
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Hardware, Layout, Misfit, Paths, Plan, TIDYING};
+use crate::plan::{Failure, FailureKind, Hardware, Layout, Misfit, Paths, Plan, TIDYING};
 use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
@@ -43,11 +43,11 @@ pub struct Control {
     pub failures: u32,
     /// `elapsed` at the first failure.
     pub failure_elapsed: u32,
-    /// The first mesh node, bond or Voronoi cell with a failure.
+    /// The first place with a failure.
     pub failure_place: u32,
     /// 1 when the neighbours of particles have to be listed again.
     pub demand: u32,
-    /// Exchanges between Voronoi cells that a limit has cut, low word.
+    /// Exchanges that a limit has cut, low word.
     pub limited: u32,
     /// The high word.
     pub limited_high: u32,
@@ -123,9 +123,6 @@ pub struct Engine<'a> {
     in_flight: VecDeque<Readback>,
     collected: Vec<Sample>,
 }
-
-/// Units of the largest velocity of shallow water, with one bit to spare.
-const VELOCITY_RANGE: f64 = 1_073_741_824.0;
 
 /// Where particles are, with how often they have gone round the box, by id; a state that does not say is the first.
 fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
@@ -534,63 +531,13 @@ impl<'a> Engine<'a> {
             return Ok(());
         }
         let step = self.first_step + u64::from(control.failure_elapsed.max(1) - 1);
-        if control.failures & 8 != 0 {
+        let failure = Failure { step, bits: control.failures, place: control.failure_place };
+        if failure.is(FailureKind::Frames) {
             return Err(EngineError::Crowded { step });
         }
-        if control.failures & 512 != 0 {
+        if failure.is(FailureKind::Loops) {
             return Err(EngineError::GaveUp { step, adapter: self.gpu.description().name.clone() });
         }
-        let quantity = match control.failures {
-            bits if bits & 16 != 0 => {
-                let place = self.node(control.failure_place);
-                format!("over a hundred times the mean mass, more than its integers hold, is around {place}")
-            }
-            bits if bits & 32 != 0 => format!("the depth at {}, is negative", self.node(control.failure_place)),
-            bits if bits & 64 != 0 => {
-                format!("bond {} is stretched beyond the extent of its potential", control.failure_place)
-            }
-            bits if bits & 128 != 0 => format!(
-                "cell {} has given away all of its mass, or has gathered 64 times that of the heaviest species",
-                control.failure_place
-            ),
-            bits if bits & 256 != 0 => {
-                format!("the internal energy of cell {} is less than none", control.failure_place)
-            }
-            bits if bits & 1 != 0 => "the impulses on a particle are too large or not a number".to_owned(),
-            bits if bits & 4 != 0 => {
-                "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
-            }
-            _ => match self.plan.layout {
-                Layout::Particles { .. } | Layout::Coupled { .. } => {
-                    "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much \
-                     closer together than their temperature lets them come"
-                        .to_owned()
-                }
-                Layout::Cells { .. } => "a momentum is more than 1024 times its natural scale".to_owned(),
-                Layout::Water { .. } => {
-                    let limit = self.plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
-                    let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
-                    let reason = if limit < VELOCITY_RANGE {
-                        "which may go half round the box in one step"
-                    } else {
-                        "more than twice the largest expected in this scene"
-                    };
-                    format!("a velocity is above {}, {reason}", crate::scene::brief(limit * self.plan.units.momentum))
-                }
-            },
-        };
-        // Where masses lie at the start is no matter of the step.
-        let from_the_start = control.failures & (16 | 32) != 0 && step == 0;
-        let suggested_step = (!from_the_start).then(|| crate::engine::error::round_down(self.plan.suggested_step));
-        Err(EngineError::Unstable { step, quantity, suggested_step })
-    }
-
-    /// A node of the mesh, in words.
-    fn node(&self, node: u32) -> String {
-        let [columns, rows, _] = self.plan.cells;
-        let (k, l) = (node % columns, node / columns);
-        let place =
-            |index: u32, axis: usize, count: u32| f64::from(index) * self.plan.units.lengths[axis] / f64::from(count);
-        format!("mesh node ({k}, {l}), where x = {:.4} and y = {:.4}", place(k, 0, columns), place(l, 1, rows))
+        Err(EngineError::Unstable(failure))
     }
 }

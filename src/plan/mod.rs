@@ -2,6 +2,7 @@
 
 pub(crate) mod analyses;
 mod couplings;
+mod failure;
 mod fit;
 mod grid;
 mod layout;
@@ -19,6 +20,7 @@ mod table;
 mod texture;
 mod voronoi;
 
+pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
 pub use layout::{Bins, Layout, Listed, Misfit};
 pub use paths::Paths;

@@ -2,6 +2,7 @@
 
 use crate::engine::EngineError;
 use crate::gpu::GpuError;
+use crate::model::Instability;
 use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
@@ -22,6 +23,19 @@ pub enum RunError {
     )]
     Unstable {
         /// When, what, and a time step to try.
+        source: Instability,
+        /// The file of the last good checkpoint.
+        checkpoint: PathBuf,
+        /// Its step.
+        checkpoint_step: u64,
+    },
+    /// The adapter left a loop before its end.
+    #[error(
+        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`",
+        crate::printable::path(checkpoint)
+    )]
+    GaveUp {
+        /// When, and which adapter.
         source: EngineError,
         /// The file of the last good checkpoint.
         checkpoint: PathBuf,

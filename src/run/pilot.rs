@@ -92,9 +92,7 @@ fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Re
     loop {
         match engine.advance(steps, steps).and_then(|()| engine.finish()) {
             // What begins far from equilibrium may not go well for long; its steps are as long.
-            Err(EngineError::Unstable { .. } | EngineError::GaveUp { .. } | EngineError::Crowded { .. })
-                if done > 0 =>
-            {
+            Err(EngineError::Unstable(_) | EngineError::GaveUp { .. } | EngineError::Crowded { .. }) if done > 0 => {
                 break;
             }
             ended => ended?,

@@ -16,7 +16,7 @@ use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::measure::observables_of;
-use crate::model::{Model, ShallowWater};
+use crate::model::{Instability, Model, ShallowWater};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
 use crate::output::{
@@ -249,10 +249,16 @@ impl Task {
         let mut run = Run::open(self, gpu, &mut engine, start)?;
         run.notices = &self.notices;
         match run.advance_to_end(&mut engine, pace, observer) {
-            Err(RunError::Engine(source @ (EngineError::Unstable { .. } | EngineError::GaveUp { .. }))) => {
+            Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
                 run.energies.flush()?;
-                let checkpoint = self.directory.file(files::CHECKPOINT);
-                return Err(RunError::Unstable { source, checkpoint, checkpoint_step: run.saved_step });
+                let (checkpoint, checkpoint_step) = (self.directory.file(files::CHECKPOINT), run.saved_step);
+                return Err(match source {
+                    EngineError::Unstable(failure) => {
+                        let source = Instability::new(&failure, engine.plan(), &self.model);
+                        RunError::Unstable { source, checkpoint, checkpoint_step }
+                    }
+                    source => RunError::GaveUp { source, checkpoint, checkpoint_step },
+                });
             }
             Err(error) => return Err(self.stopped(error, run.saved_step)),
             Ok(()) => {}

@@ -1,5 +1,6 @@
 //! The typed form of a scene file.
 
+pub use crate::noise::Generator;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -142,18 +143,6 @@ pub struct Noise {
     /// The distribution of the noise on a pair without memory; all other noise is Gaussian.
     #[serde(default)]
     pub distribution: Distribution,
-}
-
-/// A counter-based random number generator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-pub enum Generator {
-    /// Word w of pcg4d: the fast path (default).
-    #[default]
-    #[serde(rename = "pcg4d")]
-    Pcg4d,
-    /// Threefry2x32 with 20 rounds: the conservative choice.
-    #[serde(rename = "threefry2x32-20")]
-    Threefry2x32,
 }
 
 /// The distribution of a pair's noise; both have zero mean and unit variance.

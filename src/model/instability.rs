@@ -1,0 +1,98 @@
+//! Why a run became unstable, in words.
+
+use super::Model;
+use crate::plan::{Failure, FailureKind, Plan};
+
+/// A run that left the range where its numbers mean anything.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the run became unstable at step {step}: {quantity}; {}", advice(*.suggested_step))]
+pub struct Instability {
+    /// The first step at which it was seen.
+    pub step: u64,
+    /// What went out of range.
+    pub quantity: String,
+    /// A time step worth trying, where that is what helps.
+    pub suggested_step: Option<f64>,
+}
+
+impl Instability {
+    /// What a failure of a plan means.
+    #[must_use]
+    pub fn new(failure: &Failure, plan: &Plan, model: &Model) -> Self {
+        let place = failure.place;
+        let all: [(FailureKind, &dyn Fn() -> String); 7] = [
+            (FailureKind::Crowding, &|| {
+                format!(
+                    "over a hundred times the mean mass, more than its integers hold, is around {}",
+                    node(plan, place)
+                )
+            }),
+            (FailureKind::Depth, &|| format!("the depth at {}, is negative", node(plan, place))),
+            (FailureKind::Bond, &|| format!("bond {place} is stretched beyond the extent of its potential")),
+            (FailureKind::Mass, &|| {
+                format!(
+                    "cell {place} has given away all of its mass, or has gathered 64 times that of the heaviest species"
+                )
+            }),
+            (FailureKind::Energy, &|| format!("the internal energy of cell {place} is less than none")),
+            (FailureKind::Impulse, &|| "the impulses on a particle are too large or not a number".to_owned()),
+            (FailureKind::Displacement, &|| {
+                "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()
+            }),
+        ];
+        let words = all.iter().find(|(kind, _)| failure.is(*kind)).map(|(_, words)| words());
+        let quantity = words.unwrap_or_else(|| momentum(plan, model));
+        // Where masses lie at the start is no matter of the step.
+        let from_the_start = (failure.is(FailureKind::Crowding) || failure.is(FailureKind::Depth)) && failure.step == 0;
+        let suggested_step = (!from_the_start).then(|| round_down(plan.suggested_step));
+        Self { step: failure.step, quantity, suggested_step }
+    }
+}
+
+/// Units of the largest velocity of shallow water, with one bit to spare.
+const VELOCITY_RANGE: f64 = 1_073_741_824.0;
+
+/// What a momentum out of its range is.
+fn momentum(plan: &Plan, model: &Model) -> String {
+    if model.shallow_water.is_some() {
+        let limit = plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
+        let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
+        let reason = if limit < VELOCITY_RANGE {
+            "which may go half round the box in one step"
+        } else {
+            "more than twice the largest expected in this scene"
+        };
+        return format!("a velocity is above {}, {reason}", crate::scene::brief(limit * plan.units.momentum));
+    }
+    if model.voronoi.is_some() {
+        return "a momentum is more than 1024 times its natural scale".to_owned();
+    }
+    "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much closer together \
+     than their temperature lets them come"
+        .to_owned()
+}
+
+/// A node of the mesh, in words.
+fn node(plan: &Plan, node: u32) -> String {
+    let [columns, rows, _] = plan.cells;
+    let (k, l) = (node % columns, node / columns);
+    let place = |index: u32, axis: usize, count: u32| f64::from(index) * plan.units.lengths[axis] / f64::from(count);
+    format!("mesh node ({k}, {l}), where x = {:.4} and y = {:.4}", place(k, 0, columns), place(l, 1, rows))
+}
+
+/// The largest number of one digit not above `value`.
+fn round_down(value: f64) -> f64 {
+    let magnitude = 10_f64.powf(value.log10().floor());
+    let rounded = (value / magnitude).floor() * magnitude;
+    format!("{rounded:.0e}").parse().unwrap_or(rounded)
+}
+
+fn advice(suggested_step: Option<f64>) -> String {
+    match suggested_step {
+        Some(step) => format!("try a time step of {step} or less"),
+        None => {
+            "no time step helps: give more particles a cell, a smoothing of another length, or the five-point symbol"
+                .to_owned()
+        }
+    }
+}
