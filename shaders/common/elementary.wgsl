@@ -1,6 +1,6 @@
 // Logarithm, sine and cosine, for random numbers above all, by polynomials of least largest error: how far they are off is known on every
 // driver, where the built-in sine and cosine may be off by 2⁻¹¹, and a logarithm that may be off by 2⁻²¹ is not always below 0.
-// `tests/elementary.rs` compares them with double precision.
+// `tests/shaders/elementary.rs` compares them with double precision.
 
 // In (-½, ½), from the top 24 bits, centred: an odd multiple of 2⁻²⁵.
 fn centred_uniform(word: u32) -> f32 { return (f32(bitcast<i32>(word) >> 8u) + 0.5) * 5.9604645e-8; }

@@ -26,7 +26,7 @@ fn relaxed_share(s: f32) -> f32 {
 //
 // Both ends compute it, and must find the same bits. A compiler may contract a product and a sum at one place and not at
 // another, so whatever belongs to one particle has no product in a sum, or is put in the order of the ids before it has, or
-// stays in integers: CONTRIBUTING.md, "Exact on any compiler". `tests/any_compiler.rs` plays such compilers.
+// stays in integers: CONTRIBUTING.md, "Exact on any compiler". `tests/determinism/any_compiler.rs` plays such compilers.
 fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
     let rate = friction_rate(c, root);
     let s = pair_rate(me, other, rate, rate_of_others(me, rate), rate_of_others(other, rate));

@@ -117,7 +117,7 @@ const CASES: [Case; 11] = [
 /// Steps after which sums are looked at again.
 const STEPS: u64 = 20;
 /// What a difference of one step may be of what the step has changed. Drivers whose functions are nearly exact are off by 5e-6 at
-/// most, those whose functions err as much as WGSL lets them by 1e-5, as `tests/edge_of_error.rs` finds by playing one; a wrong
+/// most, those whose functions err as much as WGSL lets them by 1e-5, as `tests/extremes/edge_of_error.rs` finds by playing one; a wrong
 /// number, or one that is lost, is off by parts of one.
 const TOLERANCE: f64 = 1e-4;
 /// Changes of fewer units than that say little: they are rounded.

@@ -13,7 +13,7 @@ use mesoscope::plan::{Kernel, Plan};
 use naga::back::{pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use crate::{plans, shader};
+use crate::variants::{plans, report, shader};
 
 /// Passes the harness, which keeps to itself what tests that succeed print.
 fn skip(test: &str, reason: &str) {
@@ -97,7 +97,7 @@ fn validate(test: &str, kernels: &[(&Kernel, &Plan)]) {
         workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
     });
     println!("{} kernels", kernels.len());
-    crate::report(&complaints);
+    report(&complaints);
 }
 
 /// Distinct kernels of plans for any adapter.

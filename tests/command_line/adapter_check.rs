@@ -1,0 +1,39 @@
+//! The check of an adapter as its user meets it.
+
+use crate::support::program::{fails, succeeds};
+
+#[test]
+fn an_adapter_is_checked_and_described() {
+    let adapter = std::env::var("MESOSCOPE_ADAPTER").ok();
+    let mut arguments = vec!["adapters", "--check"];
+    arguments.extend(adapter.iter().flat_map(|adapter| ["--adapter", adapter]));
+    let said = succeeds(&arguments);
+    println!("{said}");
+    // What a report of a fault needs.
+    for part in ["mesoscope ", "system ", "adapter ", "driver ", env!("CARGO_PKG_VERSION"), std::env::consts::ARCH] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    let of = |check: &str| -> &str {
+        said.lines().find(|line| line.contains(check)).unwrap_or_else(|| panic!("no `{check}` in: {said}"))
+    };
+    for function in ["x / y", "sqrt", "inverseSqrt", "exp", "log", "sin", "cos", "pow", "x + y", "x * y", "round"] {
+        assert!(of(&format!("function {function} ")).starts_with("ok "), "{said}");
+    }
+    assert!(of("contraction").contains("mirrored expressions"), "{said}");
+    assert!(of("pairs, splitting").contains("total momentum constant to the last bit"), "{said}");
+    assert!(
+        of("Voronoi cells with energy").contains("total momentum, mass, energy constant to the last bit"),
+        "{said}"
+    );
+    for family in ["bonds and angles", "coloured noise", "shallow water with a bath", "shallow water, other solver"] {
+        assert!(of(family).starts_with("ok ") && of(family).contains("of its change at most"), "{said}");
+    }
+    assert!(of("speed of `dpd-fluid`").contains("million particle-steps a second with 24000 particles"), "{said}");
+    assert!(said.trim_end().ends_with("22 checks passed, 0 failed"), "{said}");
+}
+
+#[test]
+fn an_adapter_to_check_has_to_exist_and_is_named_for_that_alone() {
+    fails(&["adapters", "--check", "--adapter", "abacus"], 3, &["no adapter matches `abacus`"]);
+    fails(&["adapters", "--adapter", "software"], 2, &["--check"]);
+}

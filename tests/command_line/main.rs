@@ -1,0 +1,18 @@
+//! The program as its user meets it: files, bytes, messages, exit codes, and the documentation that describes them.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod adapter_check;
+mod documentation;
+#[cfg(unix)]
+mod interruption;
+mod manifest;
+mod output;
+mod particles;
+mod schema;
+mod shallow_water;
+mod sweep;
+mod terminal;
+mod voronoi;

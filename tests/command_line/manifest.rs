@@ -1,0 +1,36 @@
+//! What `Cargo.toml` says of the compiler is what its dependencies ask for.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+/// The numbers of a version, as they compare: `1.95` is `1.95.0`.
+fn numbers(version: &str) -> [u64; 3] {
+    let mut parts = version.split('.').map(|part| part.parse().unwrap());
+    std::array::from_fn(|_| parts.next().unwrap_or(0))
+}
+
+#[test]
+fn the_compiler_that_is_asked_for_builds_every_dependency() {
+    let triple = Command::new(std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned())).arg("-vV").output();
+    let triple = String::from_utf8(triple.unwrap().stdout).unwrap();
+    let host = triple.lines().find_map(|line| line.strip_prefix("host: ")).unwrap();
+    // Dependencies of other platforms may not have been downloaded.
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--locked", "--offline", "--format-version", "1", "--filter-platform", host])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let used: Vec<&Value> = metadata["resolve"]["nodes"].as_array().unwrap().iter().map(|node| &node["id"]).collect();
+    let packages = metadata["packages"].as_array().unwrap();
+    let asking = packages.iter().filter(|package| used.contains(&&package["id"]));
+    let asking = asking.filter(|package| package["name"] != env!("CARGO_PKG_NAME"));
+    let most = asking
+        .filter_map(|package| Some((numbers(package["rust_version"].as_str()?), package["name"].as_str()?)))
+        .max()
+        .unwrap();
+    let ours = numbers(env!("CARGO_PKG_RUST_VERSION"));
+    assert!(ours >= most.0, "rust-version in Cargo.toml is {ours:?}, and {} needs {:?}", most.1, most.0);
+}

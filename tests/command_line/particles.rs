@@ -1,0 +1,453 @@
+//! The program as its user meets it: files, bytes, messages and exit codes.
+
+use std::fs;
+use std::path::Path;
+
+use mesoscope::output::{Summary, checkpoint, files, read_table};
+use serde_json::json;
+
+use crate::support::program::{Place, bytes, colours, fails, mesoscope, picture, size, succeeds, text};
+
+/// A scene of 375 particles that takes small pictures.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "small fluid",
+        "space": {"box": [5, 5, 5]},
+        "time": {"step": 0.03, "steps": 60, "equilibration": 12},
+        "temperature": 1,
+        "particles": [{"species": "fluid", "number_density": 3}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+        "output": {
+            "energies": {"every": 3},
+            "plot": {"width": 640, "height": 480},
+            "snapshot": {"width": 200, "height": 160},
+        },
+    }))
+}
+
+fn state(directory: &Path) -> mesoscope::state::State {
+    checkpoint::load(&directory.join(files::CHECKPOINT)).unwrap().state
+}
+
+#[test]
+fn a_run_leaves_everything_the_scene_asks_for() {
+    // This integrator measures the kinetic energy and shows the particles at the same moment of a step.
+    let place = place()
+        .with("/integrator", json!({"type": "groot-warren"}))
+        .with("/output/snapshot/every", json!(25))
+        .with("/output/trajectory", json!({"every": 20, "format": "extended-xyz"}))
+        .with("/output/radial_distribution", json!({"every": 5, "range": 2, "bins": 40}))
+        .with("/output/diffusion", json!({"every": 3, "window": 4}))
+        .with("/output/viscosity", json!({"every": 2, "window": 12}));
+    let said = place.run("out", &[]);
+    let out = place.path("out");
+    for part in
+        ["small fluid: 375 particles in 3 dimensions", "temperature", "pressure", "particle-steps/s", "run.json"]
+    {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    for name in [files::ENERGIES_PLOT, files::RADIAL_DISTRIBUTION_PLOT, files::DIFFUSION_PLOT] {
+        assert_eq!(size(&out.join(name)), (640, 480), "{name}");
+        assert!(colours(&out.join(name)) > 10, "{name} is empty");
+    }
+    for name in ["snapshot.png", "snapshot-000001.png", "snapshot-000002.png", "snapshot-000003.png"] {
+        assert_eq!(size(&out.join(name)), (200, 160), "{name}");
+        assert!(colours(&out.join(name)) > 10, "{name} is empty");
+    }
+    assert!(!out.join("snapshot-000004.png").exists());
+    let energies = read_table(&out.join(files::ENERGIES)).unwrap();
+    let columns = "step,time,kinetic_energy,potential_energy,total_energy,temperature,configurational_temperature,pressure,\
+                   pressure_conservative,momentum_x,momentum_y,momentum_z,center_of_mass_velocity_x,\
+                   center_of_mass_velocity_y,center_of_mass_velocity_z";
+    assert_eq!(energies.columns.join(","), columns);
+    let steps: Vec<f64> = (0..=20).map(|row| f64::from(3 * row)).collect();
+    assert_eq!(energies.column("step").unwrap(), steps);
+    assert_eq!(energies.column("time").unwrap(), steps.iter().map(|step| step * 0.03).collect::<Vec<_>>());
+    for row in &energies.rows {
+        assert_eq!(row[4], row[2] + row[3]);
+        assert_eq!(row[9..], [0.0; 6], "total momentum");
+    }
+    // One frame is a count, a header and a line for every particle.
+    let trajectory = fs::read_to_string(out.join(files::TRAJECTORY_XYZ)).unwrap();
+    assert_eq!(trajectory.lines().count(), 4 * (2 + 375));
+    let summary = Summary::load(&out.join(files::SUMMARY)).unwrap();
+    assert_eq!((summary.steps, summary.particles), (60, 375));
+    assert!(summary.particle_steps_per_second > 0.0 && summary.wall_seconds > 0.0);
+    assert_eq!(summary.scene.title, "small fluid");
+    assert!(summary.conserved_exactly.iter().any(|entry| entry.contains("momentum")));
+    assert!(summary.not_conserved.iter().any(|entry| entry.contains("heat bath")));
+    let temperature = energies.column("temperature").unwrap();
+    let mean = temperature[4..].iter().sum::<f64>() / 17.0;
+    assert!((summary.means["temperature"]["mean"].as_f64().unwrap() - mean).abs() < 1e-12);
+    assert_eq!(summary.means["temperature"]["samples"], 17);
+    assert!((summary.means["configurational_temperature"]["mean"].as_f64().unwrap() - 1.0).abs() < 0.5);
+    let pairs = read_table(&out.join(files::RADIAL_DISTRIBUTION)).unwrap();
+    let g = pairs.column("radial_distribution").unwrap();
+    assert_eq!(g.len(), 40);
+    // Far away, pairs are as frequent as in an ideal gas.
+    assert!((g[30..].iter().sum::<f64>() / 10.0 - 1.0).abs() < 0.03, "{g:?}");
+    assert!(g[0] < 0.9, "{g:?}");
+    let results = &summary.results;
+    assert_eq!(results["radial_distribution"]["samples"], 10.0);
+    let correlation = read_table(&out.join(files::DIFFUSION)).unwrap();
+    assert_eq!(results["diffusion"]["windows"], 4);
+    assert_eq!(correlation.rows.len(), 4);
+    assert_eq!(correlation.column("mean_squared_displacement").unwrap()[0], 0.0);
+    // The windows begin at steps 12, 24, 36 and 48, and there v·v is twice the kinetic energy.
+    let kept = correlation.column("velocity_autocorrelation").unwrap();
+    let kinetic = energies.column("kinetic_energy").unwrap();
+    let squared = [4, 8, 12, 16].iter().map(|row: &usize| 2.0 * kinetic[*row] / 375.0).sum::<f64>() / 4.0;
+    assert!((kept[0] / squared - 1.0).abs() < 1e-6 && kept[3] < kept[0], "{kept:?} from {squared}");
+    // A run this short has no viscosity, and says why.
+    assert!(summary.warnings.iter().any(|warning| warning.contains("output.viscosity")), "{:?}", summary.warnings);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let place = place();
+    place.run("a", &["--quiet"]);
+    place.run("b", &["--quiet"]);
+    // Where the run stops in between changes nothing either.
+    place.run("c", &["--quiet", "--set", "output.checkpoint.every=7", "--set", "output.snapshot.every=11"]);
+    for other in ["b", "c"] {
+        for name in [files::ENERGIES, files::ENERGIES_PLOT, files::SNAPSHOT] {
+            assert_eq!(bytes(&place.path("a").join(name)), bytes(&place.path(other).join(name)), "{name} of {other}");
+        }
+        assert_eq!(state(&place.path("a")), state(&place.path(other)));
+    }
+    assert_eq!(bytes(&place.path("a").join("checkpoint.bin")), bytes(&place.path("b").join("checkpoint.bin")));
+    place.run("d", &["--quiet", "--set", "seed=2"]);
+    assert_ne!(state(&place.path("a")).positions, state(&place.path("d")).positions);
+}
+
+#[test]
+fn half_a_run_resumed_is_a_whole_run() {
+    for integrator in
+        [json!({"type": "splitting"}), json!({"type": "groot-warren", "lambda": 0.65}), json!({"type": "cotter-reich"})]
+    {
+        let place = place()
+            .with("/integrator", integrator)
+            .with("/output/snapshot/every", json!(20))
+            .with("/output/trajectory", json!({"every": 10}))
+            .with("/output/radial_distribution", json!({"every": 5, "range": 2}))
+            .with("/output/viscosity", json!({"every": 1, "window": 8}));
+        place.run("whole", &["--quiet"]);
+        // Step 30 falls on a row, a frame and a sample of g(r).
+        place.run("parts", &["--quiet", "--steps", "30"]);
+        succeeds(&["resume", &place.argument("parts"), "--steps", "60", "--quiet"]);
+        let (whole, parts) = (place.path("whole"), place.path("parts"));
+        for name in [
+            files::ENERGIES,
+            files::CHECKPOINT,
+            files::RADIAL_DISTRIBUTION,
+            files::TRAJECTORY_GSD,
+            files::ENERGIES_PLOT,
+            files::SNAPSHOT,
+            "snapshot-000004.png",
+        ] {
+            assert!(
+                bytes(&whole.join(name)) == bytes(&parts.join(name)),
+                "{name} differs: {}",
+                place.scene["integrator"]
+            );
+        }
+        let [whole, parts] = [whole, parts].map(|path| Summary::load(&path.join(files::SUMMARY)).unwrap());
+        assert_eq!(whole.means, parts.means);
+        assert_eq!(whole.results, parts.results);
+    }
+}
+
+#[test]
+fn resuming_a_finished_run_does_nothing() {
+    let place = place();
+    place.run("out", &["--quiet"]);
+    let before = bytes(&place.path("out").join(files::SUMMARY));
+    let said = succeeds(&["resume", &place.argument("out")]);
+    assert!(said.contains("is finished at step 60"), "{said}");
+    let said = succeeds(&["resume", &place.argument("out"), "--steps", "30"]);
+    assert!(said.contains("has come to step 60"), "{said}");
+    assert_eq!(bytes(&place.path("out").join(files::SUMMARY)), before);
+    // Killed between the last checkpoint and the summary: the rest is written.
+    fs::remove_file(place.path("out").join(files::SUMMARY)).unwrap();
+    succeeds(&["resume", &place.argument("out"), "--quiet"]);
+    assert_eq!(Summary::load(&place.path("out").join(files::SUMMARY)).unwrap().steps, 60);
+}
+
+#[test]
+fn nothing_is_overwritten_unless_asked() {
+    let place = place();
+    fs::create_dir(place.path("out")).unwrap();
+    fs::write(place.path("out").join("notes.txt"), "mine").unwrap();
+    place.run("out", &["--quiet"]);
+    let before = bytes(&place.path("out").join(files::ENERGIES));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    fails(&["run", &scene, "--out", &out, "--set", "seed=5"], 5, &["checkpoint.bin", "--force", "--out"]);
+    assert_eq!(bytes(&place.path("out").join(files::ENERGIES)), before);
+    place.run("out", &["--quiet", "--force", "--set", "seed=5"]);
+    assert_ne!(bytes(&place.path("out").join(files::ENERGIES)), before);
+    assert_eq!(bytes(&place.path("out").join("notes.txt")), b"mine");
+    // An adapter that is not there costs no results.
+    let before = bytes(&place.path("out").join(files::ENERGIES));
+    fails(&["run", &scene, "--out", &out, "--force", "--adapter", "abacus"], 3, &["abacus"]);
+    assert_eq!(bytes(&place.path("out").join(files::ENERGIES)), before);
+}
+
+#[test]
+fn an_explosion_is_reported_with_its_step() {
+    let place = place()
+        .with("/time/step", json!(1.0))
+        .with("/interactions/0/repulsion", json!(100_000))
+        .with("/output/checkpoint", json!({"every": 10}));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    let message = fails(
+        &["run", &scene, "--out", &out],
+        4,
+        &[
+            "became unstable at step ",
+            "try a time step of 0.001 or less",
+            "checkpoint, of step 0",
+            "warning: time.step",
+        ],
+    );
+    assert!(message.contains(place.path("out").join(files::CHECKPOINT).to_str().unwrap()), "{message}");
+    let kept = state(&place.path("out"));
+    assert_eq!((kept.step, kept.len()), (0, 375));
+    // What was measured until then is a whole table.
+    read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    assert!(!place.path("out").join(files::SUMMARY).exists());
+    fails(&["plot", &out], 5, &["run.json", "no run has been finished there", "mesoscope resume"]);
+    let found = |message: &str| message.lines().find(|line| line.contains("became unstable")).map(str::to_owned);
+    assert_eq!(found(&fails(&["resume", &out], 4, &[])), found(&message));
+}
+
+#[test]
+fn crowding_at_the_ends_of_the_box_is_survived() {
+    let positions: Vec<[f64; 2]> =
+        (0..2400).map(|index| [f64::from(index % 40) * 0.02, f64::from(index / 40) + 0.5]).collect();
+    let place = place()
+        .with("/space/box", json!([10, 60]))
+        .with("/time", json!({"step": 0.0005, "steps": 12}))
+        .with("/particles", json!([{"species": "fluid", "placement": {"type": "listed", "positions": positions}}]))
+        .with("/integrator", json!({"type": "groot-warren"}));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    let output = mesoscope(&["run", &scene, "--out", &out]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("crowd"), "{}", text(&output.stderr));
+    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    assert_eq!(energies.column("step").unwrap(), [0.0, 3.0, 6.0, 9.0, 12.0]);
+}
+
+#[test]
+fn an_unknown_adapter_is_answered_with_those_there_are() {
+    let place = place();
+    let known = succeeds(&["adapters"]);
+    let (scene, out) = (place.scene(), place.argument("out"));
+    for arguments in [&["run", &scene, "--out", &out][..], &["check", &scene]] {
+        let message = fails(&[arguments, &["--adapter", "abacus"]].concat(), 3, &["abacus", "0: "]);
+        let first = message.split("0: ").nth(1).unwrap().split([',', '\n', ';']).next().unwrap();
+        assert!(known.contains(first.trim()), "`{first}` is not in: {known}");
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn files_that_cannot_be_written_or_read() {
+    let place = place();
+    let scene = place.scene();
+    let below_a_file = place.argument("scene.json/out");
+    fails(&["run", &scene, "--out", &below_a_file], 5, &["cannot create the directory", "scene.json"]);
+    fails(&["run", &scene, "--out", &scene], 5, &["scene.json` is a file, and the results need a directory", "--out"]);
+    fails(&["resume", &place.argument("nowhere")], 5, &["checkpoint.bin"]);
+    fails(&["plot", &place.argument("nowhere")], 5, &["nowhere"]);
+    fails(&["resume", &place.argument("nowhere")], 5, &["hint: give the directory that `mesoscope run` wrote"]);
+    place.run("out", &["--quiet"]);
+    let path = place.path("out").join(files::CHECKPOINT);
+    let whole = bytes(&path);
+    let mut damaged = whole.clone();
+    damaged[whole.len() / 2] ^= 1;
+    fs::write(&path, &damaged).unwrap();
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["damaged", "hint: it cannot be repaired"]);
+    fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["cut short"]);
+    fs::write(&path, "{}").unwrap();
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["not a checkpoint"]);
+    fs::write(&path, &whole).unwrap();
+    // A table that lost a row, or its end, is left as it is.
+    let energies = place.path("out").join(files::ENERGIES);
+    let table = fs::read_to_string(&energies).unwrap();
+    let lines: Vec<&str> = table.split_inclusive('\n').collect();
+    let without = [&lines[..2], &lines[3..]].concat().concat();
+    for (left, missing) in [(without.as_str(), lines[2]), (&table[..lines[..3].concat().len() - 2], lines[2])] {
+        fs::write(&energies, left).unwrap();
+        let step = missing.split(',').next().unwrap();
+        let told = format!("the row of step {step} is missing");
+        fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv", &told, "--force"]);
+        assert_eq!(fs::read_to_string(&energies).unwrap(), left);
+    }
+    fs::remove_file(&energies).unwrap();
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &["energies.csv"]);
+    // Nor is there a plot of what the run did not measure.
+    fs::write(&energies, "a,b\n1,2\n").unwrap();
+    fails(&["plot", &place.argument("out")], 5, &["energies.csv` is not what the run wrote", "--force"]);
+    let told = ["energies.csv` is not what the run wrote: it has the columns `a,b`", "the run writes `step,time,"];
+    fails(&["resume", &place.argument("out"), "--steps", "90"], 5, &told);
+}
+
+#[test]
+fn wrong_scenes_run_nothing() {
+    let place = place();
+    let (scene, out) = (place.scene(), place.argument("out"));
+    fails(&["run", &scene, "--out", &out, "--set", "time.step=0"], 2, &["time.step", "0"]);
+    fails(&["run", &scene, "--out", &out, "--set", "fricton=1"], 2, &["fricton"]);
+    fails(&["run", "no-such-scene", "--out", &out], 2, &["no-such-scene", "dpd-fluid"]);
+    // Numbers that single precision cannot hold.
+    for (path, value) in [
+        ("time.step", "1e300"),
+        ("time.step", "1e-300"),
+        ("temperature", "1e300"),
+        ("particles[0].mass", "1e300"),
+        ("particles[0].mass", "1e-300"),
+        ("interactions[0].repulsion", "1e300"),
+        ("interactions[0].friction", "1e300"),
+    ] {
+        let set = format!("{}={value}", path.replace('[', ".").replace(']', ""));
+        let told = format!("{path}: found {value}; accepted: a number nearer to the others");
+        fails(&["run", &scene, "--out", &out, "--set", &set], 2, &[&told, "choose other units"]);
+        fails(&["check", &scene, "--set", &set], 2, &[&told]);
+    }
+    assert!(!place.path("out").exists());
+}
+
+#[test]
+fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
+    let place = place().with("/space/box", json!([400, 400, 400]));
+    fails(&["check", &place.scene(), "--adapter", "0"], 3, &["but this scene needs ", "a smaller system needs less"]);
+}
+
+#[test]
+fn check_prints_the_plan() {
+    let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
+    let short = succeeds(&["check", &place.scene()]);
+    for part in
+        ["small fluid", "375 in 3 dimensions", "bytes a particle", "  time  ", "within a factor of", "  files  "]
+    {
+        assert!(short.contains(part), "`{part}` is not in: {short}");
+    }
+    assert!(!short.contains("kernels/scatter"), "{short}");
+    let said = succeeds(&["check", &place.scene(), "--kernels"]);
+    for part in [
+        "small fluid",
+        "375 in 3 dimensions, box 5 × 5 × 5",
+        "scatter",
+        "kernels/scatter",
+        "CELLS_X = 5",
+        "bytes a particle",
+        "operations a particle",
+        "radial_distribution: every 5 steps from step 12",
+        "pair_histogram",
+        "a row every 3 steps",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    // What the scene leaves out is not there, and what deserves a second look is named.
+    let said = succeeds(&[
+        "check",
+        "--kernels",
+        &place.scene(),
+        "--set",
+        "interactions.0.repulsion=0",
+        "--set",
+        "space.box=[5,5,2]",
+        "--set",
+        "output.radial_distribution=null",
+    ]);
+    assert!(said.contains("common/repulsion_off") && !said.contains("pair_histogram"), "{said}");
+    assert!(said.contains("warning: space.box[2]"), "{said}");
+}
+
+#[test]
+fn plots_can_be_drawn_again() {
+    let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
+    place.run("out", &["--quiet"]);
+    let names = [files::ENERGIES_PLOT, files::RADIAL_DISTRIBUTION_PLOT, files::SNAPSHOT];
+    let before = names.map(|name| bytes(&place.path("out").join(name)));
+    for name in names {
+        fs::remove_file(place.path("out").join(name)).unwrap();
+    }
+    let out = place.argument("out");
+    let said = succeeds(&["plot", &out]);
+    for (name, before) in names.into_iter().zip(&before) {
+        assert!(said.contains(name), "{said}");
+        assert!(bytes(&place.path("out").join(name)) == *before, "{name} changed");
+    }
+    succeeds(&["plot", &out, "--set", "output.plot.width=800", "--set", "output.snapshot.height=100"]);
+    assert_eq!(size(&place.path("out").join(files::ENERGIES_PLOT)), (800, 480));
+    assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 100));
+    fails(&["plot", &out, "--set", "seed=3"], 2, &["seed=3", "output.plot."]);
+    fails(&["plot", &out, "--set", "output.plot.widht=3"], 2, &["out/run.json` has 1 mistake", "widht", "width"]);
+    fs::write(place.path("out").join(files::RADIAL_DISTRIBUTION), "a,b\n1,2\n").unwrap();
+    fails(&["plot", &out], 5, &["radial_distribution.csv` is not what the run wrote", "--force"]);
+}
+
+#[test]
+fn two_species_in_a_plane() {
+    let place = place()
+        .with("/space/box", json!([9, 7]))
+        .with("/particles", json!([{"species": "A", "count": 120}, {"species": "B", "count": 80, "mass": 2}]))
+        .with("/interactions/0/repulsion", json!(0));
+    let said = place.run("out", &[]);
+    assert!(said.contains("200 particles in 2 dimensions") && !said.contains("configurational"), "{said}");
+    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let columns = "step,time,kinetic_energy,total_energy,temperature,pressure,momentum_x,momentum_y,\
+                   center_of_mass_velocity_x,center_of_mass_velocity_y";
+    assert_eq!(energies.columns.join(","), columns);
+    let drawn = picture(&place.path("out").join(files::SNAPSHOT));
+    let coloured =
+        |strong: usize, weak: usize| drawn.pixels().filter(|p| p[strong] > p[weak].saturating_add(60)).count();
+    assert!(coloured(2, 0) > 100 && coloured(0, 2) > 100, "both species show");
+}
+
+#[test]
+fn scenes_of_no_and_of_one_particle() {
+    for (count, empty) in [(0, ["temperature", "center_of_mass_velocity_x"]), (1, ["temperature", "pressure"])] {
+        let place = place()
+            .with("/particles", json!([{"species": "A", "count": count}]))
+            .with("/output/radial_distribution", json!({"every": 5, "range": 2}))
+            .with("/output/diffusion", json!({"every": 2, "window": 6}))
+            .with("/output/viscosity", json!({"every": 2, "window": 12}));
+        place.run("out", &[]);
+        let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+        assert_eq!(energies.rows.len(), 21);
+        assert!(energies.column("kinetic_energy").unwrap().iter().all(|energy| *energy == 0.0));
+        for name in empty {
+            assert!(energies.column(name).unwrap().iter().all(|value| value.is_nan()), "{name} of {count}");
+        }
+        let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+        assert!(summary.means["temperature"].is_null());
+        assert!(summary.warnings.iter().any(|warning| warning.contains("radial_distribution")));
+        assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 160));
+    }
+}
+
+#[test]
+fn a_run_of_no_steps() {
+    let place = place();
+    place.run("out", &["--quiet", "--set", "time.equilibration=0", "--steps", "0"]);
+    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    assert_eq!(energies.column("step").unwrap(), [0.0]);
+    succeeds(&["resume", &place.argument("out"), "--steps", "6", "--quiet"]);
+    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    assert_eq!(energies.column("step").unwrap(), [0.0, 3.0, 6.0]);
+}
+
+#[test]
+fn warnings_and_quiet() {
+    let place = place().with("/space/box", json!([5, 5, 2]));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    let output = mesoscope(&["run", &scene, "--out", &out]);
+    assert!(text(&output.stderr).contains("warning: space.box[2]"), "{}", text(&output.stderr));
+    let output = mesoscope(&["run", &scene, "--out", &out, "--force", "--quiet"]);
+    assert_eq!((text(&output.stdout), text(&output.stderr)), ("", ""));
+    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    assert!(summary.warnings.iter().any(|warning| warning.starts_with("space.box[2]")));
+}

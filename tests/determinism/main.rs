@@ -1,0 +1,14 @@
+//! The same bytes, and exact laws to the last bit, whatever changes that is not physics.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod any_compiler;
+mod couplings;
+mod particles;
+mod paths;
+mod resumed_analyses;
+mod shallow_water;
+mod timing;
+mod voronoi;

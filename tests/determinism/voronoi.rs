@@ -1,0 +1,107 @@
+//! Voronoi DPD: the same bytes whatever changes that is not physics.
+
+use mesoscope::plan::Options;
+use mesoscope::scene::Scene;
+use rand::SeedableRng as _;
+
+use crate::support::bytes::{self, Bytes, harvest, same};
+use crate::support::{cells, engine, start};
+
+const STEPS: u64 = 24;
+
+/// Scenes that between them have every kind of sum: a solver in one workgroup and in many, energies, mass exchange.
+fn scenes() -> Vec<Scene> {
+    let sampled = [
+        "output.energies.every=3",
+        "time.step=0.01",
+        "time.steps=1000",
+        r#"output.diffusion={"every":2,"window":8}"#,
+        r#"output.viscosity={"every":5,"window":8}"#,
+        r#"output.histograms=[{"quantity":"velocity","every":4}]"#,
+    ];
+    let more: [(u32, &[&str]); 4] = [
+        (300, &[]),
+        (2116, &["interactions.0.energy={}"]),
+        (
+            300,
+            &[r#"interactions.0.form="consistent""#, "interactions.0.energy={}", "interactions.0.molecular_mass=0.1"],
+        ),
+        (300, &[r#"interactions.0.form="paper""#, r#"integrator.type="euler""#, "time.step=0.002"]),
+    ];
+    more.into_iter().map(|(count, changes)| cells(count, &[&sampled[..], changes].concat())).collect()
+}
+
+fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
+    bytes::run(scene, options, STEPS, batch)
+}
+
+#[test]
+fn reruns_batches_scans_and_workgroup_sizes_give_the_same_bytes() {
+    for scene in scenes() {
+        let plain = run(&scene, Options::default(), 8);
+        assert_eq!(plain.state.step, STEPS);
+        for (options, batch) in [
+            (Options::default(), 8),
+            (Options::default(), 1),
+            (Options { many_level_scan: true, ..Options::default() }, STEPS),
+            (Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() }, 8),
+            (Options { workgroup_size: Some(128), list_growth: 1, ..Options::default() }, 8),
+        ] {
+            assert!(same(&plain, &run(&scene, options, batch)), "{options:?}, batches of {batch}");
+        }
+        let other = Scene { seed: scene.seed + 1, ..scene.clone() };
+        assert!(!same(&plain, &run(&other, Options::default(), 8)));
+    }
+}
+
+#[test]
+fn storage_order_gives_the_same_bytes() {
+    for scene in scenes() {
+        let plain = run(&scene, Options::default(), 8);
+        let mut random = rand::rngs::StdRng::seed_from_u64(7);
+        assert!(same(&plain, &bytes::shuffled(&scene, Options::default(), STEPS, 8, &mut random)));
+    }
+}
+
+/// Windows of analyses begin with an engine, so a restart keeps the observables and the state.
+#[test]
+fn a_restart_gives_the_same_bytes() {
+    for scene in scenes() {
+        let (_, state) = start(&scene);
+        let plain = run(&scene, Options::default(), 8);
+        let mut first = engine(&scene, &state, Options::default());
+        first.advance(STEPS / 2, 8).unwrap();
+        let middle = first.state().unwrap();
+        let early = first.finish().unwrap();
+        let mut second = engine(&scene, &middle, Options::default());
+        second.advance(STEPS / 2, 5).unwrap();
+        let whole = harvest(second, early);
+        assert!(plain.state == whole.state && plain.reported == whole.reported);
+        let of = |bytes: &Bytes| -> Vec<Vec<i64>> {
+            let mut rows: Vec<(u64, Vec<i64>)> = bytes
+                .samples
+                .iter()
+                .filter(|sample| sample.sampler == 0)
+                // Exchanges are counted, and the solver remembered, since an upload.
+                .map(|sample| (sample.step, sample.sums.iter().take(9).copied().collect()))
+                .collect();
+            rows.dedup();
+            rows.into_iter().map(|(_, sums)| sums).collect()
+        };
+        assert_eq!(of(&plain), of(&whole));
+    }
+}
+
+#[test]
+fn a_report_changes_nothing() {
+    for changes in [&[][..], &["interactions.0.energy={}"], &[r#"integrator.type="euler""#]] {
+        let silent = cells(200, &[&["output.energies.every=1000"], changes].concat());
+        let often = cells(200, changes);
+        let (_, state) = start(&often);
+        let mut one = engine(&often, &state, Options::default());
+        let mut other = engine(&silent, &state, Options::default());
+        one.advance(20, 4).unwrap();
+        other.advance(20, 4).unwrap();
+        assert!(one.state().unwrap() == other.state().unwrap(), "{changes:?}");
+    }
+}

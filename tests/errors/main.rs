@@ -1,0 +1,13 @@
+//! Scenes, command lines and files with mistakes: each is refused with its place and what is accepted there.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod cost;
+mod couplings;
+mod damage;
+mod fuzzing;
+mod scenes;
+mod shallow_water;
+mod voronoi;

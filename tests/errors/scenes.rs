@@ -1,0 +1,397 @@
+//! Wrong scenes and wrong command lines: each names the place, what was found and what is accepted, and exits with 2.
+
+use std::process::{Command, Output, Stdio};
+
+use mesoscope::scene::{self, SceneError};
+use serde_json::{Value, json};
+
+use crate::support::mistakes::Correct;
+
+fn mesoscope(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mesoscope")).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+const FLUID: Correct = Correct(base);
+
+/// A small correct scene.
+fn base() -> Value {
+    json!({
+        "title": "test",
+        "space": {"box": [10, 10, 10]},
+        "time": {"step": 0.01, "steps": 100},
+        "temperature": 1,
+        "particles": [
+            {"species": "water", "count": 300},
+            {"species": "oil", "count": 300},
+        ],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+    })
+}
+
+#[test]
+fn the_base_is_right() {
+    FLUID.parse(&[]).unwrap();
+}
+
+#[test]
+fn unknown_keys() {
+    FLUID.refused_with(
+        &["interactions.0.fricton=4"],
+        &["interactions[0].fricton: unknown key; did you mean `friction`? accepted: type, cutoff, weight_exponent"],
+    );
+    for symbol in ["gamma", "gama"] {
+        FLUID.refused_with(&[&format!("interactions.0.{symbol}=4")], &["did you mean `friction`?"]);
+    }
+    FLUID.refused_with(&["particles.0.densty=3"], &["did you mean `number_density`?"]);
+    FLUID.refused_with(&["tempreature=1"], &["tempreature: unknown key; did you mean `temperature`?"]);
+    FLUID.refused_with(&["integrator.type=splitting", "integrator.lambda=0.5"], &["integrator.lambda: unknown key"]);
+    FLUID.refused_with(&["particles.0.placement.type=random", "particles.0.placement.spread=1"], &["placement.spread"]);
+    FLUID.refused_with(&["wavelets=1"], &["wavelets: unknown key; accepted: version, title"]);
+}
+
+#[test]
+fn an_override_that_goes_nowhere_hides_no_other_mistake() {
+    assert_eq!(
+        FLUID.problems(&["particles.3.count=1", "time.stp=1", "temperature=-1", "seed"]),
+        [
+            "override `particles.3.count=1`: found `3`; accepted: an index from 0 to 1 of the list `particles`",
+            "override `seed`: found no `=`; accepted: path.to.key=value, as in time.step=0.02",
+            "time.stp: unknown key; did you mean `step`? accepted: step, steps, equilibration",
+            "temperature: found -1; accepted: a number, zero or positive",
+        ]
+    );
+    // Lists that are left out begin at their first index.
+    FLUID.parse(&[r#"interactions.0.pairs.0.between=["water","oil"]"#, "interactions.0.pairs.0.repulsion=40"]).unwrap();
+}
+
+#[test]
+fn what_cannot_be_read_hides_no_other_mistake() {
+    let pairs = r#"interactions.0.pairs=[{"between":["water","wine"],"repulsion":4}]"#;
+    let wine =
+        "interactions[0].pairs[0].between[1]: found \"wine\"; accepted: a species of some particle group: water, oil";
+    let late = "time.equilibration: found 1000; accepted: at most 100, the number of steps; `--set time.equilibration=0` \
+                leaves it out";
+    let theme = "output.plot.theme: found the text \"drk\"; did you mean `dark`? accepted: \"light\", \"dark\"";
+    assert_eq!(FLUID.problems(&["output.plot.theme=drk", "time.equilibration=1000", pairs]), [theme, wine, late]);
+    let found = FLUID.problems(&["integrator.type=groot-waren", "particles.0.count=many", "seed=-1", pairs]);
+    assert_eq!(found.len(), 4, "{found:#?}");
+    for part in ["integrator.type: found \"groot-waren\"", "particles[0].count: found the text", "seed: found -1", wine]
+    {
+        assert!(found.iter().any(|problem| problem.contains(part)), "{part}: {found:#?}");
+    }
+    // Without numbers that a scene has to give there is still much to say, but nothing that follows from them.
+    let found = FLUID.problems(&["temperature=hot", "time={}", "time.equilibration=1000", pairs]);
+    assert_eq!(found.len(), 4, "{found:#?}");
+    for part in ["temperature: found the text \"hot\"", "time.step: missing", "time.steps: missing", wine] {
+        assert!(found.iter().any(|problem| problem.contains(part)), "{part}: {found:#?}");
+    }
+    // A list with an entry that cannot be read says nothing further.
+    let found = FLUID.problems(&[r#"interactions.0.pairs=[{"between":["water"]},{"between":["water","oil"]}]"#]);
+    assert_eq!(found.len(), 1, "{found:#?}");
+}
+
+#[test]
+fn values_out_of_range_or_of_another_type() {
+    FLUID
+        .refused_with(&["particles.0.mass=-1"], &["particles[0].mass: found -1; accepted: a number greater than zero"]);
+    FLUID.refused_with(&["time.step=0"], &["time.step: found 0; accepted: a number greater than zero"]);
+    FLUID.refused_with(
+        &["space.box=[]"],
+        &["space.box: found a list of 0 entries; accepted: a list of 1 to 3 entries, each a number greater than zero"],
+    );
+    FLUID.refused_with(&["space.box=[9,9,9,9]"], &["space.box: found a list of 4 entries"]);
+    FLUID.refused_with(&["space.box=[9,9,-9]"], &["space.box[2]: found -9; accepted: a number greater than zero"]);
+    FLUID.refused_with(
+        &["time.steps=ten"],
+        &["time.steps: found the text \"ten\"; accepted: a whole number, zero or positive, up to 18446744073709551615"],
+    );
+    FLUID.refused_with(&["time.steps=1.5"], &["time.steps: found 1.5; accepted: a whole number"]);
+    FLUID.refused_with(&["time.steps=null"], &["time.steps: found null"]);
+    FLUID.refused_with(&["version=2"], &["version: found 2; accepted: the number 1"]);
+    FLUID.refused_with(&["integrator=splitting"], &["did you mean `{\"type\": \"splitting\"}`?"]);
+    FLUID.refused_with(&["integrator.type=grot-warren"], &["integrator.type", "did you mean `groot-warren`?"]);
+    FLUID.refused_with(&["noise.generator=pcg"], &["noise.generator", "did you mean `pcg4d`?", "threefry2x32-20"]);
+    FLUID.refused_with(&["integrator.lambda=.5"], &["integrator.type: missing; accepted: `splitting`, `groot-warren`"]);
+    assert_eq!(FLUID.parse(&["time.steps=1e5"]).unwrap().time.steps, 100_000);
+}
+
+#[test]
+fn missing_keys() {
+    let mut document = base();
+    document["time"].as_object_mut().unwrap().remove("step");
+    let error = scene::parse("test.json", &document.to_string(), &[]).unwrap_err().to_string();
+    assert!(
+        error.contains("scene `test.json` has 1 mistake:\n  time.step: missing; accepted: a number greater"),
+        "{error}"
+    );
+}
+
+#[test]
+fn all_mistakes_at_once_of_shape_and_of_sense() {
+    let found = FLUID.problems(&[
+        "interactions.0.fricton=4",
+        "particles.1.mass=-1",
+        "time.step=0",
+        "time.equilibration=200",
+        r#"interactions.0.pairs=[{"between": ["water", "oli"], "repulsion": 40}]"#,
+    ]);
+    let paths: Vec<&str> = found.iter().map(|line| line.split(':').next().unwrap()).collect();
+    assert_eq!(paths.len(), 5, "{found:#?}");
+    for path in [
+        "interactions[0].fricton",
+        "particles[1].mass",
+        "time.step",
+        "time.equilibration",
+        "interactions[0].pairs[0].between[1]",
+    ] {
+        assert!(paths.contains(&path), "{path} in {found:#?}");
+    }
+}
+
+#[test]
+fn species_and_pairs() {
+    FLUID.refused_with(
+        &[r#"interactions.0.pairs=[{"between": ["water", "oyl"]}]"#],
+        &["interactions[0].pairs[0].between[1]: found \"oyl\"", "did you mean `oil`?", "water, oil"],
+    );
+    FLUID.refused_with(
+        &[r#"interactions.0.pairs=[{"between": ["water", "oil"]}, {"between": ["oil", "water"]}]"#],
+        &["interactions[0].pairs[1]: pairs[0] defines `oil` with `water` already"],
+    );
+    FLUID.refused_with(
+        &[r#"interactions=[{"type": "dpd"}, {"type": "dpd"}]"#],
+        &["interactions[1]: a second `dpd` interaction defines the same pairs"],
+    );
+    FLUID.refused_with(
+        &["particles.1.species=water", "particles.1.mass=2"],
+        &["particles[1].mass: found 2; accepted: 1, the mass of species `water` in particles[0]"],
+    );
+}
+
+#[test]
+fn numbers_of_particles() {
+    FLUID.refused_with(&["particles.0.number_density=3"], &["particles[0]: both", "exactly one of"]);
+    FLUID.refused_with(&["particles.0.count=null"], &["particles[0]: neither", "exactly one of"]);
+    FLUID.refused_with(
+        &["particles.0.count=1000000000000"],
+        &["particles[0].count: found 1000000000300 particles", "93132 GiB at 100 bytes", "at most 4294967295"],
+    );
+    FLUID.refused_with(&["particles.0.count=1e12"], &["93132 GiB"]);
+    FLUID.refused_with(&["particles.0.count=18446744073709551615"], &["particles[0].count", "GiB"]);
+    FLUID.refused_with(
+        &["particles.0.count=null", "particles.0.number_density=1e90"],
+        &["particles[0].number_density", "GiB", "at most 4294967295"],
+    );
+    for few in [0, 1, 2] {
+        let scene = FLUID.parse(&[&format!("particles.0.count={few}"), "particles.1.count=0"]).unwrap();
+        assert_eq!(scene.particles[0].count, Some(few));
+    }
+    assert!(FLUID.parse(&["particles=[]"]).unwrap().particles.is_empty());
+}
+
+#[test]
+fn listed_particles() {
+    let group = |positions: &str, more: &str| {
+        format!(r#"particles=[{{"species": "A", "placement": {{"type": "listed", "positions": {positions}}}{more}}}]"#)
+    };
+    FLUID.parse(&[&group("[[1,2,3],[4,5,6]]", "")]).unwrap();
+    FLUID.parse(&[&group("[[1,2,3],[4,5,6]]", r#", "count": 2"#)]).unwrap();
+    FLUID.refused_with(
+        &[&group("[[1,2,3],[4,5]]", "")],
+        &["particles[0].placement.positions[1]: found 2 components; accepted: 3"],
+    );
+    FLUID.refused_with(&[&group("[[1,2,3]]", r#", "count": 2"#)], &["particles[0].count: found 2; accepted: 1"]);
+    FLUID.refused_with(&[&group("[[1,2,3]]", r#", "number_density": 2"#)], &["particles[0].number_density"]);
+    let velocities = r#", "velocities": {"type": "listed", "velocities": [[0,0,0],[0,0]]}"#;
+    let found = FLUID.problems(&[&group("[[1,2,3]]", velocities)]);
+    assert_eq!(found.len(), 2, "{found:#?}");
+    assert!(
+        found[0].contains("velocities.velocities: found a list of 2; accepted: one velocity for each"),
+        "{found:#?}"
+    );
+    assert!(found[1].contains("velocities.velocities[1]: found 2 components"), "{found:#?}");
+}
+
+#[test]
+fn lengths_and_durations() {
+    FLUID
+        .refused_with(&["space.box=[10,1.5,10]"], &["space.box[1]: found 1.5; accepted: at least 2, two cutoffs of 1"]);
+    FLUID.refused_with(
+        &["output.radial_distribution.every=10", "output.radial_distribution.range=6"],
+        &["output.radial_distribution.range: found 6; accepted: at most 5, half the shortest box edge"],
+    );
+    FLUID.refused_with(&["time.equilibration=101"], &["time.equilibration: found 101; accepted: at most 100"]);
+    for analysis in ["diffusion", "viscosity"] {
+        FLUID.refused_with(
+            &[&format!("output.{analysis}={{\"every\": 5, \"window\": 20}}"), "time.equilibration=10"],
+            &[&format!("output.{analysis}.window: found 20 samples"), "at most 18 samples", "at least 110"],
+        );
+        FLUID.parse(&[&format!("output.{analysis}={{\"every\": 5, \"window\": 20}}")]).unwrap();
+    }
+}
+
+#[test]
+fn warnings_name_place_and_remedy() {
+    let warned = |overrides: &[&str], expected: &str| {
+        let warnings = FLUID.warnings(overrides);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(expected), "{warnings:?}");
+    };
+    assert!(FLUID.warnings(&[]).is_empty());
+    // The mean friction rate is γρ·(2π/15)/(3m): 628.3 for γ = 7500 at density 0.6.
+    warned(
+        &["interactions.0.friction=7500"],
+        "time.step: friction relaxes the velocities of `water` at a mean rate of 628.",
+    );
+    warned(&["interactions.0.repulsion=250000"], "time.step: repulsion shakes `water` at a frequency of about 457.");
+    warned(&["space.box=[2.5,10,10]"], "space.box[0]: the edge of 2.5 is under three cutoffs (3)");
+    warned(
+        &[
+            r#"particles=[{"species": "A", "count": 2, "velocities": {"type": "listed", "velocities": [[1,0,0],[1,0,0]]}}]"#,
+        ],
+        "particles: the listed velocities add up to a momentum of (2.000000, 0.000000, 0.000000)",
+    );
+}
+
+fn syntax(text: &str) -> (usize, usize, String) {
+    match scene::parse("test.json", text, &[]) {
+        Err(SceneError::Syntax { line, column, message, .. }) => (line, column, message),
+        other => panic!("{text}: {other:?}"),
+    }
+}
+
+#[test]
+fn text_that_is_not_json() {
+    let (line, column, message) = syntax("{\n  \"title\": \"x\",\n  \"seed\" 1\n}");
+    assert_eq!((line, column), (3, 10));
+    assert!(message.contains("expected `:`"), "{message}");
+    for (text, expected) in [
+        ("", "empty"),
+        ("{\"temperature\": NaN}", "JSON has no NaN or Infinity"),
+        ("{\"temperature\": -Infinity}", "JSON has no NaN or Infinity"),
+        ("{\n // kT\n\"temperature\": 1}", "JSON has no comments"),
+        ("{\"temperature\": 1e999}", "every number must be finite"),
+        ("{\"temperature\": .5}", "a number starts with a digit"),
+        ("{'temperature': 1}", "double quotes"),
+        ("{\"temperature\": 1,}", "trailing comma"),
+        ("{} {}", "trailing characters"),
+    ] {
+        let (_, _, message) = syntax(text);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+    syntax(&"[".repeat(100_000));
+}
+
+#[test]
+fn keys_given_twice() {
+    let text = base().to_string().replacen("\"step\":0.01", "\"step\":0.01,\"step\":0.02", 1);
+    let error = scene::parse("test.json", &text, &[]).unwrap_err().to_string();
+    assert!(error.contains("time.step: the key is given more than once"), "{error}");
+}
+
+#[test]
+fn a_document_that_is_no_object() {
+    for text in ["[]", "3", "null", "\"dpd-fluid\""] {
+        let error = scene::parse("test.json", text, &[]).unwrap_err().to_string();
+        assert!(error.contains("top level: found") && error.contains("`title`"), "{error}");
+    }
+}
+
+#[test]
+fn the_program_lists_and_prints_scenes() {
+    let output = mesoscope(&["scenes"]);
+    assert!(output.status.success());
+    for builtin in scene::builtin() {
+        assert!(text(&output.stdout).contains(builtin.name));
+        assert_eq!(text(&mesoscope(&["scenes", builtin.name]).stdout), builtin.text);
+    }
+    assert!(
+        text(&output.stdout)
+            .lines()
+            .any(|line| { line.split_whitespace().collect::<Vec<_>>()[..3] == ["dpd-fluid", "24000", "3"] })
+    );
+    let output = mesoscope(&["scenes", "dpd-fliud"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).starts_with("error: no scene `dpd-fliud`"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("did you mean `dpd-fluid`?"));
+}
+
+#[test]
+fn the_program_prints_the_schema() {
+    let output = mesoscope(&["schema"]);
+    assert!(output.status.success());
+    assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap(), scene::schema());
+}
+
+#[test]
+fn the_program_refuses_with_exit_code_two() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("wrong.json");
+    std::fs::write(&path, base().to_string().replace("friction", "fricton").replace("0.01", "0")).unwrap();
+    let path = path.to_str().unwrap();
+    let output = mesoscope(&["run", path]);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message.starts_with(&format!("error: scene `{path}` has 2 mistakes:\n  time.step: found 0;")), "{message}");
+    assert!(message.contains("\n  interactions[0].fricton: unknown key; did you mean `friction`?"), "{message}");
+    assert!(message.contains("\nhint: "), "{message}");
+    assert!(output.stdout.is_empty());
+
+    for arguments in [
+        &[][..],
+        &["simulate"],
+        &["run"],
+        &["run", "dpd-fluid", "--stpes", "3"],
+        &["run", "dpd-fluid", "--steps", "many"],
+        &["run", "dpd-fluid", "--set", "time.step"],
+        &["run", "no-such-file.json"],
+        &["run", directory.path().to_str().unwrap()],
+    ] {
+        let output = mesoscope(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", text(&output.stderr));
+        assert!(!output.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn files_that_are_not_text_or_have_no_end() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("picture.json");
+    std::fs::write(&path, b"{\n\xff\xfe}").unwrap();
+    let output = mesoscope(&["check", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("picture.json:2:1: this is not UTF-8 text"), "{}", text(&output.stderr));
+    #[cfg(unix)]
+    {
+        let output = mesoscope(&["check", "/dev/zero"]);
+        assert!(text(&output.stderr).contains("/dev/zero: it is longer than 512 MiB"), "{}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_mesoscope"))
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success());
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn a_flood_of_mistakes_is_counted() {
+    let positions = vec![[1]; 30];
+    let group = json!([{"species": "A", "placement": {"type": "listed", "positions": positions}}]);
+    let error = FLUID.parse(&[&format!("particles={group}")]).unwrap_err().to_string();
+    assert!(error.starts_with("scene `test.json` has 30 mistakes:"), "{error}");
+    assert_eq!(error.lines().count(), 22, "{error}");
+    assert!(error.ends_with("\n  and 10 more"), "{error}");
+}

@@ -1,0 +1,519 @@
+//! Autocorrelations and histograms against statistics, against the observables, and against counts made on the host.
+
+use std::path::Path;
+
+use mesoscope::engine::{Engine, Sample};
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
+use mesoscope::model::Model;
+use mesoscope::output::{Table, files, read_table};
+use mesoscope::plan::Options;
+use mesoscope::run::{Outcome, Simulation};
+use mesoscope::scene::{self, Scene, SceneError};
+use serde_json::Value;
+
+use crate::support::{COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, start};
+
+/// The adapter of the tests, as the command line would choose it.
+fn choice() -> AdapterChoice {
+    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
+}
+
+fn run(scene: Scene, directory: &Path) -> Outcome {
+    Simulation::start(scene, directory, true).execute(&choice(), &mut |_| {}).unwrap()
+}
+
+fn number(outcome: &Outcome, path: &[&str]) -> f64 {
+    let found = path.iter().skip(1).fold(&outcome.summary.results[path[0]], |value, key| &value[*key]);
+    found.as_f64().unwrap_or_else(|| panic!("{path:?} is {found}"))
+}
+
+fn table(directory: &Path, name: &str) -> Table {
+    read_table(&directory.join(name)).unwrap()
+}
+
+/// Thermal velocities and no force.
+fn gas(changes: &[&str]) -> Scene {
+    fluid(&[&["interactions=[]", "particles.0.count=400", "particles.0.number_density=null"], changes].concat())
+}
+
+/// Two hundred samples of a fluid at kT = 1, some time apart: velocities, speeds, and their autocorrelation.
+#[test]
+fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = fluid(&[
+        "time.steps=2400",
+        "time.equilibration=400",
+        r#"output.histograms=[{"quantity":"velocity","every":10,"bins":60,"range":5},
+            {"quantity":"speed","every":10,"bins":60,"range":5}]"#,
+        r#"output.autocorrelations=[{"quantity":"velocity","every":4,"window":20,"fit":"exponential"}]"#,
+        "output.plot.width=640",
+        "output.plot.height=480",
+    ]);
+    let outcome = run(scene, directory.path());
+    assert!(outcome.summary.warnings.is_empty(), "{:?}", outcome.summary.warnings);
+    let particles = 375.0;
+    let kinetic = outcome.summary.means["temperature"]["mean"].as_f64().unwrap();
+    // The centre of mass is at rest.
+    let variance = kinetic * (1.0 - 1.0 / particles);
+
+    for (name, values) in [("velocity_histogram", 3.0), ("speed_histogram", 1.0)] {
+        let rows = table(directory.path(), &format!("{name}.csv")).rows;
+        let total = 201.0 * particles * values;
+        assert_eq!(number(&outcome, &[name, "values"]), total);
+        let outside =
+            number(&outcome, &[name, "above"]) + if values == 3.0 { number(&outcome, &[name, "below"]) } else { 0.0 };
+        assert_eq!(rows.iter().map(|row| row[2]).sum::<f64>() + outside, total);
+        let width = rows[1][0] - rows[0][0];
+        let integral = rows.iter().map(|row| row[1] * width).sum::<f64>();
+        assert!((integral - (1.0 - outside / total)).abs() < 1e-12);
+        // χ² of the bins with ten values or more. Velocities ten steps (0.4) apart are correlated by 0.2, so that counts
+        // scatter at most 1 + 2 · 0.2 times as much as independent ones. That the
+        // temperature is known to 0.4 % adds 2 to χ² in all.
+        let density = |x: f64| {
+            let bin = [x - 0.5 * width, x + 0.5 * width];
+            if values == 3.0 { gaussian_mean(bin, 0.0, variance.sqrt()) } else { maxwell_mean(bin, 3.0 * variance, 3) }
+        };
+        let pairs = rows.iter().map(|row| (row[2], density(row[0]) * width * total));
+        let terms: Vec<f64> =
+            pairs.filter(|(_, expected)| *expected >= 10.0).map(|(n, e)| (n - e).powi(2) / e).collect();
+        let (chi_squared, degrees) = (terms.iter().sum::<f64>(), terms.len() as f64);
+        println!("{name}: χ² = {chi_squared:.1} of {degrees}");
+        assert!(
+            chi_squared < 1.4 * (degrees + 4.0 * (2.0 * degrees).sqrt()) + 4.0,
+            "{name}: {chi_squared} of {degrees}"
+        );
+        assert!(degrees > 35.0);
+    }
+    // Of 201 samples, correlated by 0.2, at least half are independent: 100 · 375 · 3 values of x, 100 · 375 of r.
+    let values = 100.0 * particles * 3.0;
+    let near = |path: &[&str], expected: f64, error: f64| {
+        let found = number(&outcome, path);
+        println!("{path:?}: {found} expected {expected} ± {error}");
+        assert!((found - expected).abs() < 4.0 * error, "{path:?}: {found}, expected {expected} ± {error}");
+    };
+    let h = "velocity_histogram";
+    // The total momentum is zero but for rounding of its initial value, one unit of 2⁻²⁴.
+    near(&[h, "mean"], 0.0, 1e-7);
+    near(&[h, "standard_deviation"], variance.sqrt(), (0.5 / values).sqrt());
+    near(&[h, "kurtosis"], 3.0, (24.0 / values).sqrt());
+    near(&[h, "mean_square"], 3.0 * variance, (6.0 / (values / 3.0)).sqrt());
+    // r² follows χ² with three degrees of freedom: variance 6, fourth moment 252, so (252 - 36)/36 for that of the variance.
+    near(&[h, "variance_of_square"], 6.0 * variance * variance, 6.0 * (6.0 / (values / 3.0)).sqrt());
+    near(&["speed_histogram", "mean"], (8.0 * variance / std::f64::consts::PI).sqrt(), (0.46 / (values / 3.0)).sqrt());
+
+    let a = "velocity_autocorrelation";
+    assert_eq!(number(&outcome, &[a, "windows"]), 25.0);
+    // At the same temperature; 25 origins of 375 particles each.
+    near(&[a, "mean_square", "value"], 3.0 * variance, number(&outcome, &[a, "mean_square", "standard_error"]));
+    assert!(number(&outcome, &[a, "mean_square", "standard_error"]) < 2.0 * 6.0_f64.sqrt() / (25.0 * particles).sqrt());
+    let found = table(directory.path(), files::VELOCITY_AUTOCORRELATION);
+    let [normalised, errors, fit] =
+        ["autocorrelation", "autocorrelation_error", "fit"].map(|name| found.column(name).unwrap());
+    assert_eq!((normalised[0], errors[0], found.rows.len()), (1.0, 0.0, 20));
+    assert!(normalised.iter().skip(1).all(|value| *value < 1.0) && errors[1] > 0.0);
+    let a_value = number(&outcome, &[a, "fit", "a", "value"]);
+    assert!((fit[0] - a_value).abs() < 1e-12 && (a_value - 1.0).abs() < 0.3, "{a_value}");
+    assert!(number(&outcome, &[a, "fit", "b", "standard_error"]) > 0.0);
+
+    for name in ["velocity_histogram", "speed_histogram", "velocity_autocorrelation"] {
+        let path = directory.path().join(format!("{name}.png"));
+        let size = image::image_dimensions(&path).unwrap();
+        assert_eq!(size, (640, 480), "{name}");
+        assert!(outcome.files.iter().any(|file| *file == format!("{name}.png")), "{:?}", outcome.files);
+    }
+}
+
+#[test]
+fn a_gas_without_forces_keeps_its_velocities() {
+    for dimension in [2, 3] {
+        let space = format!("space.box={:?}", vec![5.0; dimension]);
+        let scene = gas(&[
+            &space,
+            "time.steps=40",
+            r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":5,"fit":"exponential"},
+                {"quantity":"force","every":2,"window":5}]"#,
+            r#"output.histograms=[{"quantity":"acceleration","every":10,"bins":3}]"#,
+        ]);
+        let directory = tempfile::tempdir().unwrap();
+        let outcome = run(scene, directory.path());
+        let found = table(directory.path(), files::VELOCITY_AUTOCORRELATION);
+        assert!(found.column("autocorrelation").unwrap().iter().all(|value| *value == 1.0), "{found:?}");
+        assert!(found.column("autocorrelation_error").unwrap().iter().all(|value| *value == 0.0));
+        assert_eq!(found.rows.len(), 5);
+        // d kT/m, at the temperature of these 400 particles themselves.
+        let kinetic = outcome.summary.means["temperature"]["mean"].as_f64().unwrap();
+        let expected = dimension as f64 * kinetic * 399.0 / 400.0;
+        let mean_square = number(&outcome, &["velocity_autocorrelation", "mean_square", "value"]);
+        assert!((mean_square / expected - 1.0).abs() < 1e-6, "{mean_square} {expected}");
+        assert_eq!(outcome.summary.results["velocity_autocorrelation"]["fit"], Value::Null);
+        assert!(outcome.summary.warnings.iter().any(|warning| warning.contains("does not decay")));
+        // There are no forces: all in the middle bin, and nothing to correlate.
+        let counts = table(directory.path(), files::ACCELERATION_HISTOGRAM).column("count").unwrap();
+        assert_eq!(counts, [0.0, 5.0 * 400.0 * dimension as f64, 0.0]);
+        assert!(outcome.summary.results.get("force_autocorrelation").is_none());
+        let warned = |text: &str| outcome.summary.warnings.iter().any(|warning| warning.contains(text));
+        assert!(warned("`output.autocorrelations (force)`: it is zero"), "{:?}", outcome.summary.warnings);
+    }
+}
+
+/// Without friction, the forces are those whose squares the observables sum.
+#[test]
+fn forces_of_a_conservative_fluid_have_the_squares_of_the_observables() {
+    for integrator in [SPLITTING, GROOT_WARREN, COTTER_REICH] {
+        let scene = fluid(&[
+            integrator,
+            "time.steps=200",
+            "time.step=0.02",
+            "interactions.0.friction=0",
+            "output.energies.every=5",
+            r#"output.autocorrelations=[{"quantity":"force","every":5,"window":2}]"#,
+            r#"output.histograms=[{"quantity":"acceleration","every":5}]"#,
+        ]);
+        let model = Model::new(&scene);
+        let (_, state) = start(&scene);
+        let mut engine = engine(&scene, &state, Options::default());
+        engine.advance(200, 50).unwrap();
+        let samples = engine.finish().unwrap();
+        let of = |index: usize| samples.iter().filter(move |sample| sample.sampler == index);
+        let squares: Vec<f64> = of(0)
+            .map(|sample| mesoscope::measure::observables_of(sample, engine.plan(), &model).gradient_squared)
+            .collect();
+        let plan = engine.plan();
+        let quantum = plan.force_unit.powi(2) * 8.0; // 2^(⌈log₂ 375⌉ - 6)
+        let products: Vec<i64> = of(1).map(|sample| sample.sums[0]).collect();
+        assert_eq!((squares.len(), products.len()), (41, 41));
+        for (product, square) in products.iter().zip(&squares).step_by(2) {
+            // At the origin of a window the product is the square. Both round pair forces to units, which are 2⁻²⁴ of
+            // the thermal momentum in half a step, and add in single precision.
+            assert!((*product as f64 * quantum / square - 1.0).abs() < 1e-5, "{integrator}: {product} {square}");
+        }
+        // The moments of the histogram hold them too: Σ|a|² in units of the range squared, all masses being one.
+        let range = plan.kernels.iter().find(|kernel| kernel.name == "acceleration_histogram").map(|kernel| {
+            let constant = |name: &str| kernel.constants.iter().find(|(known, _)| *known == name).unwrap().1;
+            plan.force_unit / constant("FRACTION")
+        });
+        let unit = range.unwrap().powi(2) / constant_of(&engine, "acceleration_histogram", "MOMENT");
+        for (sample, square) in of(2).zip(&squares) {
+            let moments = &sample.sums[103..];
+            assert_eq!(sample.sums[102], 0, "no particle is far beyond the range");
+            for moment in [moments[1], moments[3]] {
+                assert!((moment as f64 * unit / square - 1.0).abs() < 1e-5, "{integrator}: {moment} {square}");
+            }
+        }
+        assert!(squares.iter().all(|square| *square > 100.0));
+    }
+}
+
+fn constant_of(engine: &Engine<'_>, kernel: &str, name: &str) -> f64 {
+    let kernel = engine.plan().kernels.iter().find(|known| known.name == kernel).unwrap();
+    kernel.constants.iter().find(|(known, _)| *known == name).unwrap().1
+}
+
+/// The forces by id are what the momenta change by, to the last bit: by half a step's impulse from the stored momenta to
+/// those of the report, or, where steps are split, by a whole step's.
+#[test]
+fn reported_forces_are_changes_of_momenta() {
+    let species = r#"particles=[{"species":"A","count":200},{"species":"B","count":175,"mass":2.5}]"#;
+    for space in ["space.box=[5,5,5]", "space.box=[11,12]"] {
+        for particles in ["title=test", species] {
+            for integrator in INTEGRATORS {
+                let scene = fluid(&[
+                    integrator,
+                    space,
+                    particles,
+                    "time.steps=100",
+                    r#"output.histograms=[{"quantity":"acceleration","every":1000}]"#,
+                ]);
+                let (model, state) = start(&scene);
+                let mut engine = engine(&scene, &state, Options::default());
+                engine.advance(30, 30).unwrap();
+                let before = engine.state().unwrap();
+                let reported = engine.reported().unwrap();
+                let forces: Vec<i32> =
+                    engine.words("reported_forces").unwrap().into_iter().map(|word| word as i32).collect();
+                let mut strongest = 0;
+                for id in 0..before.len() {
+                    for axis in 0..3 {
+                        let change = reported.momenta[id][axis] - before.momenta[id][axis];
+                        let force = forces[4 * id + axis];
+                        // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
+                        let tolerance = if *integrator == SPLITTING { 2 } else { 0 };
+                        assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
+                        strongest = strongest.max(force.abs());
+                    }
+                }
+                assert!(strongest > 1 << 20, "{strongest}");
+                let time = model.time_step * if *integrator == SPLITTING { 1.0 } else { 0.5 };
+                assert_eq!(engine.plan().force_unit, model.units.momentum / time);
+            }
+        }
+    }
+}
+
+/// Who does not ask for forces has no buffer of them and no kernel that knows of them.
+#[test]
+fn forces_cost_nothing_unless_they_are_asked_for() {
+    for integrator in INTEGRATORS {
+        let plan = |changes: &[&str]| {
+            let scene = fluid(&[&[*integrator, "time.steps=100"], changes].concat());
+            let (_, state) = start(&scene);
+            engine(&scene, &state, Options::default()).plan().clone()
+        };
+        let without = plan(&[r#"output.histograms=[{"quantity":"velocity","every":1}]"#]);
+        assert!(without.buffers.iter().all(|buffer| buffer.name != "reported_forces"));
+        let nothing = plan(&[]);
+        assert!(nothing.buffers.iter().all(|buffer| !buffer.name.starts_with("reported")));
+        assert!(without.kernels.iter().all(|kernel| !kernel.modules.contains(&"common/force_on")));
+        let with = plan(&[r#"output.autocorrelations=[{"quantity":"force","every":1,"window":2}]"#]);
+        assert!(with.buffers.iter().any(|buffer| buffer.name == "reported_forces"));
+        // Only a report writes them: kernels of a step without one are the same.
+        assert_eq!(
+            with.advance.iter().map(|kernel| &with.kernels[*kernel]).collect::<Vec<_>>(),
+            without.advance.iter().map(|kernel| &without.kernels[*kernel]).collect::<Vec<_>>()
+        );
+    }
+}
+
+/// The kinetic energy of a particle of unit mass.
+fn kinetic_energy(model: &Model, momentum: [i32; 3]) -> f64 {
+    model.units.momentum(momentum).iter().map(|component| 0.5 * component * component).sum()
+}
+
+/// The bin of a value in units of half bins, in single precision as on the device.
+fn bin_of(value: f32, per_half_bin: f32, half_below: i64, bins: usize) -> usize {
+    let half = half_below + (value * per_half_bin).floor() as i64;
+    match half {
+        half if half < 0 => bins,
+        half if half >= 2 * bins as i64 => bins + 1,
+        half => half as usize / 2,
+    }
+}
+
+#[test]
+fn counts_are_those_of_the_reported_particles() {
+    // Bins even and odd in number, ranges that leave some values out. All masses are one, so that what the device
+    // multiplies before it takes the whole part is what is multiplied here.
+    for (integrator, space) in [(SPLITTING, "space.box=[5,5,5]"), (PREDICTED, "space.box=[20,20]")] {
+        let scene = fluid(&[
+            integrator,
+            space,
+            "time.steps=100",
+            "output.energies.every=4",
+            r#"output.histograms=[{"quantity":"velocity","every":4,"bins":37,"range":1.7},
+                {"quantity":"acceleration","every":4,"bins":50,"range":9,"axis":"y"},
+                {"quantity":"speed","every":4,"bins":21,"range":2.0}]"#,
+        ]);
+        let (model, state) = start(&scene);
+        let dimension = model.units.dimension;
+        let mut engine = engine(&scene, &state, Options::default());
+        for _ in 0..5 {
+            let reported = engine.reported().unwrap();
+            let forces = engine.words("reported_forces").unwrap();
+            let samples = engine.finish().unwrap();
+            let sums = |sampler: usize| {
+                let found: Vec<&Sample> = samples.iter().filter(|sample| sample.sampler == sampler).collect();
+                assert_eq!((found.len(), found[0].step), (1, reported.step));
+                found[0].sums.clone()
+            };
+            // In a split step, velocities are those right after the relaxation, where the temperature is measured.
+            let momenta: Vec<[i32; 3]> = if integrator == SPLITTING {
+                let words = engine.words("reported_momenta").unwrap();
+                let vector = |words: &[u32]| [words[0] as i32, words[1] as i32, words[2] as i32];
+                words.chunks_exact(4).map(vector).collect()
+            } else {
+                reported.momenta.clone()
+            };
+            let kinetic: f64 = momenta.iter().map(|momentum| kinetic_energy(&model, *momentum)).sum();
+            let measured = samples.iter().filter(|sample| sample.sampler == 0);
+            for sample in measured {
+                let measured = mesoscope::measure::observables_of(sample, engine.plan(), &model).kinetic_energy;
+                assert!((kinetic / measured - 1.0).abs() < 1e-6, "{integrator}: {kinetic} {measured}");
+            }
+            let mut counts = [vec![0; 39], vec![0; 52], vec![0; 23]];
+            let factor = |name: &str| constant_of(&engine, name, "HALF_BINS") as f32;
+            for (id, momentum) in momenta.iter().enumerate() {
+                for axis in 0..dimension {
+                    counts[0][bin_of(momentum[axis] as f32, factor("velocity_histogram"), 37, 37)] += 1;
+                }
+                let force = forces[4 * id + 1] as i32;
+                counts[1][bin_of(force as f32, factor("acceleration_histogram"), 50, 50)] += 1;
+            }
+            for sampler in [1, 2] {
+                let sums = sums(sampler);
+                assert_eq!(sums[..counts[sampler - 1].len()], counts[sampler - 1], "{integrator} sampler {sampler}");
+            }
+            // A magnitude is a root, which single precision gives to a few units in the last place: on an edge by so
+            // little a value may be counted on either side.
+            let exact = |momentum: &[i32; 3]| momentum.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>().sqrt();
+            let per_half_bin = constant_of(&engine, "speed_histogram", "HALF_BINS");
+            let mut close = 0;
+            for momentum in &momenta {
+                let half_bins = exact(momentum) * per_half_bin;
+                close += i64::from((half_bins / 2.0 - (half_bins / 2.0).round()).abs() < 1e-5);
+                counts[2][bin_of(half_bins as f32, 1.0, 0, 21)] += 1;
+            }
+            let differences: i64 = sums(3).iter().zip(&counts[2]).map(|(a, b)| (a - b).abs()).sum();
+            assert!(differences <= 2 * close && close < 5, "{differences} {close}");
+            assert!(counts[0][37] > 0 && counts[0][38] > 0 && counts[1][50] > 0 && counts[2][22] > 0, "{counts:?}");
+            // The powers, in double precision: those of the device are in single, with errors of either sign.
+            let velocity = sums(1);
+            let quantum = 1.0 / constant_of(&engine, "velocity_histogram", "MOMENT");
+            let fraction = constant_of(&engine, "velocity_histogram", "FRACTION");
+            let values = || momenta.iter().flatten().map(|component| f64::from(*component) * fraction);
+            for (moment, power) in [(0, 1), (1, 2), (2, 4)] {
+                let expected: f64 = values().map(|value| value.powi(power)).sum();
+                let magnitude: f64 = values().map(|value| value.abs().powi(power)).sum();
+                let found = velocity[40 + moment] as f64 * quantum;
+                assert!((found - expected).abs() < 1e-6 * magnitude, "moment {power}: {found} and {expected}");
+            }
+            for (moment, power) in [(3, 2), (4, 4)] {
+                let expected: f64 = momenta.iter().map(|momentum| (exact(momentum) * fraction).powi(power)).sum();
+                let found = velocity[40 + moment] as f64 * quantum;
+                assert!((found / expected - 1.0).abs() < 1e-6, "magnitude {power}: {found} and {expected}");
+            }
+            engine.advance(4, 4).unwrap();
+        }
+    }
+}
+
+#[test]
+fn particles_far_beyond_the_range_are_counted_apart() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = r#"{"title": "four", "space": {"box": [9, 9]}, "time": {"step": 0.01, "steps": 0}, "temperature": 0,
+        "particles": [{"species": "A", "placement": {"type": "listed", "positions": [[1, 1], [3, 3], [5, 5], [7, 7]]},
+            "velocities": {"type": "listed", "velocities": [[0.5, -0.5], [1.0, -1.0], [-20, 0], [18.5, 1.5]]}}],
+        "output": {"histograms": [{"quantity": "velocity", "every": 1, "bins": 2, "range": 1}]}}"#;
+    let outcome = run(crate::support::scene(text), directory.path());
+    let counts = table(directory.path(), files::VELOCITY_HISTOGRAM).column("count").unwrap();
+    // 0.5 and 0 in the upper bin, -0.5 and -1 in the lower; 1, 18.5, 1.5 above, -20 below.
+    assert_eq!(counts, [2.0, 2.0]);
+    assert_eq!(number(&outcome, &["velocity_histogram", "below"]), 1.0);
+    assert_eq!(number(&outcome, &["velocity_histogram", "above"]), 3.0);
+    // Of the two particles that are not far: ⟨x²⟩ = (1/4 + 1/4 + 1 + 1)/4, ⟨r²⟩ twice that, ⟨r⁴⟩ = (1/4 + 4)/2.
+    assert_eq!(number(&outcome, &["velocity_histogram", "mean"]), 0.0);
+    assert_eq!(number(&outcome, &["velocity_histogram", "standard_deviation"]), 0.625_f64.sqrt());
+    assert_eq!(number(&outcome, &["velocity_histogram", "variance_of_square"]), 2.125 - 1.25 * 1.25);
+    let warned = |text: &str| outcome.summary.warnings.iter().any(|warning| warning.contains(text));
+    assert!(warned("2 times a particle was further") && warned("50.00 %"), "{:?}", outcome.summary.warnings);
+}
+
+/// A gas of two species that drifts: about the centre of mass nothing of the drift is left, in the box all of it.
+#[test]
+fn velocities_about_the_centre_of_mass() {
+    let means = |frame: &str| {
+        let analyses = |quantity: &str| format!(r#"{{"quantity":"{quantity}","every":1,"frame":"{frame}","range":8}}"#);
+        let histograms = format!("output.histograms=[{},{}]", analyses("velocity"), analyses("speed"));
+        let correlations =
+            format!(r#"output.autocorrelations=[{{"quantity":"velocity","every":1,"window":2,"frame":"{frame}"}}]"#);
+        let scene = crate::support::scene(
+            r#"{"title": "t", "space": {"box": [9, 9, 9]}, "time": {"step": 0.01, "steps": 3}, "temperature": 0,
+            "particles": [
+                {"species": "A", "mass": 1, "placement": {"type": "listed", "positions": [[1, 1, 1]]},
+                    "velocities": {"type": "listed", "velocities": [[3, 0.25, -1]]}},
+                {"species": "B", "mass": 3, "placement": {"type": "listed", "positions": [[4, 4, 4]]},
+                    "velocities": {"type": "listed", "velocities": [[-1, 0.25, 3]]}}]}"#,
+        );
+        let text = serde_json::to_string(&scene).unwrap();
+        let scene = scene::parse("test", &text, &[histograms, correlations]).unwrap();
+        let directory = tempfile::tempdir().unwrap();
+        let outcome = run(scene, directory.path());
+        [
+            number(&outcome, &["velocity_histogram", "mean"]),
+            number(&outcome, &["velocity_histogram", "mean_square"]),
+            number(&outcome, &["velocity_autocorrelation", "mean_square", "value"]),
+            number(&outcome, &["speed_histogram", "mean"]),
+        ]
+    };
+    let close = |found: [f64; 4], expected: [f64; 4]| {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+        }
+    };
+    let r = 10.0625_f64;
+    close(means("box"), [4.5 / 6.0, r, r, r.sqrt()]);
+    // The centre of mass moves with (0, 0.25, 2): what is left is (3, 0, -3) and (-1, 0, 1).
+    close(means("centre-of-mass"), [0.0, 10.0, 10.0, f64::midpoint(18_f64.sqrt(), 2_f64.sqrt())]);
+}
+
+const EVERYTHING: &[&str] = &[
+    "time.steps=60",
+    "time.equilibration=10",
+    r#"output.autocorrelations=[{"quantity":"velocity","every":1,"window":6,"fit":"damped-oscillation"},
+        {"quantity":"force","every":2,"window":5,"fit":"stretched-exponential"}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":1,"bins":1024},{"quantity":"speed","every":3},
+        {"quantity":"acceleration","every":2,"frame":null}]"#,
+];
+
+/// Neither the batches of steps nor the order in which particles are stored changes a bit.
+#[test]
+fn samples_do_not_depend_on_batches_or_storage() {
+    for integrator in [SPLITTING, GROOT_WARREN] {
+        let scene = fluid(&[&[integrator][..], EVERYTHING].concat());
+        let (_, state) = start(&scene);
+        let all = |batch: u64, reversed: bool, options: Options| {
+            let mut engine = engine(&scene, &state, options);
+            if reversed {
+                let order: Vec<usize> = (0..state.len()).rev().collect();
+                engine.upload_in_order(&state, &order).unwrap();
+            }
+            engine.advance(60, batch).unwrap();
+            engine.finish().unwrap()
+        };
+        let samples = all(60, false, Options::default());
+        assert_eq!(samples.iter().filter(|sample| sample.sampler == 3).count(), 51);
+        assert_eq!(samples, all(7, true, Options::default()));
+        let lanes = Options { workgroup_size: Some(16), ..Options::default() };
+        assert_eq!(samples, all(60, false, lanes));
+    }
+}
+
+fn problems(changes: &[&str]) -> Vec<String> {
+    let text = serde_json::to_string(&fluid(&["time.steps=100", "time.equilibration=20"])).unwrap();
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    match scene::parse("test", &text, &changes) {
+        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn mistakes_are_named() {
+    let found = problems(&[
+        r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":40},
+            {"quantity":"velocity","every":2,"window":41},
+            {"quantity":"force","every":1,"window":8,"frame":"box"}]"#,
+        r#"output.histograms=[{"quantity":"speed","every":1,"axis":"x"},{"quantity":"velocity","every":1,"axis":"z"},
+            {"quantity":"velocity","every":1},{"quantity":"acceleration","every":1,"frame":"box"}]"#,
+        "space.box=[11,12]",
+    ]);
+    let expected = [
+        "output.autocorrelations[1].window: found 41 samples of 2 steps, 82 steps in all",
+        "output.autocorrelations[1].quantity: found \"velocity\" again",
+        "output.autocorrelations[2].frame: found for the quantity \"force\"",
+        "output.histograms[0].axis: found for the quantity \"speed\"",
+        "output.histograms[1].axis: found \"z\"",
+        "output.histograms[2].quantity: found \"velocity\" again",
+        "output.histograms[3].frame: found for the quantity \"acceleration\"",
+    ];
+    assert_eq!(found.len(), expected.len(), "{found:#?}");
+    for expected in expected {
+        assert!(found.iter().any(|problem| problem.starts_with(expected)), "{expected}\n{found:#?}");
+    }
+    let found = problems(&[r#"output.histograms=[{"quantity":"velocty","every":0,"bins":2000,"range":0}]"#]);
+    assert_eq!(found.len(), 4, "{found:#?}");
+    assert!(found.iter().any(|problem| problem.contains("did you mean `velocity`?")), "{found:#?}");
+}
+
+/// Samples are taken at the steps that were asked for, from the end of the equilibration on.
+#[test]
+fn samples_are_taken_when_they_are_due() {
+    let histograms = r#"output.histograms=[{"quantity":"velocity","every":5,"bins":8}]"#;
+    let scene = fluid(&["time.steps=20", "time.equilibration=3", histograms]);
+    let (_, state) = start(&scene);
+    let mut engine = engine(&scene, &state, Options::default());
+    engine.advance(20, 20).unwrap();
+    let samples = engine.finish().unwrap();
+    let steps: Vec<u64> = samples.iter().filter(|sample| sample.sampler == 1).map(|sample| sample.step).collect();
+    assert_eq!(steps, [3, 8, 13, 18]);
+}

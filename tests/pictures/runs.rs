@@ -1,0 +1,119 @@
+//! The pictures of whole runs: one range of colours from the first to the last, the same bytes after a pause, and what the
+//! scene may say about them.
+
+use serde_json::{Value, json};
+
+use crate::support::program::{Place, bytes, fails, listing, mesoscope, picture, succeeds, succeeds_and_tells, text};
+
+/// A gas that starts much hotter than its bath and cools: colours fitted to each picture would hide it.
+fn cooling() -> Place {
+    let velocities: Vec<[f64; 2]> = (0..200).map(|i| (f64::from(i) * 2.4).sin_cos()).map(|(x, y)| [x, y]).collect();
+    Place::of(json!({
+        "title": "a gas cools",
+        "space": {"box": [12, 6]},
+        "time": {"step": 0.02, "steps": 60},
+        "temperature": 0.01,
+        "particles": [
+            {"species": "gas", "count": 200, "velocities": {"type": "listed", "velocities": velocities}},
+        ],
+        "interactions": [{"type": "dpd", "repulsion": 0, "friction": 20}],
+        "output": {
+            "energies": {"every": 10},
+            "plot": {"width": 640},
+            "snapshot": {"every": 20, "width": 400, "color": "speed"},
+        },
+    }))
+}
+
+/// The ticks below the colour bar, which stand in the lower third of the footer.
+fn ticks(place: &Place, name: &str) -> Vec<u8> {
+    let picture = picture(&place.path(name));
+    let (width, height) = (picture.width(), picture.height());
+    // Headings, footer and margins are in proportion to the longer side.
+    let strip = height - width * 77 / 1200..height;
+    let pixels: Vec<u8> =
+        strip.flat_map(|y| (0..width * 2 / 3).map(move |x| (x, y))).map(|(x, y)| picture.get_pixel(x, y)[1]).collect();
+    assert!(pixels.iter().filter(|light| **light < 140).count() > 20, "there are labels in {name}");
+    pixels
+}
+
+#[test]
+fn all_pictures_of_a_run_share_one_range_of_colours() {
+    let place = cooling();
+    let directory = place.argument("out");
+    succeeds(&["run", &place.scene(), "--out", &directory, "--quiet"]);
+    let names =
+        ["snapshot-000001.png", "snapshot-000002.png", "snapshot-000003.png", "snapshot-000004.png", "snapshot.png"];
+    let first = ticks(&place, "out/snapshot-000001.png");
+    for name in &names[1..] {
+        assert!(ticks(&place, &format!("out/{name}")) == first, "{name} has another scale");
+    }
+    // The last state, drawn again, has the range of the run, and the page the shape of the box.
+    let last = bytes(&place.path("out/snapshot.png"));
+    succeeds(&["plot", &directory]);
+    assert!(bytes(&place.path("out/snapshot.png")) == last);
+    let size = picture(&place.path("out/snapshot.png")).dimensions();
+    assert!(size.0 == 400 && size.1 < 320, "{size:?}");
+    succeeds(&["plot", &directory, "--set", "output.snapshot.range=[0, 3]"]);
+    assert!(ticks(&place, "out/snapshot.png") != first, "the user's range");
+}
+
+#[test]
+fn a_run_that_paused_has_the_same_pictures() {
+    let whole = cooling();
+    succeeds(&["run", &whole.scene(), "--out", &whole.argument("out"), "--quiet"]);
+    let paused = cooling();
+    let directory = paused.argument("out");
+    succeeds(&["run", &paused.scene(), "--out", &directory, "--quiet", "--steps", "30"]);
+    succeeds(&["resume", &directory, "--steps", "60", "--quiet"]);
+    let names = listing(&whole.path("out"));
+    assert!(names.iter().filter(|name| name.starts_with("snapshot")).count() == 5, "{names:?}");
+    for name in names.iter().filter(|name| name.contains(".png")) {
+        let name = format!("out/{name}");
+        assert!(bytes(&whole.path(&name)) == bytes(&paused.path(&name)), "{name} differs");
+    }
+}
+
+#[test]
+fn ranges_of_colours_are_checked() {
+    for (pointer, value, parts) in [
+        ("/output/snapshot/range", json!([2, 2]), &["output.snapshot.range: found [2, 2]", "a higher one"][..]),
+        ("/output/snapshot/range", json!([3, 1]), &["found [3, 1]"]),
+        ("/output/snapshot/range", json!([1]), &["output.snapshot.range"]),
+        ("/output/snapshot/range", json!([0, 1e39]), &["within 1e30"]),
+    ] {
+        let place = cooling().with(pointer, value);
+        fails(&["check", &place.scene()], 2, parts);
+    }
+    let species = cooling().with("/output/snapshot", json!({"range": [0, 1]}));
+    fails(&["check", &species.scene()], 2, &["no `range` for colours of species"]);
+    let set = "output.fields={\"ranges\":{\"depth\":[1,1]}}";
+    fails(&["check", "shallow-water", "--set", set], 2, &["output.fields.ranges.depth"]);
+    let output = mesoscope(&["check", "shallow-water", "--set", "output.fields={\"ranges\":{\"depth\":[0.8,1.2]}}"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn sizes_of_chains_are_printed_and_plotted_and_missing_letters_named() {
+    let scene: Value = json!({
+        "title": "Rings of 水 ∇",
+        "space": {"box": [5, 5, 5]},
+        "time": {"step": 0.02, "steps": 20},
+        "temperature": 1,
+        "particles": [{"species": "trimer", "count": 30, "chain": {"beads": 3, "spacing": 0.8}}],
+        "interactions": [
+            {"type": "dpd", "repulsion": 10, "friction": 4.5},
+            {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 4}},
+        ],
+        "output": {"energies": {"every": 5}, "chain_sizes": {"every": 2}, "plot": {"width": 400}, "snapshot": {"width": 100}},
+    });
+    let place = Place::of(scene);
+    let (said, warned) = succeeds_and_tells(&["run", &place.scene(), "--out", &place.argument("out")]);
+    for part in
+        ["end-to-end distance² of `trimer` (3 beads)", "gyration radius² of `trimer` (3 beads)", "chain_sizes.png"]
+    {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    assert!(warned.contains("水∇"), "{warned}");
+    assert_eq!(picture(&place.path("out/chain_sizes.png")).width(), 400);
+}

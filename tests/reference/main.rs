@@ -1,0 +1,12 @@
+//! The float64 reference against what is exact, and the device against the reference, step by step.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bonds;
+mod particles;
+mod single_steps;
+mod smoothing;
+mod tessellation;
+mod voronoi;

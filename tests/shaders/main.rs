@@ -1,0 +1,9 @@
+//! The kernels: every variant that a scene can ask for, what compilers say of them, and the functions that they compute by themselves.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod compilers;
+mod elementary;
+mod variants;

@@ -1,0 +1,825 @@
+//! Every shader variant that any scene can ask for: linked, validated, and held against the plans and the host structs.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::mem::offset_of;
+use std::num::NonZero;
+use std::path::Path;
+use std::sync::OnceLock;
+use std::thread;
+
+use mesoscope::engine::Control;
+use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
+use mesoscope::model::Model;
+use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Texture, Traversal};
+use mesoscope::scene::Scene;
+use mesoscope::state::Hold;
+
+use crate::support::{INTEGRATORS, cells, fluid, water};
+
+/// WebGPU's core limits.
+const STORAGE_BUFFERS: usize = 8;
+/// What the engine asks for where there are textures.
+const STORAGE_TEXTURES: usize = 8;
+const WORKGROUPS: u64 = 65_535 * 65_535;
+const WORKGROUP_BYTES: u32 = 16_384;
+
+const SAMPLERS: &[&str] = &[
+    "time.steps=1000",
+    r#"output.radial_distribution={"every":10,"range":1.1}"#,
+    r#"output.diffusion={"every":2,"window":8}"#,
+    r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.trajectory={"every":5}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
+        {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
+];
+
+fn plan_of(scene: &Scene, options: Options) -> Plan {
+    plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
+}
+
+/// Plans of a scene for either kind of memory.
+fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] {
+    [false, true].map(|serial| {
+        let plan = plan_of(scene, Options { serial_memory: Some(serial), ..options });
+        (format!("{name} serial_memory={serial}"), plan)
+    })
+}
+
+/// Plans of everything that chooses a module.
+pub fn plans() -> &'static [(String, Plan)] {
+    static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
+    PLANS.get_or_init(|| {
+        let kinds = [fluid_plans, long_range_plans, water_plans, coupled_plans, noise_plans, bond_plans, voronoi_plans];
+        thread::scope(|scope| {
+            let kinds = kinds.map(|plans| scope.spawn(plans));
+            kinds.into_iter().flat_map(|plans| plans.join().unwrap()).collect()
+        })
+    })
+}
+
+/// One scene a combination of what pairs may have, with every way to visit them and to scan.
+fn fluid_plans() -> Vec<(String, Plan)> {
+    let mut choices: Vec<Vec<Vec<&str>>> = vec![INTEGRATORS.iter().map(|integrator| vec![*integrator]).collect()];
+    choices.push(vec![vec![], vec!["space.box=[9,7]"]]);
+    choices.push(vec![
+        vec![],
+        vec![
+            r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+            r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
+        ],
+    ]);
+    choices.push(vec![vec![], vec!["interactions.0.weight_exponent=0.5"]]);
+    choices.push(vec![vec![], vec!["interactions.0.repulsion=0", "interactions.0.pairs=[]"]]);
+    choices.push(vec![
+        vec![],
+        vec![r#"noise={"distribution":"gaussian"}"#],
+        vec![r#"noise={"generator":"threefry2x32-20"}"#],
+        vec![r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
+        vec!["temperature=0"],
+        vec!["interactions.0.friction=0"],
+        vec!["interactions=[]"],
+    ]);
+    choices.push(vec![vec![], SAMPLERS.to_vec()]);
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        combinations = combinations
+            .iter()
+            .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more.as_slice()].concat()))
+            .collect();
+    }
+    let mut plans = Vec::new();
+    for changes in combinations {
+        let free = changes.contains(&"interactions=[]");
+        // Without an interaction there is nothing inside it to change.
+        let changes: Vec<&str> =
+            changes.into_iter().filter(|change| !free || !change.starts_with("interactions.")).collect();
+        let scene = fluid(&changes);
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            for many_level_scan in [false, true] {
+                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
+                plans.extend(plans_of(&name, &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+/// The same where one dispatch does not look at all pairs of a radial distribution function.
+fn long_range_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
+        for integrator in INTEGRATORS {
+            for listed in [false, true].into_iter().filter(|listed| !listed || !integrator.contains("splitting")) {
+                let scene = fluid(&[SAMPLERS, &[space, integrator]].concat());
+                let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
+                plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+/// The same of couplings that add their impulses up.
+fn coupled_plans() -> Vec<(String, Plan)> {
+    let pairs = [
+        "",
+        r#"{"type":"dpd","repulsion":25,"friction":4.5}"#,
+        r#"{"type":"dpd","friction":4.5,"weight_exponent":1,"bath":{"type":"white","temperature":0}}"#,
+        r#"{"type":"dpd","repulsion":25}"#,
+        r#"{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3,"scheme":"symmetric"}}"#,
+        r#"{"type":"dpd","weight_exponent":1,"bath":{"type":"memory","rate":0,"coupling":2,"temperature":0}}"#,
+    ];
+    let positions = [
+        "",
+        r#"{"type":"langevin","friction":1}"#,
+        r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#,
+        r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3,"temperature":0}}"#,
+    ];
+    let others = ["", r#"{"type":"tether","stiffness":2}"#];
+    let mut interactions = Vec::new();
+    for pair in pairs {
+        for position in positions {
+            for other in others {
+                let all: Vec<&str> = [pair, position, other].into_iter().filter(|text| !text.is_empty()).collect();
+                interactions.push(format!("interactions=[{}]", all.join(",")));
+            }
+        }
+    }
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"fixed":true}]"#,
+    ];
+    let mut plans = Vec::new();
+    // Masses, baths, a random force and forces for an analysis at once.
+    for all in ["", r#",{"type":"coloured-noise","strength":1,"time":0.1}"#] {
+        let interactions = format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,"bath":{{"type":"memory","rate":3}}}},
+                {{"type":"langevin","friction":1,"bath":{{"type":"memory","rate":3}}}}{all}]"#
+        );
+        for particles in particles {
+            let changes = [&[interactions.as_str(), particles], SAMPLERS].concat();
+            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+        }
+    }
+    for interactions in &interactions {
+        for particles in particles {
+            for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
+                for generator in ["pcg4d", "threefry2x32-20"] {
+                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                    for integrator in ["cotter-reich", "groot-warren"] {
+                        let white = !interactions.contains("langevin") && !interactions.contains("memory");
+                        if integrator == "groot-warren" && !white {
+                            continue;
+                        }
+                        let lambda = if integrator == "groot-warren" { r#","lambda":0.65"# } else { "" };
+                        let integrator = format!(r#"integrator={{"type":"{integrator}"{lambda}}}"#);
+                        let changes = [interactions.as_str(), particles, space, &generator, &integrator];
+                        let options =
+                            Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same of bonds and angles, alone and among pairs, on a line, in the plane and in space.
+fn bond_plans() -> Vec<(String, Plan)> {
+    let memory = r#""friction":2,"bath":{"type":"memory","rate":3}"#;
+    let harmonic = r#""potential":{"type":"harmonic","stiffness":9}"#;
+    let fene = r#""potential":{"type":"fene","stiffness":9,"extent":4}"#;
+    let bonds = [
+        r#"{"type":"bonds"}"#.to_owned(),
+        format!(r#"{{"type":"bonds",{harmonic}}}"#),
+        format!(r#"{{"type":"bonds",{fene},{memory}}}"#),
+        format!(r#"{{"type":"bonds",{harmonic},"friction":2,"exclude_repulsion":true}}"#),
+        r#"{"type":"bonds","friction":2,"bath":{"type":"white","temperature":0}}"#.to_owned(),
+        format!(r#"{{"type":"bonds",{memory}}},{{"type":"angles","stiffness":2}}"#),
+    ];
+    let others = [
+        "",
+        r#",{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3}}"#,
+        r#",{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}},{"type":"tether","stiffness":1}"#,
+    ];
+    let groups = [
+        r#"particles=[{"species":"A","count":60,"chain":{"beads":3}}]"#,
+        r#"particles=[{"species":"A","count":60,"chain":{"beads":3}},{"species":"B","count":9,"fixed":true}]"#,
+    ];
+    let integrator = r#"integrator={"type":"cotter-reich"}"#;
+    let mut plans = Vec::new();
+    for bonds in &bonds {
+        for other in others {
+            for particles in groups {
+                for space in ["space.box=[90]", "space.box=[19,17]", "space.box=[9,10,11]"] {
+                    for generator in ["pcg4d", "threefry2x32-20"] {
+                        let interactions = format!("interactions=[{bonds}{other}]");
+                        let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                        let output = r#"output={"chain_sizes":{"every":1},"trajectory":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
+                        let changes = [particles, &interactions, space, &generator, integrator, output];
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same of coloured noise, by itself and beside another bath that draws random numbers in the same kernel.
+fn noise_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for process in ["kangaroo", "kangaroo-exponential", "short", "literal"] {
+        for space in ["space.box=[900]", "space.box=[9,7]", "space.box=[9,7,8]"] {
+            if process == "literal" && space != "space.box=[9,7]" {
+                continue;
+            }
+            for generator in ["pcg4d", "threefry2x32-20"] {
+                for others in ["", r#",{"type":"langevin","friction":1}"#, r#",{"type":"dpd","friction":4.5}"#] {
+                    let noise = format!(r#"{{"type":"coloured-noise","strength":2,"time":0.1,"process":"{process}"}}"#);
+                    let interactions = format!("interactions=[{noise}{others}]");
+                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                    let integrator = r#"integrator={"type":"cotter-reich"}"#;
+                    let changes =
+                        [r#"particles=[{"species":"A","count":200}]"#, &interactions, space, &generator, integrator];
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same of Voronoi cells.
+fn voronoi_plans() -> Vec<(String, Plan)> {
+    let choices: [&[&[&str]]; 6] = [
+        &[&["interactions.0.form=gradient"], &["interactions.0.form=consistent"], &["interactions.0.form=paper"]],
+        &[&["integrator.type=splitting"], &["integrator.type=euler"]],
+        &[&[], &["interactions.0.energy={}"], &[r#"interactions.0.energy={"conductivity":0}"#]],
+        &[&[], &["interactions.0.viscosity=0"]],
+        &[&[], &["temperature=0"], &[r#"noise={"generator":"threefry2x32-20"}"#]],
+        &[&[], VORONOI_SAMPLERS],
+    ];
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        combinations = combinations
+            .iter()
+            .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more].concat()))
+            .collect();
+    }
+    let mut plans = Vec::new();
+    for changes in combinations {
+        // One workgroup solves for the friction of few cells.
+        for (count, many_level_scan, list_growth) in [(200, false, 0), (5000, true, 1)] {
+            let options = Options { many_level_scan, list_growth, ..Options::default() };
+            let name = format!("{count} Voronoi cells {} {options:?}", changes.join(" "));
+            plans.extend(plans_of(&name, &cells(count, &changes), options));
+        }
+    }
+    let options = Options { list_growth: 2, ..Options::default() };
+    plans.extend(plans_of("Voronoi cells of many corners", &cells(200, &[]), options));
+    plans
+}
+
+const VORONOI_SAMPLERS: &[&str] = &[
+    "time.steps=1000",
+    r#"output.diffusion={"every":2,"window":8}"#,
+    r#"output.viscosity={"every":2,"window":8}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},
+        {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
+];
+
+/// The same of shallow water.
+fn water_plans() -> Vec<(String, Plan)> {
+    let choices: [&[&[&str]]; 6] = [
+        &[&["integrator.type=gyro"], &["integrator.type=rotate"]],
+        &[&[], &["interactions.0.rotation=0", r#"particles.0.velocities={"type":"rest"}"#]],
+        &[&[], &["interactions.0.spline_order=1"], &["interactions.0.spline_order=2"]],
+        &[
+            &[],
+            &[r#"interactions.0.bath={"type":"memory","epsilon":1}"#],
+            &[r#"interactions.0.bath={"type":"white"}"#, "temperature=0.01"],
+            &[
+                r#"interactions.0.bath={"type":"white"}"#,
+                "temperature=0.01",
+                r#"noise={"generator":"threefry2x32-20"}"#,
+            ],
+        ],
+        &[
+            &[],
+            &["interactions.0.smoothing.power=2"],
+            &[r#"interactions.0.smoothing.solver={"type":"fft","symbol":"spectral"}"#, "interactions.0.mesh=[32,8]"],
+            &[r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":0.1}"#],
+            &[
+                r#"interactions.0.smoothing={"length":0.3,"power":2,"solver":{"type":"chebyshev","tolerance":0.1}}"#,
+                "interactions.0.mesh=[15,12]",
+            ],
+            &["interactions.0.smoothing.length=0"],
+        ],
+        &[&[], &[WATER_TRACERS, r#"output.trajectory={"every":5}"#]],
+    ];
+    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
+    for choice in choices {
+        let more = |combination: &Vec<&'static str>| {
+            choice.iter().map(|changes| [combination, *changes].concat()).collect::<Vec<_>>()
+        };
+        combinations = combinations.iter().flat_map(more).collect();
+    }
+    // The narrowest mesh, on which only the lowest splines have room, and a long line; the longest that is transformed whole.
+    combinations.push(vec!["interactions.0.spline_order=1", "interactions.0.mesh=[2,128]"]);
+    combinations.push(vec!["interactions.0.mesh=[4,64]"]);
+    let mut plans = Vec::new();
+    for changes in combinations {
+        // A bath takes its scales from the smoothing.
+        let both = |change: &str| changes.iter().any(|known| known.starts_with(change));
+        if both("interactions.0.smoothing.length=0") && both("interactions.0.bath") {
+            continue;
+        }
+        let scene = water(&changes);
+        for storage in [Storage::Sorted, Storage::Bins] {
+            for (traversal, many_level_scan) in [(Traversal::Rows, false), (Traversal::Clusters, true)] {
+                let traversal = Some(traversal);
+                let options = Options { storage: Some(storage), traversal, many_level_scan, ..Options::default() };
+                let name = format!("water {} {storage:?} {traversal:?} {many_level_scan}", changes.join(" "));
+                plans.extend(plans_of(&name, &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+const WATER_TRACERS: &str = r#"particles=[{"species":"water","count":500,"velocities":{"type":"rest"}},
+    {"species":"loop","count":100,"tracer":true,"placement":{"type":"circle","center":[1,1],"radius":0.5}}]"#;
+
+/// All distinct kernels of all plans, linked by as many threads as there are cores.
+fn linked() -> &'static HashMap<Vec<&'static str>, Result<LinkedShader, String>> {
+    static LINKED: OnceLock<HashMap<Vec<&'static str>, Result<LinkedShader, String>>> = OnceLock::new();
+    LINKED.get_or_init(|| {
+        let distinct: BTreeMap<&[&'static str], &Kernel> =
+            plans().iter().flat_map(|(_, plan)| &plan.kernels).map(|kernel| (&kernel.modules[..], kernel)).collect();
+        let kernels: Vec<&Kernel> = distinct.into_values().collect();
+        let link_all = |kernels: &[&Kernel]| -> Vec<_> {
+            let linked = |kernel: &Kernel| link(kernel.name, &kernel.modules).map_err(|error| error.to_string());
+            kernels.iter().map(|kernel| (kernel.modules.clone(), linked(kernel))).collect()
+        };
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        thread::scope(|scope| {
+            let share = kernels.len().div_ceil(threads).max(1);
+            let shares: Vec<_> = kernels.chunks(share).map(|share| scope.spawn(move || link_all(share))).collect();
+            shares.into_iter().flat_map(|share| share.join().unwrap()).collect()
+        })
+    })
+}
+
+pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
+    linked()[&kernel.modules].as_ref().expect("every_kernel_links lists what does not link")
+}
+
+/// The buffer that a kernel's variable is bound to.
+fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
+    kernel.renamed.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
+}
+
+/// Fails with all complaints, each once and with the first scene that caused it.
+pub fn report(complaints: &BTreeMap<String, String>) {
+    let list: Vec<String> =
+        complaints.iter().map(|(complaint, scene)| format!("{complaint}\n    in {scene}")).collect();
+    assert!(list.is_empty(), "{} complaints:\n{}", list.len(), list.join("\n"));
+}
+
+#[test]
+fn every_kernel_links() {
+    let failures: BTreeSet<&String> = linked().values().filter_map(|linked| linked.as_ref().err()).collect();
+    let list: Vec<&str> = failures.iter().map(|failure| failure.as_str()).collect();
+    assert!(list.is_empty(), "{} kernels do not link:\n{}", list.len(), list.join("\n"));
+    // The enumeration is what gives this test its meaning: it may grow, but must not shrink unnoticed.
+    assert!(linked().len() > 500, "only {} distinct kernels", linked().len());
+}
+
+#[test]
+fn every_module_is_embedded_and_can_be_asked_for() {
+    let mut files = BTreeSet::new();
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    for folder in ["common", "kernels", "passes"] {
+        for entry in std::fs::read_dir(shaders.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            assert_eq!(path.extension().and_then(|extension| extension.to_str()), Some("wgsl"), "{}", path.display());
+            let name = format!("{folder}/{}", path.file_stem().unwrap().to_str().unwrap());
+            assert_eq!(module_text(&name), Some(std::fs::read_to_string(&path).unwrap().as_str()), "{name}");
+            files.insert(name);
+        }
+    }
+    let known: BTreeSet<String> =
+        module_names().iter().filter(|name| !name.starts_with("plot/")).map(|name| (*name).to_owned()).collect();
+    assert_eq!(files, known);
+    let used: BTreeSet<&str> = linked().keys().flatten().copied().collect();
+    let unused: Vec<&String> = files.iter().filter(|name| !used.contains(name.as_str())).collect();
+    assert!(unused.is_empty(), "no scene can ask for {unused:?}");
+}
+
+#[test]
+fn the_shaders_of_pictures_and_checks_are_valid() {
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let folders = ["plot", "check"].map(|folder| std::fs::read_dir(shaders.join(folder)).unwrap());
+    let files: Vec<_> = folders.into_iter().flatten().map(|entry| entry.unwrap().path()).collect();
+    assert!(!files.is_empty());
+    let complaints: Vec<String> = (files.into_iter())
+        .filter_map(|file| {
+            let text = std::fs::read_to_string(&file).unwrap();
+            let module = naga::front::wgsl::parse_str(&text).map_err(|error| error.emit_to_string(&text));
+            let valid = module.and_then(|module| {
+                naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+                    .validate(&module)
+                    .map_err(|error| error.emit_to_string(&text))
+            });
+            valid.err().map(|error| format!("{}: {error}", file.display()))
+        })
+        .collect();
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+#[test]
+fn every_constant_without_default_has_a_value_that_fits() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        for kernel in &plan.kernels {
+            let module = &shader(kernel).module;
+            for (_, constant) in module.overrides.iter() {
+                let name = constant.name.as_deref().unwrap_or("?");
+                let value = kernel.constants.iter().chain(&plan.constants).find(|(known, _)| *known == name);
+                let fits = match (value, &module.types[constant.ty].inner) {
+                    (None, _) => constant.init.is_some(),
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::F32)) => (*value as f32).is_finite(),
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::U32)) => {
+                        f64::from(*value as u32) == *value
+                    }
+                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::I32)) => {
+                        f64::from(*value as i32) == *value
+                    }
+                    (Some(_), other) => panic!("`{name}` has a type of its own: {other:?}"),
+                };
+                if !fits {
+                    complaints
+                        .entry(format!("`{name}` of kernel `{}` is {value:?}", kernel.name))
+                        .or_insert(scene.clone());
+                }
+            }
+        }
+        let mut seen = BTreeSet::new();
+        for (name, _) in &plan.constants {
+            if !seen.insert(name) {
+                complaints.entry(format!("constant `{name}` is given twice")).or_insert(scene.clone());
+            }
+        }
+    }
+    report(&complaints);
+}
+
+/// DirectX does not tell it to kernels whose number of workgroups a buffer says.
+#[test]
+fn no_kernel_asks_for_the_number_of_workgroups() {
+    let asks = |shader: &LinkedShader| {
+        let arguments = shader.module.entry_points.iter().flat_map(|entry| &entry.function.arguments);
+        let workgroups = naga::Binding::BuiltIn(naga::BuiltIn::NumWorkGroups);
+        arguments.into_iter().any(|argument| argument.binding.as_ref() == Some(&workgroups))
+    };
+    let kernels: BTreeSet<&Vec<&str>> =
+        linked().iter().filter(|(_, linked)| linked.as_ref().is_ok_and(asks)).map(|(modules, _)| modules).collect();
+    assert!(kernels.is_empty(), "{} kernels: {kernels:?}", kernels.len());
+}
+
+#[test]
+fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        let named = plan.buffers.iter().map(|buffer| (buffer.name, false));
+        let buffers: BTreeMap<&str, bool> =
+            named.chain(plan.textures.iter().map(|texture| (texture.name, true))).collect();
+        if buffers.len() != plan.buffers.len() + plan.textures.len() {
+            complaints.entry("two buffers or textures share a name".to_owned()).or_insert(scene.clone());
+        }
+        let mut bound = BTreeSet::new();
+        let storage = |kernel| shader(kernel).bindings.iter().filter(|binding| !binding.texture).count();
+        let most = plan.kernels.iter().map(storage).max().unwrap_or(0);
+        // What is in textures needs no buffers.
+        let (asked, needed) = (plan.storage_buffers as usize, most.max(STORAGE_BUFFERS));
+        if asked < needed || plan.textures.is_empty() && asked > needed {
+            let complaint = format!("asks for {} storage buffers and binds {most}", plan.storage_buffers);
+            complaints.entry(complaint).or_insert(scene.clone());
+        }
+        for kernel in &plan.kernels {
+            let bindings = &shader(kernel).bindings;
+            let mut complain = |complaint: String| {
+                complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
+            };
+            if storage(kernel) > plan.storage_buffers as usize {
+                let names: Vec<&str> = bindings.iter().map(|binding| binding.name.as_str()).collect();
+                complain(format!("{} storage buffers among {}", storage(kernel), names.join(", ")));
+            }
+            let textures = bindings.len() - storage(kernel);
+            if textures > STORAGE_TEXTURES {
+                complain(format!("{textures} textures"));
+            }
+            if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
+                complain("two of its buffers share a number".to_owned());
+            }
+            if bindings.iter().map(|binding| buffer_name(kernel, &binding.name)).collect::<BTreeSet<_>>().len()
+                != bindings.len()
+            {
+                complain("two of its variables are the same buffer".to_owned());
+            }
+            for binding in bindings {
+                let name = buffer_name(kernel, &binding.name);
+                match buffers.get(name) {
+                    Some(texture) if *texture == binding.texture => drop(bound.insert(name)),
+                    Some(_) => complain(format!("`{name}` is a texture in the plan or in the kernel, but not in both")),
+                    None => complain(format!("the plan has no buffer `{name}`")),
+                }
+            }
+        }
+        for name in buffers.keys().filter(|name| !bound.contains(**name)) {
+            complaints.entry(format!("no kernel uses buffer `{name}`")).or_insert(scene.clone());
+        }
+    }
+    report(&complaints);
+}
+
+#[test]
+fn rows_of_texels_are_as_long_in_plans_as_in_shaders() {
+    let said = format!("const TEXELS_IN_ROW: u32 = {}u;", Texture::ROW);
+    assert!(module_text("common/texels").unwrap().contains(&said), "{said}");
+    let textures: Vec<&Texture> = plans().iter().flat_map(|(_, plan)| &plan.textures).collect();
+    assert!(!textures.is_empty());
+    for texture in textures {
+        let [width, height] = texture.size.map(u64::from);
+        assert!(width == Texture::ROW || width < Texture::ROW && height == 1, "{texture:?}");
+        assert!(texture.row_bytes().is_multiple_of(256) && Texture::holds(width * height, texture.words));
+    }
+}
+
+#[test]
+fn every_kernel_of_a_plan_runs() {
+    let mut complaints = BTreeMap::new();
+    for (scene, plan) in plans() {
+        let samplers = plan.samplers.iter().map(|sampler| &sampler.kernels);
+        let begin = [&plan.prepare, &plan.sort, &plan.tidy, &plan.before_report];
+        let lists = begin.into_iter().chain([&plan.report, &plan.finish_report, &plan.advance, &plan.paths.kernels]);
+        let run: BTreeSet<usize> = lists.chain(samplers).flatten().copied().collect();
+        for (index, kernel) in plan.kernels.iter().enumerate().filter(|(index, _)| !run.contains(index)) {
+            complaints.entry(format!("kernel {index}, `{}`, is never run", kernel.name)).or_insert(scene.clone());
+        }
+    }
+    report(&complaints);
+}
+
+#[test]
+fn workgroup_memory_stays_within_the_core_limit() {
+    for (scene, plan) in plans() {
+        for kernel in &plan.kernels {
+            let module = &shader(kernel).module;
+            let context = module.to_ctx();
+            let bytes: u32 = module
+                .global_variables
+                .iter()
+                .filter(|(_, variable)| variable.space == naga::AddressSpace::WorkGroup)
+                .map(|(_, variable)| match &module.types[variable.ty].inner {
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Constant(length), .. } => {
+                        stride * length.get()
+                    }
+                    // Sized when the pipeline is made: by the bins of a histogram or the lanes of a workgroup, at most.
+                    naga::TypeInner::Array { stride, size: naga::ArraySize::Pending(length), .. } => {
+                        stride
+                            * match module.overrides[*length].name.as_deref() {
+                                Some("BINS") => 4096,
+                                Some("COUNTS") => 1024 + 3,
+                                Some("WORKGROUP") => 256,
+                                other => panic!("how large {other:?} may be is not known"),
+                            }
+                    }
+                    other => other.size(context),
+                })
+                .sum();
+            assert!(bytes <= WORKGROUP_BYTES, "kernel `{}`: {bytes} bytes in {scene}", kernel.name);
+        }
+    }
+}
+
+#[test]
+fn host_structs_lie_as_in_the_shaders() {
+    let offset = |shader: &LinkedShader, structure: &str, member: &str| {
+        *shader
+            .layout
+            .get(&(structure.to_owned(), member.to_owned()))
+            .unwrap_or_else(|| panic!("no `{structure}.{member}`"))
+    };
+    let control = [
+        ("step", offset_of!(Control, step)),
+        ("next", offset_of!(Control, next)),
+        ("key", offset_of!(Control, key)),
+        ("seed_key", offset_of!(Control, seed_key)),
+        ("closing", offset_of!(Control, closing)),
+        ("elapsed", offset_of!(Control, elapsed)),
+        ("failures", offset_of!(Control, failures)),
+        ("failure_elapsed", offset_of!(Control, failure_elapsed)),
+        ("failure_place", offset_of!(Control, failure_place)),
+        ("demand", offset_of!(Control, demand)),
+        ("limited", offset_of!(Control, limited)),
+        ("limited_high", offset_of!(Control, limited_high)),
+        ("", size_of::<Control>()),
+    ];
+    let mut tables = 0;
+    for (scene, plan) in plans() {
+        // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
+        let stride = match plan.layout {
+            Layout::Water { .. } => 24,
+            Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => 32,
+        };
+        let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
+        let texels = |name: &str| {
+            let texture = plan.textures.iter().find(|texture| texture.name == name)?;
+            Some((texture.words, u64::from(texture.size[0]) * u64::from(texture.size[1])))
+        };
+        if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
+            let particles = match plan.layout {
+                Layout::Water { carriers, .. } => carriers as u64,
+                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => plan.particles,
+            };
+            match (plan.layout, texels("particles")) {
+                (_, None) => {
+                    let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
+                    assert_eq!(bytes("particles"), Some(expected), "{scene}");
+                }
+                // Of shallow water the motion, beside which there are the masses; else particles as they are in a buffer.
+                (Layout::Water { .. }, Some((words, held))) => {
+                    assert!(words == 4 && held >= particles, "{scene}");
+                    assert!(texels("particle_masses").is_some_and(|(words, held)| words == 2 && held >= particles));
+                }
+                (_, Some((words, held))) => assert!(words == 4 && held >= 2 * particles, "{scene}"),
+            }
+        }
+        for kernel in &plan.kernels {
+            let shader = shader(kernel);
+            let declared = |name: &str| shader.layout.contains_key(&(name.to_owned(), String::new()));
+            // The kernels of the smoothing do not look at it.
+            for (member, expected) in control.into_iter().filter(|_| declared("Control")) {
+                assert_eq!(offset(shader, "Control", member) as usize, expected, "Control.{member}, `{}`", kernel.name);
+            }
+            assert!(
+                [0, control.len()].contains(&shader.layout.keys().filter(|(name, _)| name == "Control").count()),
+                "a member of Control that the host does not know"
+            );
+            if declared("Particle") {
+                assert_eq!(offset(shader, "Particle", ""), stride, "`{}` in {scene}", kernel.name);
+                assert_eq!(offset(shader, "Particle", "position"), 0);
+                assert_eq!(offset(shader, "Particle", "momentum"), 16);
+            }
+            if declared("Water") {
+                let members = [("position", 0), ("velocity", 8), ("mass", 16), ("id", 20), ("", 24)];
+                for (member, expected) in members {
+                    assert_eq!(offset(shader, "Water", member), expected, "Water.{member}");
+                }
+            }
+            if declared("StoredWater") {
+                for (member, expected) in [("position", 0), ("velocity", 8), ("mass_and_id", 16), ("", 24)] {
+                    assert_eq!(offset(shader, "StoredWater", member), expected, "StoredWater.{member}");
+                }
+            }
+            if shader.bindings.iter().any(|binding| binding.name == "coefficients") {
+                tables += 1;
+                // Coupled scenes add a row for the species by themselves.
+                let entries = 2 * if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
+                match texels("coefficients") {
+                    None => assert_eq!(bytes("coefficients"), Some(16 * entries)),
+                    Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),
+                }
+            }
+            if declared("Hold") {
+                let members = [
+                    ("force", offset_of!(Hold, force)),
+                    ("fraction", offset_of!(Hold, fraction)),
+                    ("halves", offset_of!(Hold, halves)),
+                    ("jump", offset_of!(Hold, jump)),
+                    ("", size_of::<Hold>()),
+                ];
+                for (member, expected) in members {
+                    assert_eq!(offset(shader, "Hold", member) as usize, expected, "Hold.{member}");
+                }
+                assert_eq!(bytes("holds"), Some((24 * plan.particles).max(64)));
+            }
+            if declared("Tracker") {
+                let stride = u64::from(offset(shader, "Tracker", ""));
+                assert_eq!(bytes("trackers"), Some((stride * plan.particles).max(64)));
+            }
+        }
+    }
+    assert!(tables > 0, "no scene had a table of coefficients");
+}
+
+/// The largest scenes a scene file can describe, of every shape: as plans, for no device holds them.
+#[test]
+fn no_plan_needs_more_workgroups_than_can_be_folded() {
+    for lengths in ["[1000,1000,1000]", "[2,2,1e6]", "[1e6,2,2]", "[1000,1e9]", "[2,2]", "[65536,65536]", "[3,3,3]"] {
+        for count in [0_u64, 1, 64 * 65_535 + 1, u64::from(u32::MAX)] {
+            let changes = ["time.steps=1000", &format!("space.box={lengths}")];
+            let samplers = [
+                r#"output.radial_distribution={"every":10,"range":1}"#,
+                r#"output.diffusion={"every":2,"window":8}"#,
+                r#"output.viscosity={"every":2,"window":8}"#,
+            ];
+            let particles = format!(r#"particles=[{{"species":"A","count":{count}}}]"#);
+            let scene = fluid(&[&changes[..], &samplers[..], &[particles.as_str()]].concat());
+            for traversal in [Traversal::Rows, Traversal::Clusters] {
+                let plan = plan_of(&scene, Options { traversal: Some(traversal), ..Options::default() });
+                for kernel in &plan.kernels {
+                    let groups = u64::from(kernel.workgroups);
+                    assert!((1..=WORKGROUPS).contains(&groups), "`{}`: {groups} for {count} in {lengths}", kernel.name);
+                    if ["bin", "scatter", "diffusion", "viscosity"].contains(&kernel.name) {
+                        assert!(groups * 64 >= count, "`{}` leaves particles out: {count} in {lengths}", kernel.name);
+                    }
+                    // Workgroups are parts of rows, or share them all.
+                    if let Some(&(_, sharers)) = kernel.constants.iter().find(|(name, _)| *name == "SHARES") {
+                        assert_eq!(groups as f64, sharers, "`{}`: {count} in {lengths}", kernel.name);
+                    } else if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
+                        assert_eq!(
+                            groups % (u64::from(plan.cells[1]) * u64::from(plan.cells[2])),
+                            0,
+                            "`{}`: {count} in {lengths}",
+                            kernel.name
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_standard_fluid_needs_at_most_a_hundred_bytes_a_particle() {
+    let edges = [20, 25, 40, 69, 160];
+    for (integrator, edge) in INTEGRATORS.iter().flat_map(|integrator| edges.map(|edge| (integrator, edge))) {
+        let measured = [
+            "time.steps=1000",
+            "output.energies.every=20",
+            r#"output.radial_distribution={"every":100,"range":3,"bins":150}"#,
+        ];
+        let scene = fluid(&[&measured[..], &[integrator, &format!("space.box=[{edge},{edge},{edge}]")]].concat());
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            for many_level_scan in [false, true] {
+                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
+                for (memory, plan) in plans_of(integrator, &scene, options) {
+                    assert!(plan.particles >= 24_000);
+                    let per_particle = plan.bytes() as f64 / plan.particles as f64;
+                    assert!(per_particle <= 100.0, "{per_particle} bytes, {} particles, {memory}", plan.particles);
+                }
+            }
+        }
+    }
+}
+
+const GOOD: (&str, &str) = ("common/good", "// A function.\nfn one() -> u32 { return 1u; }\n");
+const ENTRY: (&str, &str) = ("kernels/entry", "@compute @workgroup_size(1)\nfn main() { _ = one(); }\n");
+
+fn broken(name: &str, text: &str) -> (String, String) {
+    match link_texts("trial", &[GOOD, (name, text), ENTRY]) {
+        Err(GpuError::Shader { kernel, place, reason }) => {
+            assert_eq!(kernel, "trial");
+            (place, reason)
+        }
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("{text} links"),
+    }
+}
+
+#[test]
+fn an_error_in_a_shader_names_its_file_and_line() {
+    assert!(link_texts("trial", &[GOOD, ENTRY]).is_ok());
+    // What the parser finds.
+    let (place, reason) = broken("common/bad", "// One line,\n// and another.\nfn two() -> u32 { return one() + ; }\n");
+    assert_eq!(place, "shaders/common/bad.wgsl:3");
+    assert!(reason.contains("expected"), "{reason}");
+    let (place, reason) = broken("common/bad", "fn two() -> u32 { return twice(); }");
+    assert_eq!(place, "shaders/common/bad.wgsl:1");
+    assert!(reason.contains("twice"), "{reason}");
+    // What the validator finds: a function that does not always return.
+    let (place, reason) = broken("common/bad", "\nfn two(a: u32) -> f32 {\n    return a;\n}\n");
+    assert!(["shaders/common/bad.wgsl:2", "shaders/common/bad.wgsl:3"].contains(&place.as_str()), "{place}: {reason}");
+    // A module without a closing line break does not push the next one's lines.
+    match link_texts(
+        "trial",
+        &[("common/last", "fn one() -> u32 { return 1u; }"), ("common/next", "fn broken() -> { }")],
+    ) {
+        Err(GpuError::Shader { place, .. }) => assert_eq!(place, "shaders/common/next.wgsl:1"),
+        other => panic!("{other:?}"),
+    }
+    match link_texts("trial", &[GOOD]) {
+        Err(GpuError::Shader { reason, .. }) => assert_eq!(reason, "there is no entry point `main`"),
+        other => panic!("{other:?}"),
+    }
+    let message = link("trial", &["common/nothing"]).unwrap_err().to_string();
+    assert_eq!(message, "shader `trial` is not valid: shaders/common/nothing.wgsl: there is no such module");
+}

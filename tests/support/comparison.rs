@@ -1,0 +1,61 @@
+//! How far two implementations may be apart after a step.
+
+use std::sync::OnceLock;
+
+use mesoscope::self_test::{Function, errors_of_functions};
+use mesoscope::state::State;
+
+use super::gpu;
+
+/// Pairs of a particle in the standard fluid, or some more.
+const PAIRS: i64 = 25;
+/// Units in the last place by which the impulse of a pair may be off, and so units of momentum: it is at most 2²³ of them or so.
+const PLACES: i64 = 4;
+
+/// Units of momentum by which a step of the standard fluid may differ from the reference. Where weights are powers, the impulses of
+/// pairs are as wrong as these are on the adapter.
+pub fn units_of_a_step(powers: bool) -> i64 {
+    static OF_POWERS: OnceLock<i64> = OnceLock::new();
+    let of_powers = || {
+        let errors = errors_of_functions(gpu()).expect("a kernel");
+        let power = errors.iter().find(|error| error.function == Function::Power).expect("all functions");
+        assert!(power.of_allowed <= 1.0, "{power:?}");
+        power.last_places.ceil() as i64
+    };
+    PAIRS * (PLACES + if powers { *OF_POWERS.get_or_init(of_powers) } else { 0 })
+}
+
+/// That the predicted momenta of two implementations are the same, but for some whose shift, kept in few bits, lies just
+/// between two of them.
+pub fn predictions_agree(found: &State, expected: &State) {
+    let shifts = |state: &State| -> Vec<[i64; 3]> {
+        let pairs = state.predicted.iter().zip(&state.momenta);
+        pairs
+            .map(|(seen, momentum)| std::array::from_fn(|axis| i64::from(seen[axis]) - i64::from(momentum[axis])))
+            .collect()
+    };
+    let (found, expected) = (shifts(found), shifts(expected));
+    assert_eq!(found.len(), expected.len());
+    for (particle, (a, b)) in found.iter().zip(&expected).enumerate() {
+        let largest = b.iter().map(|units| units.abs()).max().unwrap();
+        let difference = a.iter().zip(b).map(|(a, b)| (a - b).abs()).max().unwrap();
+        assert!(difference <= largest / 15 + 100, "particle {particle}: shifts {a:?} and {b:?}");
+    }
+    let differing = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
+    assert!(differing * 20 <= found.len(), "{differing} of {} shifts differ", found.len());
+}
+
+/// The largest difference of any momentum or position, in integer units.
+pub fn largest_difference(a: &State, b: &State) -> (i64, i64) {
+    assert_eq!(a.len(), b.len());
+    let mut momentum = 0;
+    let mut position = 0;
+    for id in 0..a.len() {
+        for axis in 0..3 {
+            momentum = momentum.max((i64::from(a.momenta[id][axis]) - i64::from(b.momenta[id][axis])).abs());
+            let shift = a.positions[id][axis].wrapping_sub(b.positions[id][axis]) as i32;
+            position = position.max(i64::from(shift).abs());
+        }
+    }
+    (momentum, position)
+}

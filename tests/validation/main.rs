@@ -1,0 +1,8 @@
+//! Long runs and other programs: `make validate`.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod published;
+mod readers;
