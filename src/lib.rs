@@ -40,6 +40,7 @@ pub mod gpu;
 pub mod measure;
 pub mod model;
 pub mod noise;
+pub mod numbers;
 pub mod output;
 pub mod plan;
 pub mod plot;
@@ -51,6 +52,7 @@ pub mod scene;
 pub mod self_test;
 pub mod state;
 pub mod sweep;
+pub mod table;
 pub mod tessellation;
 
 /// The examples of the documentation compile.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use mesoscope::engine::EngineError;
 use mesoscope::gpu::{self, GpuError};
 use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
+use mesoscope::numbers::{bytes, grouped, six_digits};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
 use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
@@ -15,7 +16,7 @@ use mesoscope::scene::{
     MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
 };
 
-use super::table::{aligned, bytes, dimensions, grouped};
+use super::table::{aligned, dimensions};
 use super::{AdapterArgument, Failure, SceneArguments, print};
 
 /// Check a scene: all mistakes at once, or else what it requires - memory, time, files, warnings
@@ -204,9 +205,9 @@ fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
     };
     let text = format!(
         "within {} of each other (cutoff {}, margin {}), capacity for {} {noun} a particle owns; {each}",
-        short(force.cutoff + force.skin),
-        short(force.cutoff),
-        short(force.skin),
+        six_digits(force.cutoff + force.skin),
+        six_digits(force.cutoff),
+        six_digits(force.skin),
         listed.capacity
     );
     Some(("list", text))
@@ -223,20 +224,20 @@ fn fluid_of_cells(model: &Model) -> Vec<(&'static str, String)> {
     let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
     let molecules = mass / model.particle_count().max(1) as f64 / cells.molecular_mass;
     let energy = match cells.conductivity {
-        Some(conductivity) => format!("kept account of in every cell, heat conductivity {}", short(conductivity)),
+        Some(conductivity) => format!("kept account of in every cell, heat conductivity {}", six_digits(conductivity)),
         None => "all cells at the temperature of the scene".to_owned(),
     };
     let mut rows = vec![
         ("form", form.to_owned()),
-        ("fluid", format!("ideal gas, {} molecules a cell", short(molecules))),
+        ("fluid", format!("ideal gas, {} molecules a cell", six_digits(molecules))),
         ("energy", energy),
     ];
     if cells.viscosity > 0.0 {
         let network = NETWORK_VISCOSITY * cells.viscosity;
         let text = format!(
             "{} of friction at faces, about {} of the network of cells; what cells carry by moving comes on top",
-            short(cells.viscosity),
-            short(network)
+            six_digits(cells.viscosity),
+            six_digits(network)
         );
         rows.push(("viscosity", text));
         if model.integrator == (Integrator::Splitting {}) {
@@ -307,8 +308,8 @@ fn mesh(
         "stability",
         format!(
             "the stiffest wave takes p = {} of the limit of water spread evenly; at random places up to {} is stable",
-            short(share),
-            if clean < 0.01 { short(clean) } else { format!("{clean:.2}") }
+            six_digits(share),
+            if clean < 0.01 { six_digits(clean) } else { format!("{clean:.2}") }
         ),
     ));
     rows
@@ -316,7 +317,7 @@ fn mesh(
 
 fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
     let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
-    Some(format!("{name} = {}", short(*value)))
+    Some(format!("{name} = {}", six_digits(*value)))
 }
 
 /// What all kernels that see particles have in common, so that it need not be said of each.
@@ -420,18 +421,6 @@ fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) 
         }
     }
     let _ = writeln!(text, "{line}");
-}
-
-/// Six digits are enough to recognise a constant.
-fn short(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == value.trunc() && magnitude < 1e15 {
-        format!("{value}")
-    } else if (1e-3..1e6).contains(&magnitude) {
-        format!("{value:.6}").trim_end_matches('0').to_owned()
-    } else {
-        format!("{value:.5e}")
-    }
 }
 
 fn buffers(text: &mut String, plan: &Plan) {

@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::model::Model;
+use mesoscope::numbers::{grouped, prefixed, with_error};
 use mesoscope::printable;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{self, Interaction, Scene};
 use serde_json::Value;
 
-use super::table::{aligned, dimensions, grouped, prefixed};
+use super::table::{aligned, dimensions};
 use super::{Failure, SceneArguments, line, print};
 
 /// Executes a run and reports on it, unless it is to be quiet.
@@ -276,28 +277,9 @@ pub fn marked(mean: String, unequilibrated: bool) -> String {
     if unequilibrated { format!("{mean} †") } else { mean }
 }
 
-/// A value to the second digit of its error.
-fn with_error(value: f64, error: Option<f64>) -> String {
-    match error.filter(|error| error.is_finite() && *error > 0.0) {
-        Some(error) => {
-            let digits = (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize;
-            format!("{value:.digits$} ± {error:.digits$}")
-        }
-        None => format!("{value:.6}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn values_have_the_digits_their_errors_allow() {
-        assert_eq!(with_error(23.63512, Some(0.0213)), "23.635 ± 0.021");
-        assert_eq!(with_error(1234.5, Some(120.0)), "1234 ± 120");
-        assert_eq!(with_error(1.0, None), "1.000000");
-        assert_eq!(with_error(1.0, Some(0.0)), "1.000000");
-    }
 
     #[test]
     fn times_are_short() {

@@ -4,6 +4,7 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::numbers::prefixed;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::run::Progress;
@@ -11,7 +12,7 @@ use mesoscope::scene;
 use mesoscope::sweep::{Sweep, SweepEvent, SweepOutcome, VariantState, VariantSummary};
 
 use super::report::{duration, marked, mean};
-use super::table::{aligned, prefixed};
+use super::table::aligned;
 use super::{line, print};
 
 /// Columns of the table at the end, where a variant has them.

@@ -1,8 +1,9 @@
 //! The table of energies: a row per sample, for as long as the run lasts.
 
 use super::records::RecordFile;
-use super::table::{header_line, push_number};
+use super::table::header_line;
 use super::{Extent, OutputError};
+use crate::numbers::push_exact;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -105,7 +106,7 @@ impl EnergiesFile {
         self.line.extend_from_slice(step.to_string().as_bytes());
         for value in values {
             self.line.push(b',');
-            push_number(&mut self.line, *value);
+            push_exact(&mut self.line, *value);
         }
         self.line.push(b'\n');
         self.records.append(&self.line)

@@ -1,28 +1,12 @@
 //! Tables of numbers as comma-separated text.
 
 use super::{OutputError, write_atomically};
+use crate::numbers::push_exact;
+use crate::table::Table;
 use std::borrow::Cow;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-
-/// A table of finite numbers; an empty cell is NaN.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Table {
-    /// Names of the columns.
-    pub columns: Vec<String>,
-    /// Rows, each with one number per column.
-    pub rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    /// The numbers in the column of this name.
-    #[must_use]
-    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
-        let index = self.columns.iter().position(|column| column == name)?;
-        Some(self.rows.iter().map(|row| row[index]).collect())
-    }
-}
 
 /// Reads a table: a header line, then one line of numbers per row.
 ///
@@ -76,12 +60,12 @@ pub fn read_table(path: &Path) -> Result<Table, OutputError> {
 /// Writes a whole table, which appears complete or not at all. What is not finite leaves its cell empty.
 ///
 /// ```
-/// use mesoscope::output::{Table, read_table, write_table};
+/// use mesoscope::output::{read_table, write_table};
+/// use mesoscope::table::Table;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("pressures.csv");
-/// let columns = ["density", "pressure"].map(str::to_owned).to_vec();
-/// let table = Table { columns, rows: vec![vec![3.0, 23.65], vec![4.0, 41.3]] };
+/// let table = Table::new(["density", "pressure"], vec![vec![3.0, 23.65], vec![4.0, 41.3]]);
 /// write_table(&path, &table)?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "density,pressure\n3,23.65\n4,41.3\n");
 /// assert_eq!(read_table(&path)?.column("pressure"), Some(vec![23.65, 41.3]));
@@ -102,7 +86,7 @@ pub fn write_table(path: &Path, table: &Table) -> Result<(), OutputError> {
             if index > 0 {
                 text.push(b',');
             }
-            push_number(&mut text, *value);
+            push_exact(&mut text, *value);
         }
         text.push(b'\n');
     }
@@ -162,20 +146,6 @@ fn number_of(cell: &str, column: &str) -> Result<f64, String> {
     if number.is_finite() { Ok(number) } else { Err(format!("`{cell}` in column `{column}` is not a finite number")) }
 }
 
-/// Appends the shortest digits that read back as the same `f64`; nothing for what is not finite.
-pub(crate) fn push_number(text: &mut Vec<u8>, value: f64) {
-    let magnitude = value.abs();
-    let written = if !value.is_finite() {
-        Ok(())
-    } else if magnitude == 0.0 || (1e-5..1e16).contains(&magnitude) {
-        write!(text, "{value}")
-    } else {
-        write!(text, "{value:e}")
-    };
-    // Writing to memory does not fail.
-    debug_assert!(written.is_ok());
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -193,7 +163,7 @@ mod tests {
             (f64::NAN, ""),
         ] {
             let mut bytes = Vec::new();
-            push_number(&mut bytes, value);
+            push_exact(&mut bytes, value);
             assert_eq!(std::str::from_utf8(&bytes).unwrap(), text);
             assert_eq!(number_of(text, "x").unwrap().to_bits(), value.to_bits());
         }
@@ -205,7 +175,7 @@ mod tests {
                 continue;
             }
             let mut bytes = Vec::new();
-            push_number(&mut bytes, value);
+            push_exact(&mut bytes, value);
             assert_eq!(std::str::from_utf8(&bytes).unwrap().parse::<f64>().unwrap().to_bits(), value.to_bits());
         }
     }
@@ -214,7 +184,7 @@ mod tests {
     fn what_is_not_finite_is_neither_written_nor_read() {
         let mut text = Vec::new();
         for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-            push_number(&mut text, value);
+            push_exact(&mut text, value);
         }
         assert!(text.is_empty());
         let directory = tempfile::tempdir().unwrap();

@@ -1,7 +1,8 @@
 //! From the data of panels to the ranges of their axes.
 
 use super::chart::{Axis, AxisFit, Panel, Scale, Series, SeriesStyle};
-use super::ticks::{AxisMap, short_number};
+use super::ticks::AxisMap;
+use crate::numbers::short;
 
 /// Values beyond this cannot be told from infinity once margins are added.
 const LARGEST: f64 = 1e300;
@@ -35,7 +36,7 @@ impl Prepared<'_> {
         let quantity = self.panel.y.label.split(" (").next().unwrap_or_default();
         let mut letters = quantity.chars();
         let quantity: String = letters.next().into_iter().flat_map(char::to_lowercase).chain(letters).collect();
-        let text = |value: f64| short_number(format!("{value:.2e}").parse().unwrap_or(value));
+        let text = |value: f64| short(format!("{value:.2e}").parse().unwrap_or(value));
         match self.beyond.map(|end| end.map(text)) {
             [None, None] => None,
             [None, Some(high)] => Some(format!("{quantity} up to {high}")),

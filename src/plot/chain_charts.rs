@@ -1,8 +1,8 @@
 //! The charts of harmonic chains, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
-use super::presets::EnergyTable;
-use super::ticks::short_number;
+use crate::numbers::short;
+use crate::table::Table;
 
 /// Columns of the three chains begin with these, which stand for these names.
 const CHAINS: [(&str, &str); 3] =
@@ -11,13 +11,13 @@ const CHAINS: [(&str, &str); 3] =
 const REDUCED_TIME: &str = "Reduced time τ = ω_{0}t/n";
 
 /// The numbers of a column; not numbers where there is no such column.
-fn column(table: &EnergyTable, name: &str) -> Vec<f64> {
+fn column(table: &Table, name: &str) -> Vec<f64> {
     let index = table.columns.iter().position(|column| column == name);
     let cell = |row: &Vec<f64>| index.and_then(|index| row.get(index)).copied().unwrap_or(f64::NAN);
     table.rows.iter().map(cell).collect()
 }
 
-fn points(table: &EnergyTable, x: &str, y: &str) -> Vec<[f64; 2]> {
+fn points(table: &Table, x: &str, y: &str) -> Vec<[f64; 2]> {
     column(table, x).into_iter().zip(column(table, y)).map(|(x, y)| [x, y]).collect()
 }
 
@@ -25,7 +25,7 @@ fn points(table: &EnergyTable, x: &str, y: &str) -> Vec<[f64; 2]> {
 const MOST_MARKERS: usize = 40;
 
 /// Markers of each chain, and what is exact as a line through them.
-fn compared(table: &EnergyTable, quantity: &str) -> Vec<Series> {
+fn compared(table: &Table, quantity: &str) -> Vec<Series> {
     let every = table.rows.len().div_ceil(MOST_MARKERS).max(1);
     let measured = CHAINS.iter().map(|(chain, name)| {
         let points = points(table, "tau", &format!("{chain}_{quantity}"));
@@ -49,15 +49,16 @@ fn compared(table: &EnergyTable, quantity: &str) -> Vec<Series> {
 /// The columns are `tau`, `cluster`, `micro`, `dpd` and `frictionless`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, chain_profile_chart};
+/// use mesoscope::plot::chain_profile_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["tau", "cluster", "micro", "dpd", "frictionless"].map(str::to_owned).to_vec();
-/// let chart = chain_profile_chart("A chain", "", &EnergyTable { columns, rows: vec![vec![0.0, 0.0, 1.0, 1.0, 1.0], vec![2.0, 0.0, 0.5, 0.5, 0.6]] });
+/// let chart = chain_profile_chart("A chain", "", &Table { columns, rows: vec![vec![0.0, 0.0, 1.0, 1.0, 1.0], vec![2.0, 0.0, 0.5, 0.5, 0.6]] });
 /// // A panel for each time, with a line for each chain.
 /// assert_eq!((chart.panels.len(), chart.panels[0].series.len()), (2, 3));
 /// ```
 #[must_use]
-pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn chain_profile_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let mut chart = Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: Vec::new() };
     let taus = column(table, "tau");
     let (clusters, all): (Vec<f64>, Vec<Vec<[f64; 2]>>) =
@@ -67,7 +68,7 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
     for moment in taus.chunk_by(|a, b| a == b) {
         let range = first..first + moment.len();
         first = range.end;
-        let mut panel = Panel::new("Number of the cluster", &format!("X/X_{{0}} at τ = {}", short_number(moment[0])));
+        let mut panel = Panel::new("Number of the cluster", &format!("X/X_{{0}} at τ = {}", short(moment[0])));
         panel.x.range = Some([0.0, last]);
         for (points, (_, name)) in all.iter().zip(CHAINS) {
             // One legend is enough.
@@ -85,17 +86,18 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &EnergyTable) -> 
 /// with `…_exact_` in between.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, chain_pulse_chart};
+/// use mesoscope::plot::chain_pulse_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["tau", "micro_peak", "micro_variance", "micro_energy"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 1.0, 4.0, 1.0], vec![2.0, 0.5, 4.1, 0.99]];
-/// let chart = chain_pulse_chart("A chain", "", &EnergyTable { columns, rows });
+/// let chart = chain_pulse_chart("A chain", "", &Table { columns, rows });
 /// let points = |panel: usize| chart.panels[panel].series[0].points.clone();
 /// assert_eq!(points(0), [[0.0, 1.0], [2.0, 0.5]], "the peak");
 /// assert_eq!(points(1), [[0.0, 4.0], [2.0, 4.1]], "the variance");
 /// ```
 #[must_use]
-pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let panel = |quantity: &str, label: &str| {
         let mut panel = Panel::new(REDUCED_TIME, label);
         panel.series = compared(table, quantity);
@@ -120,16 +122,17 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Ch
 /// `…_correlation_error` and `…_exact_correlation`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, chain_correlation_chart};
+/// use mesoscope::plot::chain_correlation_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["tau", "limit", "dpd_correlation"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 1.0, 1.0], vec![0.5, 0.5, 0.48]];
-/// let chart = chain_correlation_chart("A chain", "", &EnergyTable { columns, rows });
+/// let chart = chain_correlation_chart("A chain", "", &Table { columns, rows });
 /// let limit = chart.panels[0].series.last().map(|series| series.points.as_slice());
 /// assert_eq!(limit, Some(&[[0.0, 1.0], [0.5, 0.5]][..]));
 /// ```
 #[must_use]
-pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let mut panel = Panel::new(REDUCED_TIME, "Momentum autocorrelation C_{PP}(τ)");
     panel.series = compared(table, "correlation");
     let limit = Series::line("large clusters of beads: max(0, 1 − τ)", points(table, "tau", "limit"));
@@ -143,16 +146,17 @@ pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &EnergyTable)
 /// fitted to the largest.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, chain_memory_chart};
+/// use mesoscope::plot::chain_memory_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "running_friction_10", "running_friction_20"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 0.0, 0.0], vec![1.0, 0.4, 0.45]];
-/// let chart = chain_memory_chart("A chain", "", &EnergyTable { columns, rows });
+/// let chart = chain_memory_chart("A chain", "", &Table { columns, rows });
 /// // On a logarithmic axis there is no place for time 0.
 /// assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.45]]);
 /// ```
 #[must_use]
-pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let label = "Running integral (n/2) ∫ K as a friction γ*";
     let mut panel = Panel::new("ω_{0}t", label);
     panel.x = Axis::log("Time ω_{0}t");
@@ -179,15 +183,16 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &EnergyTable) -> C
 /// `…_separation_variance` and `…_exact_separation_variance`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, chain_equilibrium_chart};
+/// use mesoscope::plot::chain_equilibrium_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["tau", "dpd_momentum_variance", "dpd_separation_variance"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 1.01, 0.99], vec![1.0, 0.99, 1.02]];
-/// let chart = chain_equilibrium_chart("A chain", "", &EnergyTable { columns, rows });
+/// let chart = chain_equilibrium_chart("A chain", "", &Table { columns, rows });
 /// assert_eq!(chart.panels[0].references[0].value, 1.0);
 /// ```
 #[must_use]
-pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &EnergyTable) -> Chart {
+pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let lines = |quantity: &str| {
         let line =
             |(chain, name): &(&str, &str)| Series::line(name, points(table, "tau", &format!("{chain}_{quantity}")));
@@ -213,8 +218,8 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &EnergyTable)
 mod tests {
     use super::*;
 
-    fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
-        EnergyTable {
+    fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
+        Table {
             columns: columns.iter().map(ToString::to_string).collect(),
             rows: rows.iter().map(|row| row.to_vec()).collect(),
         }

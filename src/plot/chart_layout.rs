@@ -7,7 +7,8 @@ use super::error::PlotError;
 use super::palette::{Colour, Inks, inks};
 use super::series_path::{length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, Ticks, grouped, ticks};
+use super::ticks::{AxisMap, Ticks, ticks};
+use crate::numbers::grouped;
 use crate::scene::{PlotStyle, Theme};
 
 /// Sizes in pixels, all in proportion to the picture.

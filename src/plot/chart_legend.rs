@@ -3,12 +3,12 @@
 use super::canvas::{Anchor, Area};
 use super::chart::{Series, SeriesStyle};
 use super::chart_layout::{Layout, Placed, Sizes};
-use super::numbers::with_error;
 use super::palette::with_alpha;
 use super::quantities::{FEW_SAMPLES, UNEQUILIBRATED};
 use super::series_look::{Look, reference_look};
 use super::series_path::{clipped, runs, segments, thinned};
 use super::text::{LINE_HEIGHT, Weight};
+use crate::numbers::with_error;
 
 /// One line of a legend.
 pub(super) struct Entry {

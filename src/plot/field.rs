@@ -8,8 +8,9 @@ use super::error::PlotError;
 use super::palette::{Colour, Inks, inks};
 use super::periodic_curve::segments;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, Ticks, grouped, ticks};
+use super::ticks::{AxisMap, Ticks, ticks};
 use crate::measure::Field;
+use crate::numbers::grouped;
 use crate::scene::PlotStyle;
 
 /// A field, how it is coloured, and what to write beside it.

@@ -40,7 +40,6 @@ mod color_map;
 mod error;
 mod field;
 mod field_renderer;
-mod numbers;
 mod overlay;
 mod palette;
 mod particles;
@@ -65,19 +64,17 @@ pub use chart::{Axis, AxisFit, Chart, Mean, Panel, ReferenceLine, Scale, Series,
 pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
-pub use numbers::with_error;
 pub use overlay::{Curve, overlay_chart};
 pub use particles::ParticlePicture;
 pub(crate) use particles::snapshot_size;
 pub use presets::{
-    EnergyTable, autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, radial_distribution_chart,
+    autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, radial_distribution_chart,
     shallow_water_chart,
 };
 pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
 pub use text::missing_glyphs;
-pub(crate) use ticks::grouped;
 pub use transport_charts::{ChainKind, Found, chain_sizes_chart, diffusion_chart, viscosity_chart};
 pub use voronoi_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 

@@ -2,32 +2,8 @@
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, pressure_label, series, with_set_temperature};
-use super::ticks::grouped;
-
-/// The table of energies: one row per sample.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct EnergyTable {
-    /// Names of the columns, as in `energies.csv`.
-    pub columns: Vec<String>,
-    /// One number per column; what is missing in a short row is not drawn.
-    pub rows: Vec<Vec<f64>>,
-}
-
-impl EnergyTable {
-    /// Points (time, value / `divisor`) of a column, or none if there is no such column.
-    pub(super) fn points(&self, column: &str, divisor: f64) -> Option<Vec<[f64; 2]>> {
-        let find = |name: &str| self.columns.iter().position(|found| found == name);
-        let (time, value) = (find("time")?, find(column)?);
-        let cell = |row: &Vec<f64>, index: usize| row.get(index).copied().unwrap_or(f64::NAN);
-        Some(self.rows.iter().map(|row| [cell(row, time), cell(row, value) / divisor]).collect())
-    }
-
-    /// Dimensions of the box, of which each has a momentum.
-    fn dimension(&self) -> usize {
-        let momenta = self.columns.iter().filter(|name| name.starts_with("momentum_")).count();
-        if momenta == 0 { 3 } else { momenta }
-    }
-}
+use crate::numbers::grouped;
+use crate::table::Table;
 
 /// Energies per particle, temperatures and pressures over time, with their means; a panel none of whose columns exist is left
 /// out.
@@ -37,10 +13,11 @@ impl EnergyTable {
 /// reference; a value that is not finite leaves it out.
 ///
 /// ```
-/// use mesoscope::plot::{Averages, EnergyTable, energies_chart};
+/// use mesoscope::plot::{Averages, energies_chart};
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "kinetic_energy", "temperature"].map(str::to_owned).to_vec();
-/// let table = EnergyTable { columns, rows: vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]] };
+/// let table = Table { columns, rows: vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]] };
 /// let chart = energies_chart("A fluid", &table, 20, 1.0, &Averages::default());
 /// // There is no pressure in the table, and no panel for it.
 /// assert_eq!(chart.panels.len(), 2);
@@ -48,13 +25,7 @@ impl EnergyTable {
 /// assert_eq!(chart.panels[1].references[0].value, 1.0);
 /// ```
 #[must_use]
-pub fn energies_chart(
-    title: &str,
-    table: &EnergyTable,
-    particle_count: u64,
-    temperature: f64,
-    averages: &Averages,
-) -> Chart {
+pub fn energies_chart(title: &str, table: &Table, particle_count: u64, temperature: f64, averages: &Averages) -> Chart {
     let per_particle = particle_count.max(1) as f64;
     let energies = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
     let temperatures = ["temperature", "configurational_temperature"];
@@ -63,7 +34,7 @@ pub fn energies_chart(
     let panels = [
         panel("Energy per particle (energy units)", table, &energies, per_particle, averages),
         if temperatures.series.is_empty() { temperatures } else { with_set_temperature(temperatures, temperature) },
-        panel(&pressure_label(table.dimension()), table, &pressures, 1.0, averages),
+        panel(&pressure_label(dimension(table)), table, &pressures, 1.0, averages),
     ];
     let plural = if particle_count == 1 { "particle" } else { "particles" };
     Chart {
@@ -71,6 +42,12 @@ pub fn energies_chart(
         subtitle: format!("{} {plural}", grouped(particle_count)),
         panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
     }
+}
+
+/// Dimensions of the box, of which each has a momentum.
+fn dimension(table: &Table) -> usize {
+    let momenta = table.columns.iter().filter(|name| name.starts_with("momentum_")).count();
+    if momenta == 0 { 3 } else { momenta }
 }
 
 /// Energies of shallow water over time, the change of the conserved one relative to its first value, and, in a bath, the
@@ -81,23 +58,24 @@ pub fn energies_chart(
 /// holds at the mean depth.
 ///
 /// ```
-/// use mesoscope::plot::{Averages, EnergyTable, shallow_water_chart};
+/// use mesoscope::plot::{Averages, shallow_water_chart};
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
-/// let chart = shallow_water_chart("A vortex", &EnergyTable { columns, rows }, None, &Averages::default());
+/// let chart = shallow_water_chart("A vortex", &Table { columns, rows }, None, &Averages::default());
 /// let change = &chart.panels[1].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
 #[must_use]
-pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option<f64>, averages: &Averages) -> Chart {
+pub fn shallow_water_chart(title: &str, table: &Table, temperature: Option<f64>, averages: &Averages) -> Chart {
     let columns = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
     let unit = "(mass of a node × (length units/time unit)²)";
     let energies = panel(&format!("Energy {unit}"), table, &columns, 1.0, averages);
     let second = if let Some(set) = temperature {
         with_set_temperature(panel(&format!("Temperature {unit}"), table, &["temperature"], 1.0, averages), set)
     } else {
-        let points = table.points("total_energy", 1.0).unwrap_or_default();
+        let points = table.over_time("total_energy", 1.0).unwrap_or_default();
         let first = points.first().map_or(f64::NAN, |point| point[1]);
         let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
         let panel = Panel::new(TIME, "Relative change of the energy");
@@ -109,20 +87,21 @@ pub fn shallow_water_chart(title: &str, table: &EnergyTable, temperature: Option
 /// Changes of the circulations of material loops over time, relative to their first values unless one of these is 0.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, circulation_chart};
+/// use mesoscope::plot::circulation_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "loop_0"].map(str::to_owned).to_vec();
-/// let chart = circulation_chart("A loop", &EnergyTable { columns, rows: vec![vec![0.0, 2.0], vec![1.0, 2.002]] });
+/// let chart = circulation_chart("A loop", &Table { columns, rows: vec![vec![0.0, 2.0], vec![1.0, 2.002]] });
 /// let change = &chart.panels[0].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
 #[must_use]
-pub fn circulation_chart(title: &str, table: &EnergyTable) -> Chart {
+pub fn circulation_chart(title: &str, table: &Table) -> Chart {
     let loops: Vec<(&String, Vec<[f64; 2]>)> = table
         .columns
         .iter()
         .filter(|column| *column != "time")
-        .map(|column| (column, table.points(column, 1.0).unwrap_or_default()))
+        .map(|column| (column, table.over_time(column, 1.0).unwrap_or_default()))
         .collect();
     let first = |points: &[[f64; 2]]| points.first().map_or(f64::NAN, |point| point[1]);
     let relative = loops.iter().all(|(_, points)| first(points) != 0.0);
@@ -250,8 +229,8 @@ mod tests {
     #![allow(clippy::panic)]
     use super::*;
 
-    fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
-        EnergyTable {
+    fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
+        Table {
             columns: columns.iter().map(ToString::to_string).collect(),
             rows: rows.iter().map(|row| row.to_vec()).collect(),
         }

@@ -1,8 +1,8 @@
 //! What the quantities of a run are called, what they are measured in, and how they look, wherever they are shown.
 
 use super::chart::{Axis, AxisFit, Mean, Panel, Series, SeriesInk};
-use super::presets::EnergyTable;
-use super::ticks::short_number;
+use crate::numbers::short;
+use crate::table::Table;
 
 /// The label of an axis of time.
 pub(super) const TIME: &str = "Time (time units)";
@@ -56,12 +56,12 @@ pub(super) fn series(column: &str, points: Vec<[f64; 2]>) -> Series {
 }
 
 /// A panel over time of those columns that a table has, over a divisor, with their means; one without any is empty.
-pub(super) fn panel(label: &str, table: &EnergyTable, columns: &[&str], divisor: f64, averages: &Averages) -> Panel {
+pub(super) fn panel(label: &str, table: &Table, columns: &[&str], divisor: f64, averages: &Averages) -> Panel {
     let mut panel = Panel::new(TIME, label);
     panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(label) };
     panel.averaged_from = averages.from;
     for column in columns {
-        if let Some(points) = table.points(column, divisor) {
+        if let Some(points) = table.over_time(column, divisor) {
             panel.series.push(Series { mean: averages.of(column, divisor), ..series(column, points) });
         }
     }
@@ -73,7 +73,7 @@ pub(super) fn with_set_temperature(panel: Panel, temperature: f64) -> Panel {
     if !temperature.is_finite() {
         return panel;
     }
-    panel.with_reference(&format!("set, kT = {}", short_number(temperature)), temperature)
+    panel.with_reference(&format!("set, kT = {}", short(temperature)), temperature)
 }
 
 /// What to say below the title about the means that a chart shows; nothing if it shows none.
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_quantity_looks_the_same_beside_all_others_and_alone() {
         let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
-        let table = EnergyTable { columns, rows: vec![vec![0.0, 1.0, 2.0, 3.0]] };
+        let table = Table { columns, rows: vec![vec![0.0, 1.0, 2.0, 3.0]] };
         let all =
             panel("E", &table, &["kinetic_energy", "potential_energy", "total_energy"], 1.0, &Averages::default());
         let ideal = panel("E", &table, &["kinetic_energy", "total_energy"], 1.0, &Averages::default());
@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn means_are_those_of_the_panel() {
         let columns = ["time", "kinetic_energy"].map(str::to_owned).to_vec();
-        let table = EnergyTable { columns, rows: vec![vec![0.0, 30.0]] };
+        let table = Table { columns, rows: vec![vec![0.0, 30.0]] };
         let mean = Mean { value: 30.0, standard_error: Some(2.0), from_few_samples: true, unequilibrated: true };
         let averages = Averages { from: Some(4.0), means: vec![("kinetic_energy".to_owned(), mean)] };
         let panel = panel("E", &table, &["kinetic_energy"], 20.0, &averages);

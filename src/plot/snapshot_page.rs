@@ -5,7 +5,8 @@ use super::chart::Scale;
 use super::palette::{Colour, Inks, scale_colour};
 use super::species_colours::species_colours;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, grouped, nice_length, short_number, ticks};
+use super::ticks::{AxisMap, nice_length, ticks};
+use crate::numbers::{grouped, short};
 use crate::scene::Snapshot;
 
 /// What the colours of a picture mean.
@@ -126,7 +127,7 @@ impl Page {
             return;
         }
         let style = Type { size: 0.85 * self.label, ..self.text(inks.muted) };
-        let text = format!("L_{{{name}}} = {}", short_number(format!("{length:.4e}").parse().unwrap_or(length)));
+        let text = format!("L_{{{name}}} = {}", short(format!("{length:.4e}").parse().unwrap_or(length)));
         let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
         let off = 0.45 * self.label;
         if (to[0] - from[0]).abs() < 1e-6 * (to[1] - from[1]).abs() {
@@ -320,7 +321,7 @@ impl Page {
         let room = 0.25 * (self.width - 2.0 * self.margin).min(outline.width().max(1.0) * 2.0);
         let length = nice_length(room / pixels_per_length);
         let unit = if length == 1.0 { "length unit" } else { "length units" };
-        let text = format!("{} {unit}", short_number(length));
+        let text = format!("{} {unit}", short(length));
         let right = self.width - self.margin;
         let (bar, text_width) = (length * pixels_per_length, canvas.typesetter.width(&text, style.weight, style.size));
         let middle = right - 0.5 * bar.max(text_width);

@@ -1,6 +1,7 @@
 //! Axis scales and their ticks: round numbers, readable powers of ten.
 
 use super::chart::Scale;
+use crate::numbers::{fixed, superscript, trimmed};
 
 /// Maps values to fractions of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +101,7 @@ fn linear_ticks(low: f64, high: f64, count: usize) -> Ticks {
     let factor_exponent = if (-3..5).contains(&exponent) { 0 } else { exponent };
     let decimals = (factor_exponent - (step * 1.000_001).log10().floor() as i32).max(0) as usize;
     let factor = 10_f64.powi(-factor_exponent.clamp(-300, 300));
-    let label = |value: f64| number((value - offset) * factor, decimals);
+    let label = |value: f64| fixed((value - offset) * factor, decimals);
 
     let mut multiplier = String::new();
     if factor_exponent != 0 {
@@ -148,20 +149,10 @@ fn log_ticks(low: f64, high: f64, count: usize) -> Ticks {
 
 fn power_label(lead: i32, exponent: i32) -> String {
     if (-3..4).contains(&exponent) {
-        return number(f64::from(lead) * 10_f64.powi(exponent), (-exponent).max(0) as usize);
+        return fixed(f64::from(lead) * 10_f64.powi(exponent), (-exponent).max(0) as usize);
     }
     let power = format!("10{}", superscript(exponent));
     if lead == 1 { power } else { format!("{lead}×{power}") }
-}
-
-/// A number with so many decimals and a real minus sign; never `−0`.
-pub(super) fn number(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().any(|c| c.is_ascii_digit() && c != '0') => format!("−{digits}"),
-        Some(digits) => digits.to_owned(),
-        None => text,
-    }
 }
 
 /// A positive number written to the precision of `span`.
@@ -169,45 +160,10 @@ fn significant(value: f64, span: f64) -> String {
     let exponent = value.log10().floor() as i32;
     let last = span.log10().floor() as i32;
     if (-4..7).contains(&exponent) {
-        return trimmed(&number(value, (-last).max(0) as usize));
+        return trimmed(&fixed(value, (-last).max(0) as usize));
     }
-    let digits = trimmed(&number(value / 10_f64.powi(exponent), (exponent - last).clamp(0, 16) as usize));
+    let digits = trimmed(&fixed(value / 10_f64.powi(exponent), (exponent - last).clamp(0, 16) as usize));
     format!("{digits}×10{}", superscript(exponent))
-}
-
-fn trimmed(text: &str) -> String {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
-}
-
-/// An exponent in raised digits.
-pub(super) fn superscript(exponent: i32) -> String {
-    exponent
-        .to_string()
-        .chars()
-        .map(|character| match character {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-        })
-        .collect()
-}
-
-/// A whole number with its digits in groups of three if they are more than four.
-pub(crate) fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    if digits.len() < 5 {
-        return digits;
-    }
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
@@ -222,15 +178,6 @@ pub(super) fn nice_length(limit: f64) -> f64 {
         1.0
     };
     nice * power
-}
-
-/// A round number as short as it can be written.
-pub(super) fn short_number(value: f64) -> String {
-    let exponent = value.abs().log10().floor() as i32;
-    if value != 0.0 && !(-4..6).contains(&exponent) {
-        return format!("{}×10{}", trimmed(&number(value / 10_f64.powi(exponent), 6)), superscript(exponent));
-    }
-    trimmed(&number(value, 6))
 }
 
 #[cfg(test)]
@@ -306,17 +253,8 @@ mod tests {
     }
 
     #[test]
-    fn groups_of_digits() {
-        assert_eq!(grouped(1234), "1234");
-        assert_eq!(grouped(24_000), "24,000");
-        assert_eq!(grouped(1_234_567), "1,234,567");
-    }
-
-    #[test]
     fn nice_lengths_never_exceed_the_limit() {
         assert_eq!(nice_length(4.9), 2.0);
         assert_eq!(nice_length(5.0), 5.0);
-        assert_eq!(short_number(0.05), "0.05");
-        assert_eq!(short_number(2e7), "2×10⁷");
     }
 }

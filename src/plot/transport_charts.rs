@@ -1,9 +1,9 @@
 //! Charts of transport: what is measured over lags, with the fits made to it and what they give.
 
 use super::chart::{Axis, AxisFit, Chart, Mean, Panel, Series, SeriesInk};
-use super::numbers::with_error;
-use super::presets::EnergyTable;
 use super::quantities::TIME;
+use crate::numbers::with_error;
+use crate::table::Table;
 
 const LAG: &str = "Lag (time units)";
 
@@ -18,12 +18,13 @@ pub type Found = (f64, Option<f64>);
 /// of the autocorrelation.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, diffusion_chart};
+/// use mesoscope::plot::diffusion_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "mean_squared_displacement"].map(str::to_owned).to_vec();
 /// // ⟨Δr²⟩ = 6 D t - 0.1 with D = ½.
 /// let rows = (0..20).map(|lag| vec![0.1 * f64::from(lag), 0.3 * f64::from(lag) - 0.1]).collect();
-/// let chart = diffusion_chart("A fluid", &EnergyTable { columns, rows }, 3, Some((0.5, Some(0.02))), None);
+/// let chart = diffusion_chart("A fluid", &Table { columns, rows }, 3, Some((0.5, Some(0.02))), None);
 /// let fit = &chart.panels[0].series[1];
 /// assert!(fit.name.contains("D = 0.500 ± 0.020"), "{}", fit.name);
 /// assert!((fit.points[0][1] - 2.9).abs() < 1e-9);
@@ -31,13 +32,13 @@ pub type Found = (f64, Option<f64>);
 #[must_use]
 pub fn diffusion_chart(
     title: &str,
-    table: &EnergyTable,
+    table: &Table,
     dimension: usize,
     einstein: Option<Found>,
     green_kubo: Option<Found>,
 ) -> Chart {
     let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    if let Some(points) = table.points("mean_squared_displacement", 1.0) {
+    if let Some(points) = table.over_time("mean_squared_displacement", 1.0) {
         let mut panel = Panel::new(LAG, "Mean squared displacement (length units²)");
         (panel.x, panel.y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
         // At lag zero the displacement is zero by definition and has no logarithm.
@@ -51,7 +52,7 @@ pub fn diffusion_chart(
         }
         chart.panels.push(panel);
     }
-    if let Some(points) = table.points("velocity_autocorrelation", 1.0) {
+    if let Some(points) = table.over_time("velocity_autocorrelation", 1.0) {
         let panel = Panel::new(LAG, "Velocity autocorrelation (length units²/time unit²)");
         let name = green_kubo.map_or_else(
             || "autocorrelation".to_owned(),
@@ -81,16 +82,17 @@ fn displacement_line(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
 /// of all of them.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, viscosity_chart};
+/// use mesoscope::plot::viscosity_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.5, 0.0, 1.0, f64::NAN], vec![0.5, 1.0, 0.8, 0.79], vec![0.9, 0.0, 1.0, f64::NAN]];
-/// let chart = viscosity_chart("Waves", &EnergyTable { columns, rows }, &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
+/// let chart = viscosity_chart("Waves", &Table { columns, rows }, &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
 /// assert_eq!(chart.panels[0].series[0].name, "k = 0.5/length unit, η = 0.90 ± 0.10");
 /// assert_eq!(chart.subtitle, "shear viscosity η = 0.90 ± 0.10");
 /// ```
 #[must_use]
-pub fn viscosity_chart(title: &str, table: &EnergyTable, viscosities: &[Found], all: Option<Found>) -> Chart {
+pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Found], all: Option<Found>) -> Chart {
     let label = "Normalised autocorrelation of transverse momentum waves";
     let mut panel = Panel::new(LAG, label);
     panel.y = Axis::log(label);
@@ -133,10 +135,11 @@ pub struct ChainKind {
 /// The columns are `time` and, for each kind with its number, `end_to_end_squared_0` and `radius_of_gyration_squared_0`.
 ///
 /// ```
-/// use mesoscope::plot::{ChainKind, EnergyTable, Mean, chain_sizes_chart};
+/// use mesoscope::plot::{ChainKind, Mean, chain_sizes_chart};
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
-/// let table = EnergyTable { columns, rows: vec![vec![0.0, 6.1, 1.0], vec![1.0, 5.9, 1.1]] };
+/// let table = Table { columns, rows: vec![vec![0.0, 6.1, 1.0], vec![1.0, 5.9, 1.1]] };
 /// let end_to_end = Some(Mean { value: 6.0, ..Mean::default() });
 /// let kind = ChainKind { species: "decamer".to_owned(), beads: 10, end_to_end, ..ChainKind::default() };
 /// let chart = chain_sizes_chart("A melt", &table, &[kind]);
@@ -144,7 +147,7 @@ pub struct ChainKind {
 /// assert_eq!(chart.panels[1].series[0].points, [[0.0, 1.0], [1.0, 1.1]]);
 /// ```
 #[must_use]
-pub fn chain_sizes_chart(title: &str, table: &EnergyTable, kinds: &[ChainKind]) -> Chart {
+pub fn chain_sizes_chart(title: &str, table: &Table, kinds: &[ChainKind]) -> Chart {
     let mut panels = Vec::new();
     for (column, label) in [
         ("end_to_end_squared", "Squared end-to-end distance (length units²)"),
@@ -159,7 +162,7 @@ pub fn chain_sizes_chart(title: &str, table: &EnergyTable, kinds: &[ChainKind]) 
             if ends && mean.is_none() {
                 continue;
             }
-            let Some(points) = table.points(&format!("{column}_{number}"), 1.0) else { continue };
+            let Some(points) = table.over_time(&format!("{column}_{number}"), 1.0) else { continue };
             let series = Series::line(&format!("{}, {} beads", kind.species, kind.beads), points);
             panel.series.push(Series { mean, ..series.with_ink(SeriesInk::Numbered(number)) });
         }
@@ -181,7 +184,7 @@ mod tests {
         let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
         let row = |wave: f64, lag: f64, fit: f64| vec![wave, lag, (-lag).exp(), fit];
         let rows = vec![row(0.5, 0.0, f64::NAN), row(0.5, 1.0, 0.4), row(0.9, 0.0, f64::NAN), row(0.9, 1.0, 0.3)];
-        let chart = viscosity_chart("waves", &EnergyTable { columns, rows }, &[], None);
+        let chart = viscosity_chart("waves", &Table { columns, rows }, &[], None);
         let series: Vec<(&str, usize)> =
             chart.panels[0].series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
         assert_eq!(
@@ -191,14 +194,14 @@ mod tests {
         assert_all_told_apart(&chart);
         // A table without fits.
         let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
-        let chart = viscosity_chart("waves", &EnergyTable { columns, rows: vec![vec![0.5, 0.0, 1.0]] }, &[], None);
+        let chart = viscosity_chart("waves", &Table { columns, rows: vec![vec![0.5, 0.0, 1.0]] }, &[], None);
         assert_eq!(chart.panels[0].series.len(), 1);
     }
 
     #[test]
     fn rings_have_no_ends() {
         let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
-        let table = EnergyTable { columns, rows: vec![vec![0.0, 1.0, 2.0]] };
+        let table = Table { columns, rows: vec![vec![0.0, 1.0, 2.0]] };
         let ring = ChainKind { gyration: Some(Mean::default()), ..ChainKind::default() };
         let chart = chain_sizes_chart("rings", &table, &[ring]);
         assert_eq!(chart.panels.len(), 1);

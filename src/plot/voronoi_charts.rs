@@ -1,8 +1,8 @@
 //! The charts of Voronoi DPD, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
-use super::presets::EnergyTable;
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
+use crate::table::Table;
 
 /// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures with their
 /// means, and what has been added to the energies of a cell since the first row.
@@ -10,22 +10,23 @@ use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
 /// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
 ///
 /// ```
-/// use mesoscope::plot::{Averages, EnergyTable, energetic_cells_chart};
+/// use mesoscope::plot::{Averages, energetic_cells_chart};
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "temperature", "internal_temperature", "kinetic_energy", "internal_energy", "total_energy"];
 /// let rows = vec![vec![0.0, 1.0, 1.0, 100.0, 500.0, 650.0], vec![0.1, 1.1, 0.98, 110.0, 490.0, 650.0]];
-/// let table = EnergyTable { columns: columns.map(str::to_owned).to_vec(), rows };
+/// let table = Table { columns: columns.map(str::to_owned).to_vec(), rows };
 /// let chart = energetic_cells_chart("Hot and cold", &table, 100, &Averages::default());
 /// // What each cell has gained.
 /// assert_eq!(chart.panels[1].series[0].points[1], [0.1, 1.1 - 1.0]);
 /// ```
 #[must_use]
-pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u64, averages: &Averages) -> Chart {
+pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, averages: &Averages) -> Chart {
     let columns = ["temperature", "internal_temperature"];
     let temperatures = panel(TEMPERATURE, table, &columns, 1.0, averages);
     let mut changes = Panel::new(TIME, "Change of energy per cell (energy units)");
     for column in ["kinetic_energy", "internal_energy", "total_energy"] {
-        let points = table.points(column, particle_count.max(1) as f64).unwrap_or_default();
+        let points = table.over_time(column, particle_count.max(1) as f64).unwrap_or_default();
         let first = points.first().map_or(f64::NAN, |point| point[1]);
         changes.series.push(series(column, points.iter().map(|point| [point[0], point[1] - first]).collect()));
     }
@@ -38,15 +39,16 @@ pub fn energetic_cells_chart(title: &str, table: &EnergyTable, particle_count: u
 /// The columns are `neighbours`, `fraction`, `fraction_error` and `random_points`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, neighbours_chart};
+/// use mesoscope::plot::neighbours_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["neighbours", "fraction", "fraction_error", "random_points"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![5.0, 0.26, 0.01, 0.26], vec![6.0, 0.29, 0.01, 0.30]];
-/// let chart = neighbours_chart("Cells", &EnergyTable { columns, rows });
+/// let chart = neighbours_chart("Cells", &Table { columns, rows });
 /// assert!(chart.panels[0].series.iter().any(|series| series.points == [[5.0, 0.26], [6.0, 0.29]]));
 /// ```
 #[must_use]
-pub fn neighbours_chart(title: &str, table: &EnergyTable) -> Chart {
+pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     let index = |name: &str| table.columns.iter().position(|column| column == name);
     let column = |name: &str| -> Vec<f64> {
         let index = index(name);
@@ -90,17 +92,18 @@ const MAGNITUDE: &str = "Its magnitude (length units/time unit)";
 /// The columns are `time`, `amplitude` and `fit`.
 ///
 /// ```
-/// use mesoscope::plot::{EnergyTable, shear_wave_chart};
+/// use mesoscope::plot::shear_wave_chart;
+/// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "amplitude", "fit"].map(str::to_owned).to_vec();
 /// let rows = vec![vec![0.0, 0.5, 0.5], vec![1.0, -0.02, 0.01]];
-/// let chart = shear_wave_chart("A wave", "", "exponential decay", &EnergyTable { columns, rows });
+/// let chart = shear_wave_chart("A wave", "", "exponential decay", &Table { columns, rows });
 /// // A logarithmic axis shows the magnitude.
 /// assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.02]);
 /// ```
 #[must_use]
-pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &EnergyTable) -> Chart {
-    let [amplitude, fit] = ["amplitude", "fit"].map(|column| table.points(column, 1.0).unwrap_or_default());
+pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &Table) -> Chart {
+    let [amplitude, fit] = ["amplitude", "fit"].map(|column| table.over_time(column, 1.0).unwrap_or_default());
     let fitted = fit.iter().any(|point| point[1].is_finite());
     let magnitude = amplitude.iter().map(|[time, value]| [*time, value.abs()]).collect();
     let mut panels = Vec::new();
@@ -123,8 +126,8 @@ pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &Ene
 mod tests {
     use super::*;
 
-    fn table(columns: &[&str], rows: &[&[f64]]) -> EnergyTable {
-        EnergyTable {
+    fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
+        Table {
             columns: columns.iter().map(ToString::to_string).collect(),
             rows: rows.iter().map(|row| row.to_vec()).collect(),
         }

@@ -1,17 +1,18 @@
 //! The chart of each table that an analysis leaves, with the results that belong to it.
 
+use crate::numbers::with_error;
 use crate::output::files;
 use crate::plot::{
-    ChainKind, Chart, EnergyTable, Found, Mean, autocorrelation_chart, chain_correlation_chart,
-    chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart, chain_sizes_chart,
-    circulation_chart, diffusion_chart, histogram_chart, neighbours_chart, radial_distribution_chart, shear_wave_chart,
-    viscosity_chart, with_error,
+    ChainKind, Chart, Found, Mean, autocorrelation_chart, chain_correlation_chart, chain_equilibrium_chart,
+    chain_memory_chart, chain_profile_chart, chain_pulse_chart, chain_sizes_chart, circulation_chart, diffusion_chart,
+    histogram_chart, neighbours_chart, radial_distribution_chart, shear_wave_chart, viscosity_chart,
 };
 use crate::scene::Scene;
+use crate::table::Table;
 use serde_json::{Map, Value};
 
 /// The chart of the table with this name. What is not among the results of the run is left out.
-pub(super) fn analysis_chart(name: &str, table: &EnergyTable, scene: &Scene, results: &Map<String, Value>) -> Chart {
+pub(super) fn analysis_chart(name: &str, table: &Table, scene: &Scene, results: &Map<String, Value>) -> Chart {
     let title = scene.title.as_str();
     let column = |name: &str| -> Vec<f64> {
         let index = table.columns.iter().position(|column| column == name);
@@ -19,8 +20,7 @@ pub(super) fn analysis_chart(name: &str, table: &EnergyTable, scene: &Scene, res
         if index.is_some() { table.rows.iter().map(cell).collect() } else { Vec::new() }
     };
     let result = |name: &str| results.get(name).unwrap_or(&Value::Null);
-    let chain =
-        |chart: fn(&str, &str, &EnergyTable) -> Chart| chart(title, &super::chain::subtitle(name, scene), table);
+    let chain = |chart: fn(&str, &str, &Table) -> Chart| chart(title, &super::chain::subtitle(name, scene), table);
     match name {
         files::CHAIN_PROFILES => chain(chain_profile_chart),
         files::CHAIN_PULSE => chain(chain_pulse_chart),
@@ -107,7 +107,7 @@ fn formula(fit: &Value) -> String {
 }
 
 /// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
-fn density_chart(title: &str, table: &EnergyTable) -> Chart {
+fn density_chart(title: &str, table: &Table) -> Chart {
     let column = |index: usize| table.rows.iter().map(move |row| row.get(index).copied().unwrap_or(f64::NAN));
     let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
     let centres: Vec<f64> = column(0).collect();
@@ -156,7 +156,7 @@ mod tests {
                 "kinematic_viscosity": { "value": 7.0, "standard_error": null } },
         });
         let results = results.as_object().unwrap();
-        let table = |columns: &[&str]| EnergyTable {
+        let table = |columns: &[&str]| Table {
             columns: columns.iter().map(ToString::to_string).collect(),
             rows: (0..8).map(|row| vec![1.0 + f64::from(row); columns.len()]).collect(),
         };

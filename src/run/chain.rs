@@ -5,9 +5,10 @@ use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSe
 use crate::measure::statistics::Estimate;
 use crate::model::{ChainTrios, Likeness, Strand};
 use crate::output::checkpoint::CheckpointError;
-use crate::output::{OutputError, RunDirectory, Table, files, write_table};
+use crate::output::{OutputError, RunDirectory, files, write_table};
 use crate::scene::{Interaction, Scene};
 use crate::state::{State, Units};
+use crate::table::Table;
 use serde_json::{Map, Value, json};
 
 /// Name of the section of a checkpoint, and of the results.

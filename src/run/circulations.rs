@@ -4,8 +4,8 @@ use super::sections::bytes;
 use crate::engine::Sample;
 use crate::measure::circulation::{circulation, largest_gap};
 use crate::model::{Model, ShallowWater};
-use crate::output::Table;
 use crate::state::Units;
+use crate::table::Table;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 

@@ -6,9 +6,9 @@ use super::settling;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
 use crate::model::{Model, Voronoi};
-use crate::output::{EnergiesFile, Extent, OutputError, Summary, Table, files, read_table};
-use crate::plot::EnergyTable;
+use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, read_table};
 use crate::scene::{Integrator, Scene};
+use crate::table::Table;
 use std::path::Path;
 
 type Cell = fn(&Observables, f64) -> f64;
@@ -205,16 +205,15 @@ impl EnergyRecorder {
             summary.warnings.push(text);
         }
         if self.is_about_equilibrium {
-            let EnergyTable { columns, rows } = self.table();
-            summary.unequilibrated = settling::unequilibrated(&Table { columns, rows }, self.equilibration);
+            summary.unequilibrated = settling::unequilibrated(&self.table(), self.equilibration);
             summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
         }
     }
 
     /// The table for a plot.
-    pub(super) fn table(&self) -> EnergyTable {
+    pub(super) fn table(&self) -> Table {
         let names = std::iter::once("step").chain(self.columns.iter().map(|(name, _)| *name));
-        EnergyTable { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
+        Table { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
     }
 }
 

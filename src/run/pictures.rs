@@ -9,15 +9,16 @@ use crate::engine::Engine;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
 use crate::model::{Model, ShallowWater, Voronoi};
+use crate::numbers::{grouped, with_error};
 use crate::output::{OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy};
 use crate::plan::Options;
 use crate::plot::{
-    Averages, CellPicture, Chart, EnergyTable, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
-    ShownValues, averages_note, energetic_cells_chart, energies_chart, grouped, missing_glyphs, shallow_water_chart,
-    with_error,
+    Averages, CellPicture, Chart, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter, ShownValues,
+    averages_note, energetic_cells_chart, energies_chart, missing_glyphs, shallow_water_chart,
 };
 use crate::scene::{self, FieldQuantity, Scene, Snapshot, SnapshotColor};
 use crate::state::State;
+use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::{
     DynamicImage, ExtendedColorType, ImageEncoder, RgbaImage,
@@ -51,7 +52,7 @@ pub fn redraw(
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::new(&gpu, directory, &scene, &checkpoint.sections);
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
-    pictures.energies(&EnergyTable { columns: table.columns, rows: table.rows }, &model, &summary)?;
+    pictures.energies(&table, &model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
     for (name, plot) in ANALYSES {
         if directory.file(name).exists() && pictures.analysis(name, plot, &summary)? {
@@ -131,7 +132,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Draws the table of energies with the means of a summary.
-    pub(super) fn energies(&mut self, table: &EnergyTable, model: &Model, summary: &Summary) -> Result<(), RunError> {
+    pub(super) fn energies(&mut self, table: &Table, model: &Model, summary: &Summary) -> Result<(), RunError> {
         let averages = averages(summary);
         let (title, particles) = (&self.scene.title, model.particle_count());
         let mut chart = if let Some(water) = &model.shallow_water {
@@ -182,13 +183,12 @@ impl<'a> Pictures<'a> {
         if table.rows.is_empty() {
             return Ok(false);
         }
-        let columns = table.columns.join(",");
-        let table = EnergyTable { columns: table.columns, rows: table.rows };
         let chart = analysis_chart(name, &table, self.scene, &summary.results);
         // Nothing, if its columns are not those that the run wrote.
         if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
             let problem = format!(
-                "found the columns `{columns}`, none of which the run wrote; restore the file, or run the scene again with --force"
+                "found the columns `{}`, none of which the run wrote; restore the file, or run the scene again with --force",
+                table.columns.join(",")
             );
             return Err(OutputError::Line { path: self.directory.file(name), line: 1, problem }.into());
         }

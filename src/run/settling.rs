@@ -2,9 +2,9 @@
 
 use crate::measure::equilibration::transient;
 use crate::model::Model;
-use crate::output::Table;
 use crate::output::summary::{Unequilibrated, UnsettledMean};
 use crate::scene::Scene;
+use crate::table::Table;
 
 /// Columns of the table of energies that fluctuate about a constant in equilibrium, those most asked for first. Not among
 /// them are what is conserved, what wanders (the centre of mass in noise), and what is counted.

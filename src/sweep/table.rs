@@ -5,7 +5,8 @@ use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
 use super::variation::Setting;
 use super::{files, naming};
-use crate::output::{OutputError, push_number, quoted, write_atomically};
+use crate::numbers::push_exact;
+use crate::output::{OutputError, quoted, write_atomically};
 use serde_json::Value;
 use std::path::Path;
 
@@ -118,7 +119,7 @@ fn plain(value: &Value) -> String {
 
 fn number(value: f64) -> String {
     let mut bytes = Vec::new();
-    push_number(&mut bytes, value);
+    push_exact(&mut bytes, value);
     // Digits are ASCII.
     String::from_utf8(bytes).unwrap_or_default()
 }

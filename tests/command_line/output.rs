@@ -6,11 +6,12 @@ use mesoscope::model::Model;
 use mesoscope::output::checkpoint::{self, CheckpointError};
 use mesoscope::output::summary::AdapterSummary;
 use mesoscope::output::{
-    EnergiesFile, Extent, OutputError, RunDirectory, Summary, Table, TrajectoryWriter, files, read_table,
-    write_atomically, write_table,
+    EnergiesFile, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, files, read_table, write_atomically,
+    write_table,
 };
 use mesoscope::scene::{Scene, TrajectoryFormat};
 use mesoscope::state::State;
+use mesoscope::table::Table;
 use std::fs;
 use std::path::Path;
 

@@ -3,7 +3,8 @@
 use std::fs;
 
 use mesoscope::model::Model;
-use mesoscope::output::{Summary, Table, checkpoint, files, read_table};
+use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::table::Table;
 use serde_json::{Value, json};
 
 use crate::support::program::{Place, bytes, colours, listing, mesoscope, succeeds, text};

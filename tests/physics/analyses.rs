@@ -6,10 +6,11 @@ use mesoscope::engine::{Engine, Sample};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::model::Model;
-use mesoscope::output::{Table, files, read_table};
+use mesoscope::output::{files, read_table};
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
 use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::table::Table;
 use serde_json::Value;
 
 use crate::support::{COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, start};

@@ -3,10 +3,11 @@
 
 use image::RgbaImage;
 use mesoscope::plot::{
-    Averages, CellPicture, Chart, EnergyTable, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle,
-    ShownValues, diffusion_chart, energies_chart, radial_distribution_chart,
+    Averages, CellPicture, Chart, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle, ShownValues,
+    diffusion_chart, energies_chart, radial_distribution_chart,
 };
 use mesoscope::scene::{PlotStyle, Snapshot, SnapshotColor, Theme};
+use mesoscope::table::Table;
 use mesoscope::tessellation::Tessellation;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use std::time::Instant;
@@ -70,7 +71,7 @@ fn noise(rng: &mut StdRng) -> f64 {
     (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0
 }
 
-fn energies() -> EnergyTable {
+fn energies() -> Table {
     let columns = "step,time,kinetic_energy,potential_energy,total_energy,temperature,configurational_temperature,\
                    pressure,pressure_conservative";
     let mut rng = StdRng::seed_from_u64(7);
@@ -95,7 +96,7 @@ fn energies() -> EnergyTable {
             pressure - 3.0 + 0.03 * noise(&mut rng),
         ]);
     }
-    EnergyTable { columns: columns.split(',').map(String::from).collect(), rows }
+    Table { columns: columns.split(',').map(String::from).collect(), rows }
 }
 
 #[test]
@@ -288,7 +289,7 @@ fn ready_made_charts() {
     let columns = ["time", "mean_squared_displacement", "velocity_autocorrelation"].map(str::to_owned).to_vec();
     let rows = (0..lag.len()).map(|i| vec![lag[i], msd[i], vacf[i]]).collect();
     let (einstein, kubo) = (Some((0.3, Some(0.01))), Some((0.29, Some(0.03))));
-    let chart = diffusion_chart("DPD fluid", &EnergyTable { columns, rows }, 3, einstein, kubo);
+    let chart = diffusion_chart("DPD fluid", &Table { columns, rows }, 3, einstein, kubo);
     let picture = chart_picture("correlation", &chart, &PlotStyle::default());
     assert_eq!(chart.panels.len(), 2);
     assert!(bounds(&picture, BLUE).is_some());

@@ -4,9 +4,10 @@ use super::{Analysis, Conclusion, Setting, bytes, windows_missing};
 use crate::engine::Sample;
 use crate::measure::correlation::{Coefficient, WindowedAverage};
 use crate::measure::fit::FittedDecay;
-use crate::output::{Table, files};
+use crate::output::files;
 use crate::plan::analyses::{autocorrelation_name, correlation_quantum};
 use crate::scene::{self, CorrelatedQuantity, DecayFit};
+use crate::table::Table;
 use serde_json::{Map, Value, json};
 
 /// Means over particles of products with the beginning of the window, sample by sample.

@@ -4,7 +4,8 @@ use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
 use crate::measure::statistics::estimate;
 use crate::model::ChainGroup;
-use crate::output::{Table, files};
+use crate::output::files;
+use crate::table::Table;
 use serde_json::{Value, json};
 
 /// Mean sizes of the chains of each group, sample by sample.

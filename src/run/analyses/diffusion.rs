@@ -3,8 +3,9 @@
 use super::{Analysis, Conclusion, Setting, bytes, windows_missing};
 use crate::engine::Sample;
 use crate::measure::correlation::{WindowedAverage, diffusion_from_displacement, diffusion_from_velocity};
-use crate::output::{Table, files};
+use crate::output::files;
 use crate::scene;
+use crate::table::Table;
 use serde_json::json;
 
 /// Means over particles, sample by sample.

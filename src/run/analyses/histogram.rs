@@ -3,11 +3,12 @@
 use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
 use crate::measure::histogram::{Histogram, PowerMeans, gaussian_mean, maxwell_mean};
-use crate::output::{Table, files};
+use crate::output::files;
 use crate::plan::analyses::{
     HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_name, histogram_range, moment_quantum,
 };
 use crate::scene::{self, CountedQuantity};
+use crate::table::Table;
 use serde_json::{Map, Value, json};
 
 /// Counts and sums of powers over all samples.

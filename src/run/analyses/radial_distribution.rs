@@ -2,9 +2,10 @@
 
 use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
-use crate::output::{Table, files};
+use crate::output::files;
 use crate::plan::Sampler;
 use crate::scene;
+use crate::table::Table;
 use serde_json::json;
 use std::f64::consts::PI;
 

@@ -4,8 +4,9 @@ use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
 use crate::measure::correlation::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
 use crate::model::Model;
-use crate::output::{Table, files};
+use crate::output::files;
 use crate::scene;
+use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
