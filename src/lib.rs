@@ -1,9 +1,9 @@
 //! Stochastic mesoscale particle simulations on any GPU through wgpu.
 //!
-//! A [`scene`] is what the user wrote, typed and checked. A [`model`] is the physics it asks for in numbers.
+//! A [`scene`] is what the user wrote, typed and checked. A model of one of the [`families`] is the physics it asks for in numbers.
 //! A [`plan`] is pure data: the kernels, constants and buffers this scene needs, in order. The [`engine`] executes a
 //! plan on an adapter opened by [`gpu`]. [`measure`] turns integer sums into averages with errors, [`output`] and
-//! [`plot`] write what the user sees. A [`sweep`] is many runs that differ in a few values. [`mod@reference`] is the
+//! [`plot`] write what the user sees. A [`sweep`] is many runs that differ in a few values. [`families::reference`] is the
 //! plain float64 implementation every kernel is tested against.
 //!
 //! All of these in a small run; [`mod@run`] does the same in two lines, and writes files:
@@ -11,12 +11,12 @@
 //! ```
 //! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 //! use mesoscope::plan::{Hardware, Options, plan};
-//! use mesoscope::{engine::Engine, measure, model::Model, scene};
+//! use mesoscope::{engine::Engine, families, families::Model, measure, scene};
 //!
 //! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
 //! let scene = scene::load("dpd-fluid", &small)?;
 //! let model = Model::new(&scene);
-//! let state = scene::placement::initial_state(&scene, &model);
+//! let state = families::initial_state(&scene, &model);
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
 //! let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
@@ -36,9 +36,9 @@
 //! A program that may come to run on the software adapter begins with [`gpu::prepare_environment`].
 
 pub mod engine;
+pub mod families;
 pub mod gpu;
 pub mod measure;
-pub mod model;
 pub mod noise;
 pub mod numbers;
 pub mod output;
@@ -46,7 +46,6 @@ pub mod plan;
 pub mod plot;
 mod prediction;
 pub mod printable;
-pub mod reference;
 pub mod run;
 pub mod scene;
 pub mod self_test;

@@ -78,16 +78,16 @@ pub struct State {
     pub positions: Vec<[u32; 3]>,
     /// Momenta.
     pub momenta: Vec<[i32; 3]>,
-    /// Index of each particle's species in [`crate::model::Model::species`].
+    /// Index of each particle's species in [`crate::families::Model::species`].
     pub species: Vec<u32>,
     /// Momenta that the friction sees, where the integrator predicts them (`groot-warren` with λ ≠ ½); else empty.
     pub predicted: Vec<[i32; 3]>,
     /// Masses of particles that each have their own; else empty. In shallow water in units of
-    /// [`crate::model::ShallowWater::mass_unit`], zero for tracers; in Voronoi DPD of
-    /// [`crate::model::Voronoi::mass_unit`].
+    /// [`crate::families::ShallowWater::mass_unit`], zero for tracers; in Voronoi DPD of
+    /// [`crate::families::Voronoi::mass_unit`].
     pub masses: Vec<u32>,
     /// Kinetic and internal energy together of Voronoi cells that keep account of it, in units of
-    /// [`crate::model::Voronoi::energy_unit`]; else empty.
+    /// [`crate::families::Voronoi::energy_unit`]; else empty.
     pub energies: Vec<i32>,
     /// Mass on each mesh node one step before, in the same units, where a bath on the mesh remembers it; empty at step 0.
     pub node_masses: Vec<u32>,

@@ -13,10 +13,10 @@ mod timed;
 
 use clap::Parser;
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Plan};
-use mesoscope::scene::{self, Scene, placement};
+use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
 use statistics::{grouped, ratios, spread};
@@ -138,7 +138,7 @@ fn run<'a>(gpu: &'a Gpu, scene: &Scene, options: Options, warm: u64) -> Result<R
     let model = Model::new(scene);
     let hardware = Hardware::from(gpu);
     let plan = plan::plan(&model, 0, &scene.output, hardware, options);
-    let state: State = placement::initial_state(scene, &model);
+    let state: State = mesoscope::families::initial_state(scene, &model);
     let mut engine = Engine::new(gpu, plan, &state)?;
     engine.advance(warm, 50)?;
     engine.finish()?;

@@ -1,8 +1,8 @@
 //! The same fluid computed otherwise: species, noise, and what a plan is free to choose.
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::scene;
 use mesoscope::state::State;

@@ -1,8 +1,8 @@
 //! The standard fluid in cubes of several sizes, equilibrated, and timed runs of it.
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Plan};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
@@ -46,7 +46,7 @@ impl Fluid {
     pub fn equilibrated(gpu: &Gpu, edge: f64) -> Result<Self, Failure> {
         let scene = scene(edge, "groot-warren", 0.04)?;
         let model = Model::new(&scene);
-        let start = scene::placement::initial_state(&scene, &model);
+        let start = mesoscope::families::initial_state(&scene, &model);
         let mut engine = engine(gpu, &scene, &start)?;
         engine.advance(EQUILIBRATION, 1)?;
         let state = State { step: 0, ..engine.state()? };

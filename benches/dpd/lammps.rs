@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::state::State;
 
 use crate::{Failure, Settings};

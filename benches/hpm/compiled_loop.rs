@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use mesoscope::model::{Model, ShallowWater};
+use mesoscope::families::{Model, ShallowWater};
 use mesoscope::state::State;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};

@@ -3,9 +3,9 @@
 use std::str::FromStr;
 
 use mesoscope::engine::Engine;
+use mesoscope::families::{Model, ShallowWater};
 use mesoscope::gpu::Gpu;
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::model::{Model, ShallowWater};
 use mesoscope::plan::{self, Hardware, Options, Plan};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
@@ -113,7 +113,7 @@ impl Flow {
     pub fn new(size: Size) -> Result<Self, Failure> {
         let scene = scene(size, NEVER, &[])?;
         let model = Model::new(&scene);
-        let state = scene::placement::initial_state(&scene, &model);
+        let state = mesoscope::families::initial_state(&scene, &model);
         let water = model.shallow_water.clone().ok_or("the scene holds no shallow water")?;
         Ok(Self { size, model, water, state })
     }

@@ -14,10 +14,10 @@ use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Plan};
-use mesoscope::scene::{self, Scene, placement};
+use mesoscope::scene::{self, Scene};
 use mesoscope::tessellation::Tessellation;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
@@ -141,7 +141,7 @@ fn tessellation(scene: &Scene, hardware: Hardware) -> Plan {
 fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
     let scene = cells(size, &[])?;
     let model = Model::new(&scene);
-    let state = placement::initial_state(&scene, &model);
+    let state = mesoscope::families::initial_state(&scene, &model);
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let points: Vec<Point2<f64>> = state
         .positions
@@ -182,7 +182,7 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
 fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, settings: &Settings) -> Result<(), Failure> {
     let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
     let scene = cells(size, &[&[lattice], *changes].concat())?;
-    let state = placement::initial_state(&scene, &Model::new(&scene));
+    let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
     let mut whole = Run::new(Engine::new(gpu, plan_of(&scene, gpu.into()), &state)?, size)?;
     let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?, gpu.into()), &state)?, size)?;
     let (mut rates, mut shares) = (Vec::new(), Vec::new());

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use mesoscope::engine::EngineError;
+use mesoscope::families::{self, Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::gpu::{self, GpuError};
-use mesoscope::model::{Model, NETWORK_VISCOSITY, ShallowWater};
 use mesoscope::numbers::{bytes, grouped, six_digits};
 use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
@@ -12,8 +12,8 @@ use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{
-    self, BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol,
-    MeshBath, Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
+    BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol, MeshBath,
+    Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
 };
 
 use super::table::{aligned, dimensions};
@@ -47,7 +47,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, notices) = arguments.scene.load()?;
     let model = Model::new(&scene);
-    let mut warnings: Vec<String> = notices.iter().chain(&scene::warnings(&scene)).map(ToString::to_string).collect();
+    let mut warnings: Vec<String> =
+        notices.iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
     let opened = match run::adapter_for(&scene, &arguments.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),

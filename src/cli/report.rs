@@ -4,12 +4,12 @@ use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::families::{self, Model};
 use mesoscope::gpu::AdapterChoice;
-use mesoscope::model::Model;
 use mesoscope::numbers::{grouped, prefixed, with_error};
 use mesoscope::printable;
 use mesoscope::run::{Event, Outcome, Progress, Simulation};
-use mesoscope::scene::{self, Interaction, Scene};
+use mesoscope::scene::{Interaction, Scene};
 use serde_json::Value;
 
 use super::table::{aligned, dimensions};
@@ -27,7 +27,7 @@ pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, 
     for notice in &known {
         line(&format!("note: {notice}"));
     }
-    for warning in scene::warnings(simulation.scene()) {
+    for warning in families::warnings(simulation.scene()) {
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }

@@ -1,6 +1,6 @@
 //! `mesoscope scenes`: the scenes inside the program.
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::scene;
 
 use super::{Failure, print};

@@ -4,11 +4,11 @@ use std::io::IsTerminal as _;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use mesoscope::families;
 use mesoscope::numbers::prefixed;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::run::Progress;
-use mesoscope::scene;
 use mesoscope::sweep::{Sweep, SweepEvent, SweepOutcome, VariantState, VariantSummary};
 
 use super::report::{duration, marked, mean};
@@ -62,7 +62,7 @@ impl Reporter {
             for notice in &variant.notices {
                 texts.add(format!("note: {notice}"), &variant.name);
             }
-            for warning in scene::warnings(&variant.scene) {
+            for warning in families::warnings(&variant.scene) {
                 texts.add(format!("warning: {warning}"), &variant.name);
             }
         }
@@ -73,7 +73,7 @@ impl Reporter {
     pub fn warn_of_results(&self, outcome: &SweepOutcome) {
         let mut texts = Texts::default();
         for (variant, summary) in self.sweep.variants().iter().zip(&outcome.summary.variants) {
-            let of_scene = scene::warnings(&variant.scene);
+            let of_scene = families::warnings(&variant.scene);
             let before = variant.notices.iter().chain(&of_scene).map(ToString::to_string);
             let known: Vec<String> = before.chain(summary.unequilibrated.as_ref().map(ToString::to_string)).collect();
             for warning in summary.warnings.iter().filter(|warning| !known.contains(warning)) {

@@ -10,7 +10,7 @@ pub enum EngineError {
     /// The graphics layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// The simulation left the range where its numbers mean anything; [`crate::model::Instability`] says how.
+    /// The simulation left the range where its numbers mean anything; [`crate::families::Instability`] says how.
     #[error("the run became unstable at step {}", .0.step)]
     Unstable(Failure),
     /// More particles at the ends of rows than there is room to copy, or in a bin than it holds.

@@ -45,11 +45,11 @@ impl Engine<'_> {
     /// # use mesoscope::engine::Engine;
     /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
     /// # use mesoscope::plan::{Hardware, Options, plan};
-    /// # use mesoscope::{model::Model, scene};
+    /// # use mesoscope::{families::Model, scene};
     /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
     /// # let scene = scene::load("dpd-fluid", &small)?;
     /// # let model = Model::new(&scene);
-    /// # let start = scene::placement::initial_state(&scene, &model);
+    /// # let start = families::initial_state(&scene, &model);
     /// # let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
     /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
     /// let mut engine = Engine::new(&gpu, plan, &start)?;

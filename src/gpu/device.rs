@@ -119,7 +119,7 @@ impl Gpu {
     /// use mesoscope::engine::Engine;
     /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
     /// # use mesoscope::plan::{Hardware, Options, plan};
-    /// # use mesoscope::{model::Model, scene};
+    /// # use mesoscope::{families::Model, scene};
     ///
     /// let seen = Arc::new(Mutex::new(0));
     /// let counter = Arc::clone(&seen);
@@ -127,7 +127,7 @@ impl Gpu {
     /// let gpu = Gpu::open_rewriting(&AdapterChoice::Best, Requirements::default(), rewriting)?;
     /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]", "output={}"].map(str::to_owned))?;
     /// # let model = Model::new(&scene);
-    /// # let start = scene::placement::initial_state(&scene, &model);
+    /// # let start = families::initial_state(&scene, &model);
     /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
     /// let engine = Engine::new(&gpu, plan, &start)?;
     /// assert!(*seen.lock().unwrap() > 0);

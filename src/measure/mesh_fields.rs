@@ -1,7 +1,7 @@
 //! The flow of shallow water on the nodes of its mesh.
 
-use crate::model::{Model, ShallowWater};
-use crate::reference::mesh_splines;
+use crate::families::shallow_water::reference::mesh_splines;
+use crate::families::{Model, ShallowWater};
 use crate::state::State;
 
 /// Velocities on the nodes of a mesh, and what follows from them: Σ m V ψ / Σ m ψ over the particles that the B-splines
@@ -11,12 +11,12 @@ use crate::state::State;
 /// differences across two spacings.
 ///
 /// ```
-/// use mesoscope::{measure::MeshFlow, model::Model, scene};
+/// use mesoscope::{measure::MeshFlow, families::Model, scene};
 ///
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
 /// let model = Model::new(&scene);
-/// let mut state = scene::placement::initial_state(&scene, &model);
+/// let mut state = families::initial_state(&scene, &model);
 /// state.momenta.fill([3_000_000, 4_000_000, 0]);
 /// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
 /// let flow = MeshFlow::new(&model, water, &state);
@@ -103,7 +103,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::scene::{self, placement::initial_state};
+    use crate::families::initial_state;
+    use crate::scene;
     use std::f64::consts::TAU;
 
     fn start(mesh: [u32; 2], count: u32) -> (Model, State) {

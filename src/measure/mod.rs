@@ -9,12 +9,11 @@ pub mod harmonic_chain;
 pub mod histogram;
 mod mesh_fields;
 pub mod neighbours;
-mod observables;
 pub mod shear_wave;
 pub mod statistics;
 mod sums;
 
+pub use crate::families::{CellObservables, Observables};
 pub use field::{Field, FieldError};
 pub use mesh_fields::MeshFlow;
-pub use observables::{CellObservables, Observables};
 pub use sums::observables_of;

@@ -2,7 +2,7 @@
 
 use super::{CellObservables, Observables};
 use crate::engine::Sample;
-use crate::model::{Model, ShallowWater, Voronoi};
+use crate::families::{Model, ShallowWater, Voronoi};
 use crate::plan::Plan;
 
 /// The observables of one sample of the first sampler of a plan.
@@ -11,12 +11,12 @@ use crate::plan::Plan;
 /// use mesoscope::engine::Engine;
 /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 /// use mesoscope::plan::{Hardware, Options, plan};
-/// use mesoscope::{measure::observables_of, model::Model, scene};
+/// use mesoscope::{measure::observables_of, families::Model, scene};
 ///
 /// let small = ["space.box=[3,3,3]", r#"output={"energies":{"every":10}}"#].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
-/// let start = scene::placement::initial_state(&scene, &model);
+/// let start = families::initial_state(&scene, &model);
 /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
 /// let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
 /// let mut engine = Engine::new(&gpu, plan, &start)?;

@@ -2,7 +2,7 @@
 
 use super::recording::{SAMPLE_ROWS, record_histogram, record_sums};
 use super::{Kernel, Plan, Sampler, Table, Window};
-use crate::model::Model;
+use crate::families::Model;
 use crate::scene::{
     Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
 };

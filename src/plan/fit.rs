@@ -2,7 +2,7 @@
 
 use super::layout::Listed;
 use super::{Layout, Plan};
-use crate::model::{LARGEST_MASS, Model};
+use crate::families::{LARGEST_MASS, Model};
 use crate::state::State;
 
 impl Plan {
@@ -10,9 +10,9 @@ impl Plan {
     /// long or too many, species that are not those of the model, pairs of particles that do not exist.
     ///
     /// ```
-    /// use mesoscope::model::Model;
+    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options, plan};
-    /// use mesoscope::scene::{self, placement::initial_state};
+    /// use mesoscope::scene, families::initial_state;
     ///
     /// let scene = scene::load("langevin-gas", &["interactions.1.bath={\"type\":\"memory\",\"rate\":1}".to_owned()])?;
     /// let model = Model::new(&scene);

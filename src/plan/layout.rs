@@ -1,6 +1,6 @@
 //! How the integer state lies in the buffers and textures of a plan.
 
-use crate::model::LARGEST_MASS;
+use crate::families::LARGEST_MASS;
 use crate::prediction;
 use crate::state::{Hold, PairBath, State};
 

@@ -28,7 +28,7 @@ pub use precision::check_precision;
 pub use table::Table;
 pub use texture::Texture;
 
-use crate::model::Model;
+use crate::families::Model;
 use crate::noise;
 use crate::scene::{Distribution, Output};
 use crate::state::Units;
@@ -36,7 +36,7 @@ use crate::state::Units;
 /// Makes the plan of a model.
 ///
 /// ```
-/// use mesoscope::model::Model;
+/// use mesoscope::families::Model;
 /// use mesoscope::plan::{Hardware, Options, plan};
 ///
 /// // No device is needed to see what a run would do, nor to check its shaders.
@@ -404,7 +404,7 @@ impl Sampler {
     ///
     /// ```
     /// # use mesoscope::plan::{Hardware, Options, plan};
-    /// # use mesoscope::{model::Model, scene};
+    /// # use mesoscope::{families::Model, scene};
     /// let scene = scene::load("dpd-fluid", &[r#"output={"energies":{"every":20}}"#.to_owned()])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
     /// assert_eq!([0, 1, 20, 21].map(|step| plan.samplers[0].samples_before(step)), [0, 1, 1, 2]);
@@ -490,7 +490,7 @@ impl Plan {
     /// Bytes of all buffers and textures.
     ///
     /// ```
-    /// use mesoscope::model::Model;
+    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options, plan};
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &["particles.0.number_density=6".to_owned()])?;
@@ -510,7 +510,7 @@ impl Plan {
     /// The same plan without anything that reports, samples or analyses: steps alone, for a trial of their speed.
     ///
     /// ```
-    /// use mesoscope::model::Model;
+    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options, plan};
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
@@ -559,7 +559,7 @@ impl Plan {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::{Hardware, Options, folded, plan};
-    use crate::model::Model;
+    use crate::families::Model;
     use crate::scene;
 
     #[test]

@@ -7,7 +7,7 @@ use super::prefix_sum::{PrefixSum, needs_levels};
 use super::serial_memory::TURNS;
 use super::species::Species;
 use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal, noise_modules};
-use crate::model::{Model, PairForce};
+use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::scene::{Generator, Integrator, Output, RadialDistribution};
 use crate::state::Units;

@@ -8,7 +8,7 @@ use serde_json::Value;
 ///
 /// ```
 /// use mesoscope::plan::{Hardware, Options, check_precision, plan};
-/// use mesoscope::{model::Model, scene};
+/// use mesoscope::{families::Model, scene};
 ///
 /// let heavy = ["particles.0.mass=1e60"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &heavy)?;

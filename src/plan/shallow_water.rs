@@ -9,7 +9,7 @@ use super::smoothing::smoothing;
 use super::{
     Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Texture, Traversal, noise_modules,
 };
-use crate::model::{Model, ShallowWater};
+use crate::families::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{Distribution, Generator, Integrator, Output};
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::{Buffer, Contents, Kernel, Options};
-use crate::model::{ShallowWater, chebyshev_iterations};
+use crate::families::{ShallowWater, chebyshev_iterations};
 use crate::scene::{LaplacianSymbol, SmoothingSolver};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
@@ -38,7 +38,7 @@ pub struct SmoothingPlan {
 ///
 /// ```
 /// use mesoscope::plan::{Options, smoothing};
-/// use mesoscope::{model::Model, scene};
+/// use mesoscope::{families::Model, scene};
 ///
 /// let iterated = [r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#.to_owned()];
 /// let model = Model::new(&scene::load("shallow-water", &iterated)?);
@@ -78,7 +78,7 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 /// use mesoscope::plan::smoothing::transfer;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let water = mesoscope::model::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
 /// // The depth as a whole stays what it is, short waves all but vanish.
 /// assert_eq!(transfer(&water, lengths, [0, 0]), 1.0);
@@ -105,7 +105,7 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 /// use mesoscope::plan::smoothing::iterations;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let water = mesoscope::model::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
 /// let [rough, fine] = [1e-1, 1e-6].map(|tolerance| iterations(&water, lengths, tolerance));
 /// assert!(1 < rough && rough < fine && fine < 100);

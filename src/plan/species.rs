@@ -1,6 +1,6 @@
 //! How kernels know what species are like: by constants where there are few, else by a table.
 
-use crate::model::Model;
+use crate::families::Model;
 
 /// The modules that know the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Tables as long as a scene has bonds, angles or chains: described by the plan, made when they are uploaded.
 
-use crate::model::{Angles, Bonds, ChainGroup};
+use crate::families::{Angles, Bonds, ChainGroup};
 
 /// What a table holds, of whatever length.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ impl Table {
     /// Its length.
     ///
     /// ```
-    /// use mesoscope::model::Model;
+    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Contents, Hardware, Options, plan};
     ///
     /// let scene = mesoscope::scene::load("polymer-melt", &[])?;

@@ -1,10 +1,10 @@
 //! What a run of Voronoi DPD gathers from its states: numbers of neighbours, and the decay of a shear wave.
 
 use super::sections::{Sections, bytes, samples};
+use crate::families::{Model, NETWORK_VISCOSITY};
 use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS};
 use crate::measure::shear_wave::WaveDecay;
 use crate::measure::statistics::Estimate;
-use crate::model::{Model, NETWORK_VISCOSITY};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, Summary, files, write_table};
 use crate::scene::{Scene, shear_waves};
@@ -235,7 +235,7 @@ fn fractions(counts: &NeighbourCounts) -> Table {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::scene::placement::initial_state;
+    use crate::families::initial_state;
     use std::path::Path;
 
     fn scene() -> Scene {

@@ -1,9 +1,9 @@
 //! What a run of harmonic chains measures and writes.
 
 use super::sections::{Sections, bytes, samples};
+use crate::families::{ChainTrios, Likeness, Strand};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
-use crate::model::{ChainTrios, Likeness, Strand};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, files, write_table};
 use crate::scene::{Interaction, Scene};

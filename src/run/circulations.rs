@@ -2,8 +2,8 @@
 
 use super::sections::bytes;
 use crate::engine::Sample;
+use crate::families::{Model, ShallowWater};
 use crate::measure::circulation::{circulation, largest_gap};
-use crate::model::{Model, ShallowWater};
 use crate::state::Units;
 use crate::table::Table;
 use serde_json::{Map, Value, json};

@@ -1,6 +1,6 @@
 //! What a run conserves exactly, what it does not, and why, in words for its summary.
 
-use crate::model::{BathStep, Model, Voronoi};
+use crate::families::{BathStep, Model, Voronoi};
 use crate::scene::{Integrator, NoiseProcess};
 
 /// What some models keep to the last bit: sums of integers, which every report tells.

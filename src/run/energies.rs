@@ -3,9 +3,9 @@
 use super::RunError;
 use super::sections::{Sections, bytes, samples};
 use super::settling;
+use crate::families::{Model, Voronoi};
 use crate::measure::statistics::{Estimate, estimate};
 use crate::measure::{CellObservables, Observables};
-use crate::model::{Model, Voronoi};
 use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, read_table};
 use crate::scene::{Integrator, Scene};
 use crate::table::Table;

@@ -1,8 +1,8 @@
 //! What can go wrong with a run.
 
 use crate::engine::EngineError;
+use crate::families::Instability;
 use crate::gpu::GpuError;
-use crate::model::Instability;
 use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;

@@ -4,7 +4,7 @@
 use super::conservation::KeptQuantity;
 use super::sections::Sections;
 use crate::engine::Sample;
-use crate::model::Model;
+use crate::families::Model;
 use crate::output::checkpoint::CheckpointError;
 use crate::state::State;
 
@@ -151,8 +151,9 @@ fn sums_of(quantity: KeptQuantity, model: &Model, state: &State) -> Vec<KeptSum>
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::families::initial_state;
     use crate::run::conservation::{conserved, kept, not_conserved};
-    use crate::scene::{self, placement::initial_state};
+    use crate::scene;
     use std::path::Path;
 
     fn at(step: u64, sections: &[(String, Vec<u8>)]) -> Sections<'_> {

@@ -3,10 +3,10 @@
 use super::RunError;
 use super::simulation::plan_for;
 use crate::engine::{Engine, EngineError};
+use crate::families::{self, Model};
 use crate::gpu::Gpu;
-use crate::model::Model;
 use crate::plan::{Options, Plan};
-use crate::scene::{self, Scene, placement};
+use crate::scene::{self, Scene};
 use std::time::{Duration, Instant};
 
 /// The work of a step and the nodes of a mesh, relative to the small fluid, up to which steps of the scene itself are timed.
@@ -59,7 +59,7 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
     let known = Model::new(&fluid);
     let work = |plan: &Plan| plan.operations_per_particle * plan.particles as f64;
     let relative = work(&plan) / work(&plan_for(&fluid, &known, gpu, Options::default()));
-    let nodes = model.shallow_water.as_ref().map_or(0, crate::model::ShallowWater::nodes);
+    let nodes = model.shallow_water.as_ref().map_or(0, crate::families::ShallowWater::nodes);
     let of_scene = relative <= MOST_WORK && nodes <= MOST_NODES;
     let (step, steps) = if of_scene {
         time_of_step(scene, &model, gpu, Options::default())?
@@ -77,7 +77,7 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
 /// Seconds a step, and how many were timed.
 fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Result<(f64, u64), RunError> {
     let plan = plan_for(scene, model, gpu, options).without_reports();
-    let state = placement::initial_state(scene, model);
+    let state = families::initial_state(scene, model);
     let mut engine = Engine::new(gpu, plan, &state)?;
     // The first steps list neighbours and touch memory for the first time.
     match engine.advance(2, 2).and_then(|()| engine.finish()) {

@@ -1,7 +1,7 @@
 //! Which means of a run include the way to equilibrium, and what to do about it.
 
+use crate::families::Model;
 use crate::measure::equilibration::transient;
-use crate::model::Model;
 use crate::output::summary::{Unequilibrated, UnsettledMean};
 use crate::scene::Scene;
 use crate::table::Table;

@@ -1,8 +1,8 @@
 //! What the fields of shallow water are called and how they are shown.
 
+use crate::families::{Model, ShallowWater};
 use crate::measure::circulation::largest_gap;
 use crate::measure::{Field, MeshFlow};
-use crate::model::{Model, ShallowWater};
 use crate::plot::ColorMap;
 use crate::scene::FieldQuantity;
 use crate::state::State;

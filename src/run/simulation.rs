@@ -14,16 +14,16 @@ use super::schedule::Schedule;
 use super::sections::Sections;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
+use crate::families::{self, Instability, Model, ShallowWater};
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::measure::observables_of;
-use crate::model::{Instability, Model, ShallowWater};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::AdapterSummary;
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files,
 };
 use crate::plan::{self, Hardware, Options, Plan};
-use crate::scene::{self, Scene, TrajectoryFormat, Warning, placement};
+use crate::scene::{self, Scene, TrajectoryFormat, Warning};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -181,8 +181,8 @@ impl Simulation {
         let mut gpu = open_adapter(&scene, &model, choice, options)?;
         let (directory, mut start, earlier) = match beginning {
             Beginning::New { directory, force } => {
-                let state = placement::initial_state(&scene, &model);
-                scene::check_start(&scene, &model, &state)?;
+                let state = families::initial_state(&scene, &model);
+                families::check_start(&scene, &model, &state)?;
                 let directory = RunDirectory::create(directory, force)?;
                 (directory, Checkpoint { scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() }, None)
             }
@@ -265,7 +265,7 @@ impl Task {
         }
         observer(Event::Finishing);
         let mut warnings = self.notices.clone();
-        warnings.extend(scene::warnings(&self.scene).iter().map(ToString::to_string));
+        warnings.extend(families::warnings(&self.scene).iter().map(ToString::to_string));
         warnings.extend(run.kept_sums.warning());
         warnings.extend(pictures::lettering(&self.scene));
         let saved_step = run.saved_step;

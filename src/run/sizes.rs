@@ -1,7 +1,7 @@
 //! How large the files of a run will be, before it begins.
 
 use super::chain::numbers_kept;
-use crate::model::{Bonds, Model};
+use crate::families::{Bonds, Model};
 use crate::plan::{Layout, Plan};
 use crate::plot::snapshot_size;
 use crate::scene::{Scene, TrajectoryFormat};
@@ -39,7 +39,7 @@ impl Sizes {
     /// The sizes for a scene, its model and a plan of it; estimates, but for trajectories and checkpoints within a few per cent.
     ///
     /// ```
-    /// use mesoscope::model::Model;
+    /// use mesoscope::families::Model;
     /// use mesoscope::run::Sizes;
     /// use mesoscope::plan::{Hardware, Options, plan};
     ///

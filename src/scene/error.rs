@@ -20,16 +20,16 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub(super) fn new(path: impl fmt::Display, found: impl Into<String>, accepted: impl Into<String>) -> Self {
+    pub(crate) fn new(path: impl fmt::Display, found: impl Into<String>, accepted: impl Into<String>) -> Self {
         Self { path: path.to_string(), found: cut(found.into()), accepted: cut(accepted.into()), suggestion: None }
     }
 
     /// A mistake that is counted and not read.
-    pub(super) fn unread() -> Self {
+    pub(crate) fn unread() -> Self {
         Self::new("", "", "")
     }
 
-    pub(super) fn suggest(mut self, suggestion: Option<String>) -> Self {
+    pub(crate) fn suggest(mut self, suggestion: Option<String>) -> Self {
         self.suggestion = suggestion;
         self
     }
@@ -50,7 +50,7 @@ fn cut(phrase: String) -> String {
 const NAMES: usize = 24;
 
 /// Names as a list that may be read; what is beyond some is counted.
-pub(super) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(crate) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let mut names = names.into_iter();
     let mut list = names.by_ref().take(NAMES).collect::<Vec<_>>().join(", ");
     let more = names.count();

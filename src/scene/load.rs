@@ -13,7 +13,7 @@ use super::nearest::nearest;
 use super::path::related;
 use super::problems::Problems;
 use super::shape::Substitute;
-use super::{Scene, builtin, overrides, semantics, shape, shorten, start, text};
+use super::{Scene, builtin, overrides, semantics, shape, shorten, text};
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
 /// `overrides` (`path.to.key=value`, in order) and checks the result.
@@ -156,7 +156,7 @@ pub fn parse_for(
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
         if problems.is_empty() {
-            start::check(&scene, &mut problems);
+            crate::families::check(&scene, &mut problems);
         }
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
     }

@@ -7,7 +7,7 @@ const MOST: usize = 250;
 
 /// The mistakes of a scene: the first of them in words, and how many there are beyond.
 #[derive(Debug, Default)]
-pub(super) struct Problems {
+pub(crate) struct Problems {
     listed: Vec<Problem>,
     unlisted: usize,
 }
@@ -63,6 +63,11 @@ impl Extend<Problem> for Problems {
             self.push(problem);
         }
     }
+}
+
+/// A number short enough for a sentence.
+pub(crate) fn brief(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value:.3}") } else { format!("{value:.2e}") }
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ const MOST_SPECIES: usize = 256;
 const MOST_RUNS: u64 = u32::MAX as u64;
 
 /// The species of a scene by name.
-pub(super) struct SpeciesNames<'a> {
+pub(crate) struct SpeciesNames<'a> {
     known: HashSet<&'a str>,
     /// In order of first appearance.
     names: Vec<&'a str>,
@@ -238,30 +238,36 @@ fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut 
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
         match interaction {
-            Interaction::ColouredNoise(noise) => super::coloured_noise::check(scene, noise, &path, problems),
+            Interaction::ColouredNoise(noise) => {
+                crate::families::particles::scene::coloured_noise::check(scene, noise, &path, problems);
+            }
             // Of a second one all has been said.
             Interaction::ShallowWater(_) if Some(index) != first_water => {}
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
                 problems.push(Problem::new(&path, "found another interaction beside it", accepted));
             }
-            Interaction::ShallowWater(water) => super::shallow_water::check(scene, water, &path, problems),
+            Interaction::ShallowWater(water) => {
+                crate::families::shallow_water::scene::checks::check(scene, water, &path, problems);
+            }
             Interaction::Dpd(dpd) => check_pairs(species, dpd, &path, problems),
-            Interaction::Voronoi(voronoi) => super::voronoi::check(scene, voronoi, &path, problems),
-            Interaction::HarmonicChain(chain) => super::harmonic_chain::check(scene, chain, &path, problems),
+            Interaction::Voronoi(voronoi) => crate::families::voronoi::scene::check(scene, voronoi, &path, problems),
+            Interaction::HarmonicChain(chain) => {
+                crate::families::particles::scene::harmonic_chain::check(scene, chain, &path, problems);
+            }
             _ => {}
         }
-        super::couplings::check_interaction(scene, species, interaction, &path, problems);
+        crate::families::particles::scene::checks::check_interaction(scene, species, interaction, &path, problems);
     }
-    super::couplings::check_scene(scene, problems);
+    crate::families::particles::scene::checks::check_scene(scene, problems);
     if first_water.is_none() {
-        super::shallow_water::check_absence(scene, problems);
+        crate::families::shallow_water::scene::checks::check_absence(scene, problems);
     }
-    if super::voronoi::voronoi(scene).is_none() {
-        super::voronoi::check_absence(scene, problems);
+    if crate::families::voronoi::scene::voronoi(scene).is_none() {
+        crate::families::voronoi::scene::check_absence(scene, problems);
     }
-    if super::harmonic_chain::harmonic_chain(scene).is_none() {
-        super::harmonic_chain::check_absence(scene, problems);
+    if crate::families::particles::scene::harmonic_chain::harmonic_chain(scene).is_none() {
+        crate::families::particles::scene::harmonic_chain::check_absence(scene, problems);
     }
     let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {

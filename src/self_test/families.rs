@@ -2,10 +2,10 @@
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
+use crate::families::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
+use crate::families::{self, Model};
 use crate::gpu::Gpu;
-use crate::model::Model;
 use crate::plan::{Hardware, Options, plan};
-use crate::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use crate::scene::{self, Scene};
 use crate::state::State;
 
@@ -142,7 +142,7 @@ impl Case {
 
 /// The state after one step of the reference.
 fn reference_step(model: &Model, start: &State) -> Result<State, String> {
-    let words = |error: crate::reference::Unstable| format!("the reference: {error}");
+    let words = |error: crate::families::reference::Unstable| format!("the reference: {error}");
     let missing = || "the reference does not know this scene".to_owned();
     let (model, start) = (model.clone(), start.clone());
     if model.shallow_water.is_some() {
@@ -214,7 +214,7 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
 fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<String, String> {
     let scene = case.scene()?;
     let model = Model::new(&scene);
-    let start = scene::placement::initial_state(&scene, &model);
+    let start = families::initial_state(&scene, &model);
     let words = |error: EngineError| error.to_string();
     let plan = |hardware| plan(&model, 0, &scene.output, hardware, Options::default());
     let mut device = Engine::new(gpu, plan(Hardware::from(gpu)), &start).map_err(words)?;
@@ -263,7 +263,7 @@ mod tests {
         for case in &CASES {
             let scene = case.scene()?;
             let model = Model::new(&scene);
-            let start = scene::placement::initial_state(&scene, &model);
+            let start = families::initial_state(&scene, &model);
             let expected = reference_step(&model, &start)?;
             assert_eq!(deviation(&start, &expected, &expected).0, 0.0);
             let change = |index: usize| {
@@ -287,7 +287,7 @@ mod tests {
         for case in &CASES {
             let scene = case.scene()?;
             let model = Model::new(&scene);
-            let start = scene::placement::initial_state(&scene, &model);
+            let start = families::initial_state(&scene, &model);
             let names: Vec<&str> = constants(&model, &start).iter().map(|(name, _)| *name).collect();
             let expected: &[&str] = match case.name {
                 "coloured noise, Langevin bath and tethers" => &[],

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
+use crate::families::{self, Model};
 use crate::gpu::Gpu;
-use crate::model::Model;
 use crate::plan::{Hardware, Options, plan};
 use crate::scene;
 
@@ -30,7 +30,7 @@ fn measure(gpu: &Gpu) -> Result<(u64, f64), String> {
     let words = |error: EngineError| error.to_string();
     let scene = scene::load("dpd-fluid", &["output={}".to_owned()]).map_err(|error| error.to_string())?;
     let model = Model::new(&scene);
-    let start = scene::placement::initial_state(&scene, &model);
+    let start = families::initial_state(&scene, &model);
     let plan = plan(&model, 0, &scene.output, Hardware::from(gpu), Options::default());
     let particles = plan.particles;
     let mut engine = Engine::new(gpu, plan, &start).map_err(words)?;

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::plan::{Hardware, Options, plan};
 use mesoscope::scene;
 use mesoscope::sweep::Sweep;

@@ -1,8 +1,8 @@
 //! Files of a run: what they hold, what they survive, and how their failures read.
 
 use hoomd_gsd::file_layer::{GsdFile, Mode};
+use mesoscope::families::Model;
 use mesoscope::measure::statistics;
-use mesoscope::model::Model;
 use mesoscope::output::checkpoint::{self, CheckpointError};
 use mesoscope::output::summary::AdapterSummary;
 use mesoscope::output::{
@@ -479,7 +479,7 @@ fn gsd_holds_bonds() {
     }));
     let scene: Scene = scene.unwrap();
     let model = Model::new(&scene);
-    let start = mesoscope::scene::placement::initial_state(&scene, &model);
+    let start = mesoscope::families::initial_state(&scene, &model);
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
     let mut extents = Vec::new();
     for step in [0, 10, 20] {
@@ -604,7 +604,7 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
         "particles": [{"species": "A", "count": 16}], "interactions": [{"type": "voronoi", "form": "paper"}]}"#;
     let scene = mesoscope::scene::parse("t", scene, &[]).unwrap();
     let model = Model::new(&scene);
-    let start = mesoscope::scene::placement::initial_state(&scene, &model);
+    let start = mesoscope::families::initial_state(&scene, &model);
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
     let mut written = Vec::new();
     for step in 0..9 {

@@ -33,7 +33,7 @@ fn shipped_scenes_satisfy_the_schema() {
 fn shipped_scenes_load_without_warnings() {
     for (name, _) in shipped() {
         let scene = scene::load(name, &[]).unwrap_or_else(|error| panic!("{error}"));
-        let warnings = scene::warnings(&scene);
+        let warnings = mesoscope::families::warnings(&scene);
         assert!(warnings.is_empty(), "{name}: {warnings:?}");
         assert!(scene.description.len() > 200, "{name} says what to expect");
     }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::table::Table;
 use serde_json::{Value, json};

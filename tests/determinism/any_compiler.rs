@@ -2,8 +2,8 @@
 //! kernel of every family and on the plans of graphics cards and of software adapters.
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Layout, Options, Traversal};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;

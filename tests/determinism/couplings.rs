@@ -1,7 +1,7 @@
 //! Couplings that add their impulses up: the same bytes whatever changes that is not physics, and the exact laws.
 
 use mesoscope::engine::EngineError;
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::output::checkpoint;
 use mesoscope::plan::{Layout, Options};
 use mesoscope::scene::Scene;

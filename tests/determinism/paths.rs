@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use mesoscope::families::Model;
 use mesoscope::gpu::AdapterChoice;
-use mesoscope::model::Model;
 use mesoscope::output::files;
 use mesoscope::plan::{self, Hardware, Options, Storage, Traversal};
 use mesoscope::run::Simulation;

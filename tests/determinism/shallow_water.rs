@@ -4,10 +4,10 @@
 use std::collections::HashSet;
 
 use mesoscope::engine::{EngineError, Sample};
-use mesoscope::model::Model;
+use mesoscope::families::Model;
+use mesoscope::families::reference::ShallowWaterReference;
 use mesoscope::output::checkpoint;
 use mesoscope::plan::{Options, Storage, TIDYING, Traversal};
-use mesoscope::reference::ShallowWaterReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::SeedableRng as _;

@@ -10,11 +10,11 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Instant;
 
+use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, prepare_environment};
-use mesoscope::model::Model;
 use mesoscope::output::{checkpoint, files};
 use mesoscope::run::{Interrupt, RunError, Simulation};
-use mesoscope::scene::{self, Scene, placement};
+use mesoscope::scene::{self, Scene};
 use rand::rngs::StdRng;
 use rand::seq::IndexedRandom as _;
 use rand::{RngExt as _, SeedableRng as _};
@@ -282,7 +282,7 @@ fn shipped_scenes_come_back_from_checkpoints() {
     let place = tempfile::tempdir().unwrap();
     for builtin in scene::builtin() {
         let scene = scene::load(builtin.name, &[]).unwrap();
-        let state = placement::initial_state(&scene, &Model::new(&scene));
+        let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
         checkpoint::save(&place.path().join(files::CHECKPOINT), &scene, &state, &[], &[]).unwrap();
         let resumed = Simulation::resume(place.path(), None);
         let resumed = resumed.unwrap_or_else(|error| panic!("{}: {error}", builtin.name));

@@ -4,7 +4,7 @@
 use std::sync::mpsc;
 use std::time::Duration;
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::plan::{self, Hardware, Options};
 use mesoscope::run::Sizes;
 use mesoscope::scene::{self, SceneError};
@@ -36,7 +36,7 @@ fn answer(text: &str) -> Answer {
         }
     };
     let model = Model::new(&scene);
-    assert!(scene::warnings(&scene).iter().all(|warning| !warning.message.is_empty()));
+    assert!(mesoscope::families::warnings(&scene).iter().all(|warning| !warning.message.is_empty()));
     let hardware = Hardware { subgroup_size: Some(8), serial_memory: true };
     for hardware in [Hardware::default(), hardware] {
         let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());

@@ -1,7 +1,7 @@
 //! Wrong scenes of shallow water: each mistake with its place, what was found and what is accepted; and what is allowed but
 //! deserves a warning.
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::scene;
 use serde_json::{Value, json};
 
@@ -34,7 +34,7 @@ const CHEBYSHEV: &str = r#"interactions.0.smoothing.solver={"type":"chebyshev"}"
 #[test]
 fn the_base_is_right_and_draws_no_warning() {
     let scene = WATER.accepted(&[]);
-    assert!(scene::warnings(&scene).is_empty(), "{:?}", scene::warnings(&scene));
+    assert!(mesoscope::families::warnings(&scene).is_empty(), "{:?}", mesoscope::families::warnings(&scene));
     assert_eq!(scene.integrator, scene::Integrator::Gyro {}, "the default of shallow water");
     let validator = jsonschema::draft202012::new(&scene::schema()).unwrap();
     assert!(validator.is_valid(&base()));

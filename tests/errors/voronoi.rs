@@ -1,8 +1,8 @@
 //! Wrong scenes of Voronoi DPD: each mistake with its place, what was found and what is accepted; what is allowed but
 //! deserves a warning; and how cells start.
 
-use mesoscope::model::Model;
-use mesoscope::scene::placement::initial_state;
+use mesoscope::families::Model;
+use mesoscope::families::initial_state;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
@@ -27,7 +27,7 @@ fn base() -> Value {
 /// The small scene with these overrides draws this one warning.
 #[track_caller]
 fn warned(overrides: &[&str], path: &str, expected: &str) {
-    let warnings = scene::warnings(&CELLS.accepted(overrides));
+    let warnings = mesoscope::families::warnings(&CELLS.accepted(overrides));
     let [warning] = &warnings[..] else { panic!("{overrides:?}: {warnings:?}") };
     assert!(warning.path == path && warning.message.contains(expected), "{overrides:?}: {warning}");
 }
@@ -35,7 +35,7 @@ fn warned(overrides: &[&str], path: &str, expected: &str) {
 #[test]
 fn the_base_is_right_and_draws_no_warning() {
     let scene = CELLS.accepted(&[]);
-    assert!(scene::warnings(&scene).is_empty(), "{:?}", scene::warnings(&scene));
+    assert!(mesoscope::families::warnings(&scene).is_empty(), "{:?}", mesoscope::families::warnings(&scene));
     assert_eq!(scene.integrator, scene::Integrator::Splitting {}, "the default of Voronoi DPD");
     assert_eq!(scene.output.snapshot.color, scene::SnapshotColor::Density, "one species");
     let validator = jsonschema::draft202012::new(&scene::schema()).unwrap();

@@ -1,9 +1,9 @@
 //! Scenes from absolute zero to great heat, for each kind of force: integer momenta have room for what the forces do, however
 //! cold it is, and resolve it.
 
-use mesoscope::model::Model;
-use mesoscope::reference::{CouplingsReference, Reference, Unstable};
-use mesoscope::scene::{self, Scene, placement};
+use mesoscope::families::Model;
+use mesoscope::families::reference::{CouplingsReference, Reference, Unstable};
+use mesoscope::scene::{self, Scene};
 use serde_json::{Value, json};
 
 use crate::support::{Device, Implementation as _};
@@ -59,7 +59,7 @@ fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     let scene = scene_of(interactions, temperature);
     let model = Model::new(&scene);
     let unit = model.units.momentum;
-    let state = placement::initial_state(&scene, &model);
+    let state = mesoscope::families::initial_state(&scene, &model);
     let mut most = largest_of(&state.momenta);
     if model.is_coupled() {
         let mut run = CouplingsReference::new(model, state);
@@ -199,7 +199,7 @@ fn springs_start_as_far_from_rest_as_the_scene_says() {
             text["temperature"] = json!(temperature);
             let scene = scene::parse("springs", &text.to_string(), &[]).unwrap();
             let model = Model::new(&scene);
-            let state = placement::initial_state(&scene, &model);
+            let state = mesoscope::families::initial_state(&scene, &model);
             let unit = model.units.momentum;
             let mut run = CouplingsReference::new(model, state);
             let mut units = 0;

@@ -1,9 +1,9 @@
 //! Built-in functions that err as much as WGSL lets them: a run is right, or ends with an error. It never goes wrong in silence.
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::measure::observables_of;
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options};
 use mesoscope::scene::{self, Scene};
 use mesoscope::self_test::{self, Verdict};

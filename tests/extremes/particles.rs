@@ -1,10 +1,10 @@
 //! The ends of every range a scene can reach: right, or refused with the reason, and never silent.
 
 use mesoscope::engine::{Engine, EngineError};
+use mesoscope::families::reference::Reference;
+use mesoscope::families::{Instability, Model};
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::model::{Instability, Model};
 use mesoscope::plan::{self, Options, Traversal};
-use mesoscope::reference::Reference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 

@@ -1,10 +1,10 @@
 //! The ends of every range that a scene of shallow water can reach: right, or refused with the reason, and never silent.
 
 use mesoscope::engine::{Engine, EngineError};
+use mesoscope::families::reference::{ShallowWaterReference, Unstable};
+use mesoscope::families::{Instability, Model, ShallowWater};
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::model::{Instability, Model, ShallowWater};
 use mesoscope::plan::{Options, Storage, Traversal};
-use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 

@@ -1,8 +1,8 @@
 //! Voronoi DPD at the ends of what a scene can ask for.
 
 use mesoscope::engine::EngineError;
+use mesoscope::families::reference::VoronoiReference;
 use mesoscope::plan::Options;
-use mesoscope::reference::VoronoiReference;
 use mesoscope::state::State;
 
 use crate::support::{Device, Implementation, cells, engine, start};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use mesoscope::engine::{Engine, Sample};
+use mesoscope::families::Model;
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
-use mesoscope::model::Model;
 use mesoscope::output::{files, read_table};
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};

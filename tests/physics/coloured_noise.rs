@@ -4,7 +4,7 @@
 //! Forces are measured as impulses between reports: averages over a step, whose correlations follow exactly from C(t).
 
 use mesoscope::engine::Engine;
-use mesoscope::model::{ColouredNoise, Model};
+use mesoscope::families::{ColouredNoise, Model};
 use mesoscope::plan::Options;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
@@ -481,7 +481,8 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
 
 #[test]
 fn warnings_tell_of_the_printed_process_and_of_rounding() {
-    let text = |scene: &Scene| -> String { scene::warnings(scene).iter().map(ToString::to_string).collect() };
+    let text =
+        |scene: &Scene| -> String { mesoscope::families::warnings(scene).iter().map(ToString::to_string).collect() };
     assert!(!text(&gas(&[])).contains("interactions[1]"), "{}", text(&gas(&[])));
     let printed = text(&gas(&["interactions.1.process=literal"]));
     assert!(printed.contains("interactions[1].process") && printed.contains("no stationary state"), "{printed}");

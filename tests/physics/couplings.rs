@@ -12,10 +12,10 @@
 //! A mean is within four standard errors, which are at most a quarter of a per cent each, so that all four are 1 %. Means
 //! are over oscillators, which do not know of each other; what a run adds up over time it adds up for each of them.
 
+use mesoscope::families::Model;
+use mesoscope::families::reference::{CouplingsReference, Reference};
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
 use mesoscope::plan::Options;
-use mesoscope::reference::{CouplingsReference, Reference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::{PairBath, State};
 
@@ -832,7 +832,7 @@ fn every_step_of_the_device_is_one_of_the_reference() {
 /// The impulse of a coloured noise is ∫F dt over its jumps, of which a step may hold many or none.
 #[test]
 fn coloured_noise_gives_the_impulse_of_its_jumps() {
-    use mesoscope::model::ColouredNoise;
+    use mesoscope::families::ColouredNoise;
     for (dimension, process) in
         [(1, "kangaroo"), (2, "kangaroo"), (3, "kangaroo"), (3, "kangaroo-exponential"), (2, "short"), (2, "literal")]
     {

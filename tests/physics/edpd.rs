@@ -3,8 +3,8 @@
 //! The bath does not change what is in equilibrium: whatever its rate, both temperatures are kT and the pressure is that of
 //! the standard fluid, 23.635(2) at vanishing time step (Shardlow's integrator, published).
 
+use mesoscope::families::Model;
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;

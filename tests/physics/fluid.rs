@@ -3,7 +3,7 @@
 //! Statistical tolerances are four standard errors, from blocking averages of the run itself, plus a stated allowance
 //! for what is systematic; every test also bounds the standard error itself, so that no run passes by being short.
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
 use mesoscope::scene::Scene;
 
 use crate::support::{

@@ -1,10 +1,10 @@
 //! Harmonic chains in double precision, step by step, and on the device, against what is exact: Español 1996,
 //! doi:10.1103/PhysRevE.53.1572.
 
+use mesoscope::families::{HarmonicChain, SpringChain};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::harmonic_chain::{NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses, thermal_start};
 use mesoscope::measure::statistics::Estimate;
-use mesoscope::model::{HarmonicChain, SpringChain};
 use mesoscope::output::read_table;
 use mesoscope::run::Simulation;
 use rand::{RngExt, SeedableRng, rngs::StdRng};

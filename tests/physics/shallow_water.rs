@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use mesoscope::families::reference::{ShallowWaterReference, Unstable};
+use mesoscope::families::{BathStep, Model, ShallowWater};
 use mesoscope::measure::circulation::circulation;
 use mesoscope::measure::{MeshFlow, Observables};
-use mesoscope::model::{BathStep, Model, ShallowWater};
 use mesoscope::plan::{Options, Storage};
-use mesoscope::reference::{ShallowWaterReference, Unstable};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 

@@ -1,10 +1,10 @@
 //! Voronoi DPD on the device: exact laws, single steps against the reference, temperatures.
 
 use mesoscope::engine::EngineError;
+use mesoscope::families::reference::VoronoiReference;
+use mesoscope::families::{Instability, Model};
 use mesoscope::measure::Observables;
-use mesoscope::model::{Instability, Model};
 use mesoscope::plan::Options;
-use mesoscope::reference::VoronoiReference;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;

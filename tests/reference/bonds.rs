@@ -2,9 +2,9 @@
 //! be exact.
 
 use mesoscope::engine::{Engine, EngineError};
-use mesoscope::model::Instability;
+use mesoscope::families::Instability;
+use mesoscope::families::reference::CouplingsReference;
 use mesoscope::plan::Options;
-use mesoscope::reference::CouplingsReference;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 use serde_json::{Value, json};

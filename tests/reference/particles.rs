@@ -1,9 +1,9 @@
 //! The float64 reference against closed forms, conservation laws and published or independently measured values.
 
-use mesoscope::model::Model;
+use mesoscope::families::Model;
+use mesoscope::families::initial_state;
+use mesoscope::families::reference::{Reference, Relaxation, Unstable};
 use mesoscope::noise::{self, stream};
-use mesoscope::reference::{Reference, Relaxation, Unstable};
-use mesoscope::scene::placement::initial_state;
 use mesoscope::scene::{Distribution, Generator, Scene};
 use mesoscope::state::State;
 use serde_json::{Value, json};

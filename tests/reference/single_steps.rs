@@ -6,8 +6,8 @@
 //! thousand times larger.
 //! That holds on every driver, for `tests/extremes/edge_of_error.rs` makes functions err as much as they may.
 
+use mesoscope::families::reference::Reference;
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::reference::Reference;
 
 use crate::support::{
     engine, fluid, largest_difference, observables, predictions_agree, reference, start, units_of_a_step,

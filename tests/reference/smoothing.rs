@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::sync::mpsc;
 
+use mesoscope::families::ShallowWater;
 use mesoscope::gpu::link;
-use mesoscope::model::ShallowWater;
 use mesoscope::plan::Options;
 use mesoscope::plan::smoothing::{SmoothingPlan, iterations, smoothing, transfer};
 use mesoscope::scene::{LaplacianSymbol, Smoothing, SmoothingSolver};

@@ -1,10 +1,10 @@
 //! The float64 reference of Voronoi DPD against exact laws, closed forms and published or independently measured values:
 //! Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 
+use mesoscope::families::Model;
+use mesoscope::families::reference::{Unstable, VoronoiReference};
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
 use mesoscope::noise;
-use mesoscope::reference::{Unstable, VoronoiReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;

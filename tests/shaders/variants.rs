@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 use std::thread;
 
 use mesoscope::engine::Control;
+use mesoscope::families::Model;
 use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::Hold;

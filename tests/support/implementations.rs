@@ -1,10 +1,10 @@
 //! The two implementations behind one face: the float64 reference and the device.
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
+use mesoscope::families::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
 use mesoscope::plan::Options;
-use mesoscope::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 

@@ -47,7 +47,7 @@ impl Correct {
     /// What the scene with these overrides is warned of.
     #[track_caller]
     pub fn warnings(&self, overrides: &[&str]) -> Vec<String> {
-        scene::warnings(&self.accepted(overrides)).iter().map(ToString::to_string).collect()
+        mesoscope::families::warnings(&self.accepted(overrides)).iter().map(ToString::to_string).collect()
     }
 }
 

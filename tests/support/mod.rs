@@ -17,11 +17,11 @@ mod statistics;
 use std::sync::OnceLock;
 
 use mesoscope::engine::Engine;
+use mesoscope::families::Model;
+use mesoscope::families::reference::{Reference, ShallowWaterReference};
 use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
-use mesoscope::model::Model;
 use mesoscope::plan::{self, Hardware, Options, Traversal};
-use mesoscope::reference::{Reference, ShallowWaterReference};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -68,7 +68,7 @@ pub fn in_eights() -> Options {
 /// A scene's model and initial state.
 pub fn start(scene: &Scene) -> (Model, State) {
     let model = Model::new(scene);
-    let state = scene::placement::initial_state(scene, &model);
+    let state = mesoscope::families::initial_state(scene, &model);
     (model, state)
 }
 

@@ -5,13 +5,13 @@
 //! second part, which a chain of clusters joined by springs κ/n does not have either: its neighbours are further apart.
 //! Here the ends are exact too: the fixed bead is one bead, not one cluster, from its neighbour.
 
-use crate::model::{HarmonicChain, SpringChain};
+use crate::families::{HarmonicChain, SpringChain};
 
 /// ⟨P²⟩ = nmkT of a cluster, of beads or whole.
 ///
 /// ```
 /// use mesoscope::measure::harmonic_chain::equilibrium::momentum_variance;
-/// use mesoscope::model::HarmonicChain;
+/// use mesoscope::families::HarmonicChain;
 ///
 /// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
 ///
@@ -27,7 +27,7 @@ pub fn momentum_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
 ///
 /// ```
 /// use mesoscope::measure::harmonic_chain::equilibrium::cluster_covariance;
-/// use mesoscope::model::HarmonicChain;
+/// use mesoscope::families::HarmonicChain;
 ///
 /// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
 ///
@@ -52,7 +52,7 @@ pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [us
 ///
 /// ```
 /// use mesoscope::measure::harmonic_chain::equilibrium::cluster_separation_variance;
-/// use mesoscope::model::HarmonicChain;
+/// use mesoscope::families::HarmonicChain;
 ///
 /// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
 ///
@@ -70,7 +70,7 @@ pub fn cluster_separation_variance(chain: &HarmonicChain, temperature: f64) -> f
 ///
 /// ```
 /// use mesoscope::measure::harmonic_chain::equilibrium::separation_variance;
-/// use mesoscope::model::SpringChain;
+/// use mesoscope::families::SpringChain;
 ///
 /// let chain = SpringChain { beads: 9, mass: 1.0, stiffness: 2.0, friction: 0.0 };
 /// assert_eq!(separation_variance(&chain, 1.0), 0.5 * 0.9);

@@ -7,12 +7,9 @@
 pub mod equilibrium;
 mod memory_kernel;
 mod normal_modes;
-mod pulse;
 mod thermal_series;
-mod thermal_start;
 
+pub use crate::families::particles::model::{HalfPulse, Pulse, half_pulses, thermal_start};
 pub use memory_kernel::{MemoryKernel, Plateau};
 pub use normal_modes::NormalModes;
-pub use pulse::{HalfPulse, Pulse, half_pulses};
 pub use thermal_series::{ThermalEstimates, ThermalSeries};
-pub use thermal_start::thermal_start;

@@ -1,6 +1,6 @@
 //! The exact motion of a chain without noise.
 
-use crate::model::SpringChain;
+use crate::families::SpringChain;
 use std::f64::consts::PI;
 
 /// The normal modes of a chain between fixed ends: sin(πik/(N+1)), bead i = 1 … N, mode k = 1 … N.
@@ -138,7 +138,7 @@ struct Response {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::HarmonicChain;
+    use crate::families::HarmonicChain;
 
     const CHAIN: SpringChain = SpringChain { beads: 12, mass: 2.0, stiffness: 3.0, friction: 0.0 };
 

@@ -124,8 +124,8 @@ impl ThermalSeries {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::families::{HarmonicChain, SpringChain};
     use crate::measure::harmonic_chain::{NormalModes, equilibrium, thermal_start};
-    use crate::model::{HarmonicChain, SpringChain};
     use rand::{RngExt, SeedableRng, rngs::StdRng};
 
     fn gaussian(rng: &mut StdRng) -> f64 {

@@ -112,12 +112,12 @@ pub enum CheckpointError {
 ///
 /// ```
 /// use mesoscope::output::checkpoint;
-/// use mesoscope::{model::Model, scene};
+/// use mesoscope::{families::Model, scene};
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("checkpoint.bin");
 /// let scene = scene::load("dpd-fluid", &[])?;
-/// let state = scene::placement::initial_state(&scene, &Model::new(&scene));
+/// let state = families::initial_state(&scene, &Model::new(&scene));
 /// checkpoint::save(&path, &scene, &state, &[], &[])?;
 /// let found = checkpoint::load(&path)?;
 /// assert!(found.scene == scene && found.state == state);

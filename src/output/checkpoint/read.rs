@@ -1,7 +1,7 @@
 //! Reading a checkpoint: everything is checked before it is believed, and nothing is allocated that is not in the file.
 
 use super::{CHECKSUM, Checkpoint, CheckpointError, Fnv, HEADER, MAGIC, VERSION};
-use crate::model::Model;
+use crate::families::Model;
 use crate::output::{Extent, OutputError};
 use crate::scene::{self, Scene};
 use crate::state::State;

@@ -5,7 +5,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, OutputError};
-use crate::model::{Bonds, Model, Species, Voronoi};
+use crate::families::{Bonds, Model, Species, Voronoi};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::path::Path;
@@ -13,14 +13,14 @@ use std::path::Path;
 /// A trajectory, open for writing. Frames reach the disk at [`flush`](Self::flush), always whole.
 ///
 /// ```
-/// use mesoscope::{model::Model, output::TrajectoryWriter, scene};
+/// use mesoscope::{families::Model, output::TrajectoryWriter, scene};
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("trajectory.xyz");
 /// let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
-/// let state = scene::placement::initial_state(&scene, &model);
+/// let state = families::initial_state(&scene, &model);
 /// let mut trajectory = TrajectoryWriter::create(&path, scene::TrajectoryFormat::ExtendedXyz, &model)?;
 /// trajectory.append(&state)?;
 /// trajectory.flush()?;
@@ -178,7 +178,8 @@ impl TrajectoryWriter {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::scene::{self, placement::initial_state};
+    use crate::families::initial_state;
+    use crate::scene;
 
     #[test]
     fn cells_have_velocities_by_masses_of_their_own() {

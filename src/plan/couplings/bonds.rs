@@ -1,7 +1,7 @@
 //! Bonds: potentials and baths along them, and the pairs that they spare the repulsion.
 
 use super::Builder;
-use crate::model::{BondKind, Bonds};
+use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
 use crate::plan::Table;
 use crate::scene::{BondPotential, Generator};

@@ -1,7 +1,7 @@
 //! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far.
 
 use super::Builder;
-use crate::model::{Model, PairForce};
+use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::plan::layout::PARTICLE;
 use crate::plan::prefix_sum::PrefixSum;

@@ -16,7 +16,7 @@ mod tethers;
 use super::layout::PARTICLE;
 use super::species::Species;
 use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, noise_modules, pair};
-use crate::model::{BathStep, Model, PairForce};
+use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
 use crate::scene::{Distribution, Generator, Integrator, Output};
 

@@ -1,7 +1,7 @@
 //! Pairs from the list: repulsion, friction and noise with or without memory.
 
 use super::Builder;
-use crate::model::BathStep;
+use crate::families::BathStep;
 use crate::scene::{Bath, Integrator};
 
 impl Builder<'_> {

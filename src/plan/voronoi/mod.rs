@@ -12,7 +12,7 @@ mod report;
 mod tessellation;
 
 use super::{Grid, Kernel, Layout, Options, Plan, Quanta, pair};
-use crate::model::{Model, Voronoi};
+use crate::families::{Model, Voronoi};
 use crate::noise::stream;
 use crate::scene::{Generator, Integrator, Output, VoronoiForm};
 

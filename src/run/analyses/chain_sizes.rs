@@ -2,8 +2,8 @@
 
 use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
+use crate::families::ChainGroup;
 use crate::measure::statistics::estimate;
-use crate::model::ChainGroup;
 use crate::output::files;
 use crate::table::Table;
 use serde_json::{Value, json};

@@ -2,8 +2,8 @@
 
 use super::{Analysis, Conclusion, Setting, bytes};
 use crate::engine::Sample;
+use crate::families::Model;
 use crate::measure::correlation::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
-use crate::model::Model;
 use crate::output::files;
 use crate::scene;
 use crate::table::Table;

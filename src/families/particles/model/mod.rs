@@ -1,0 +1,27 @@
+//! The physics of particles in numbers: pair coefficients, bonds, angles, baths of coordinates, chains.
+
+mod angles;
+mod bonds;
+mod chain_trio;
+mod coloured_noise;
+mod dpd;
+pub(crate) mod forces;
+mod harmonic_chain;
+mod position;
+mod pulse;
+mod thermal_start;
+mod time_scales;
+pub(crate) mod topology;
+
+pub use angles::{Angle, Angles};
+pub use bonds::{Bond, BondKind, Bonds};
+pub use chain_trio::{ChainTrios, Likeness, Strand};
+pub use coloured_noise::{ColouredNoise, Jump};
+pub use dpd::PairForce;
+pub use harmonic_chain::{HarmonicChain, SpringChain};
+pub use position::PositionBath;
+pub use pulse::{HalfPulse, Pulse, half_pulses};
+pub use thermal_start::thermal_start;
+pub(crate) use time_scales::{FREQUENCY_LIMIT, FRICTION_LIMIT};
+pub(crate) use topology::Alike;
+pub use topology::ChainGroup;

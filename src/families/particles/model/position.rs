@@ -1,0 +1,36 @@
+//! Friction and noise on every particle by itself: Langevin dynamics and the generalised Langevin equation.
+
+use crate::families::BathStep;
+use crate::families::Species;
+use crate::scene::{Bath, LangevinInteraction};
+
+/// A heat bath on every coordinate of every particle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PositionBath {
+    /// Temperature kT of the bath.
+    pub temperature: f64,
+    /// Bath step of a coordinate, for each species.
+    pub steps: Vec<BathStep>,
+    /// Whether the bath remembers.
+    pub memory: bool,
+}
+
+impl PositionBath {
+    pub(crate) fn new(
+        interaction: &LangevinInteraction,
+        species: &[Species],
+        temperature: f64,
+        time_step: f64,
+    ) -> Self {
+        let friction = |name: &str| {
+            let own = interaction.species.iter().find(|entry| entry.name == name);
+            own.map_or(interaction.friction, |entry| entry.friction)
+        };
+        let step = |species: &Species| BathStep::of(&interaction.bath, friction(&species.name), time_step);
+        Self {
+            temperature: interaction.bath.temperature(temperature),
+            steps: species.iter().map(step).collect(),
+            memory: matches!(interaction.bath, Bath::Memory { .. }),
+        }
+    }
+}

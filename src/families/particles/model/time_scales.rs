@@ -1,0 +1,66 @@
+//! How fast pair forces act, and the time step that follows.
+
+use super::PairForce;
+use crate::families::{Model, Species};
+use std::f64::consts::PI;
+
+/// Friction that relaxes a velocity by more than this in one step is not resolved.
+pub(crate) const FRICTION_LIMIT: f64 = 0.25;
+
+/// A harmonic oscillator of frequency ω is stable in a Verlet scheme up to ω·dt = 2; half of it leaves some accuracy.
+pub(crate) const FREQUENCY_LIMIT: f64 = 1.0;
+
+impl Model {
+    /// The largest mean friction rate of any species that has particles, and its index: Γ = Σ γρ \[ω\] / (d·m), with \[ω\]
+    /// the weight integrated over the sphere (disc).
+    pub(crate) fn largest_friction_rate(&self, force: &PairForce) -> (f64, usize) {
+        let exponent = force.weight_exponent;
+        let weight = match self.units.dimension {
+            1 => 2.0 * force.cutoff / (exponent + 1.0),
+            2 => 2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
+            _ => 8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
+        };
+        self.largest(|index| {
+            let sum: f64 = self.densities().map(|(other, density)| force.friction(index, other) * density).sum();
+            sum * weight / (self.units.dimension as f64 * self.species[index].mass)
+        })
+    }
+
+    /// The largest frequency of a particle held by evenly spread neighbours, and its species: ω² = Σ aρV(rc) / (d·rc·m), from
+    /// the radial parts of their force constants a/rc alone, which makes it an upper estimate.
+    pub(crate) fn largest_repulsion_frequency(&self, force: &PairForce) -> (f64, usize) {
+        let sphere = match self.units.dimension {
+            1 => 2.0 * force.cutoff,
+            2 => PI * force.cutoff.powi(2),
+            _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
+        };
+        self.largest(|index| {
+            let stiffness: f64 =
+                self.densities().map(|(other, density)| force.repulsion(index, other).abs() * density).sum();
+            let mass = self.species[index].mass;
+            (stiffness * sphere / (self.units.dimension as f64 * force.cutoff * mass)).sqrt()
+        })
+    }
+
+    /// The largest time step that resolves friction and repulsion of pairs; infinite without either.
+    pub(crate) fn pair_step(&self) -> f64 {
+        let Some(force) = &self.pair_force else { return f64::INFINITY };
+        let (rate, _) = self.largest_friction_rate(force);
+        let (frequency, _) = self.largest_repulsion_frequency(force);
+        (FRICTION_LIMIT / rate).min(FREQUENCY_LIMIT / frequency)
+    }
+
+    fn densities(&self) -> impl Iterator<Item = (usize, f64)> {
+        let volume = self.units.volume();
+        self.species.iter().map(move |species| species.count as f64 / volume).enumerate()
+    }
+
+    /// The largest value of a property among the species that have particles, and the first species that has it.
+    fn largest(&self, property: impl Fn(usize) -> f64) -> (f64, usize) {
+        let present = |(_, species): &(usize, &Species)| species.count > 0;
+        self.species.iter().enumerate().filter(present).fold((0.0, 0), |most, (index, _)| {
+            let value = property(index);
+            if value > most.0 { (value, index) } else { most }
+        })
+    }
+}

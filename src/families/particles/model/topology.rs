@@ -1,0 +1,257 @@
+//! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
+
+use crate::scene::Scene;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// Runs of `LENGTH` particles in a row, in order: bonds and angles.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Runs<const LENGTH: usize> {
+    stretches: Vec<Stretch<LENGTH>>,
+}
+
+/// Runs of one kind that one thing describes.
+#[derive(Debug, Clone, PartialEq)]
+struct Stretch<const LENGTH: usize> {
+    kind: u32,
+    shape: Shape<LENGTH>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Shape<const LENGTH: usize> {
+    /// All neighbours along chains of `beads` particles; `starts` runs in each.
+    Chains { first: u64, chains: u64, beads: u64, starts: u64, species: usize },
+    /// Neighbours along particles from `first` on, between two that are elsewhere.
+    Strand { before: u32, first: u32, beads: u32, after: u32, species: usize, end_species: usize },
+    /// Particle numbers that the scene lists.
+    Listed(Vec<[u32; LENGTH]>),
+}
+
+/// What some runs of a kind have in common: the species of their particles, or the particles themselves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Alike<'a, const LENGTH: usize> {
+    /// Runs of particles of one species.
+    Species(usize),
+    /// Runs of particles of one species, one of which at each end is of another.
+    Ended(usize, usize),
+    /// Particle numbers.
+    Listed(&'a [[u32; LENGTH]]),
+}
+
+impl<const LENGTH: usize> Runs<LENGTH> {
+    /// Adds the neighbours along the chains of some species; of all where none are named. A closed chain goes on from its
+    /// last particle to its first, if it is long enough that no particle is its own neighbour and no run is met twice.
+    pub fn add_chains(
+        &mut self,
+        kind: u32,
+        scene: &Scene,
+        named: Option<&[String]>,
+        species: impl Fn(&str) -> Option<usize>,
+    ) {
+        let mut first = 0_u64;
+        for group in &scene.particles {
+            let count = group.resolved_count(scene.space.volume());
+            let asked = named.is_none_or(|names| names.contains(&group.species));
+            if let (Some(chain), true) = (&group.chain, asked) {
+                let beads = u64::from(chain.beads.max(1));
+                let open = beads.saturating_sub(LENGTH as u64 - 1);
+                let starts = if chain.closed && beads > 2 { beads } else { open };
+                let species = species(&group.species).unwrap_or(0);
+                let shape = Shape::Chains { first, chains: count / beads, beads, starts, species };
+                self.stretches.push(Stretch { kind, shape });
+            }
+            first = first.saturating_add(count);
+        }
+    }
+
+    /// Adds listed runs.
+    pub fn add_listed(&mut self, kind: u32, runs: &[[u32; LENGTH]]) {
+        self.stretches.push(Stretch { kind, shape: Shape::Listed(runs.to_vec()) });
+    }
+
+    /// Number of runs.
+    pub fn count(&self) -> u64 {
+        self.stretches.iter().fold(0, |sum, stretch| sum.saturating_add(stretch.shape.count()))
+    }
+
+    /// All runs with their kinds, in order.
+    pub fn iter(&self) -> impl Iterator<Item = ([u32; LENGTH], u32)> {
+        self.stretches
+            .iter()
+            .flat_map(|stretch| (0..stretch.shape.count()).map(|index| (stretch.shape.run(index), stretch.kind)))
+    }
+
+    /// Kinds and what their runs have in common.
+    pub fn alike(&self) -> impl Iterator<Item = (u32, Alike<'_, LENGTH>)> {
+        let of_some = |stretch: &&Stretch<LENGTH>| stretch.shape.count() > 0;
+        self.stretches.iter().filter(of_some).map(|stretch| (stretch.kind, stretch.shape.alike()))
+    }
+}
+
+impl Runs<2> {
+    /// Adds the neighbours along `beads` particles from `first` on, and those of its ends with two particles elsewhere.
+    pub fn add_strand(&mut self, kind: u32, [before, after]: [u32; 2], first: u32, beads: u32, species: [usize; 2]) {
+        let [species, end_species] = species;
+        self.stretches
+            .push(Stretch { kind, shape: Shape::Strand { before, first, beads, after, species, end_species } });
+    }
+
+    /// The largest number of different partners that a particle has in runs of some kinds.
+    pub fn most_partners(&self, asked: impl Fn(u32) -> bool) -> usize {
+        let mut most = 0;
+        let mut listed = HashSet::new();
+        // Groups of chains by their first particle: chains, beads, and whether they are closed.
+        let mut groups: BTreeMap<u64, [u64; 3]> = BTreeMap::new();
+        for stretch in self.stretches.iter().filter(|stretch| asked(stretch.kind)) {
+            match &stretch.shape {
+                Shape::Chains { first, chains, beads, starts, .. } => {
+                    if chains * starts > 0 {
+                        most = most.max((*starts).min(2) as usize);
+                        let group = groups.entry(*first).or_insert([*chains, *beads, 0]);
+                        group[2] = group[2].max(u64::from(starts == beads));
+                    }
+                }
+                Shape::Strand { beads, .. } => most = most.max(if *beads > 0 { 2 } else { 1 }),
+                Shape::Listed(pairs) => listed.extend(pairs.iter().flat_map(|[a, b]| [(*a, *b), (*b, *a)])),
+            }
+        }
+        // A particle in a listed pair has partners along its chain beside.
+        let ends: HashSet<u32> = listed.iter().map(|(end, _)| *end).collect();
+        for end in ends {
+            let Some((first, [chains, beads, closed])) = groups.range(..=u64::from(end)).next_back() else { continue };
+            let place = u64::from(end) - first;
+            if place >= chains * beads {
+                continue;
+            }
+            let (start, bead) = (first + place / beads * beads, place % beads);
+            let after = (*closed == 1 || bead + 1 < *beads).then(|| (bead + 1) % beads);
+            let before = (*closed == 1 || bead > 0).then(|| (bead + beads - 1) % beads);
+            listed.extend([after, before].into_iter().flatten().map(|bead| (end, (start + bead) as u32)));
+        }
+        let mut counts = HashMap::new();
+        for (end, _) in &listed {
+            *counts.entry(*end).or_insert(0_usize) += 1;
+        }
+        counts.into_values().fold(most, usize::max)
+    }
+}
+
+impl<const LENGTH: usize> Shape<LENGTH> {
+    fn count(&self) -> u64 {
+        match self {
+            Self::Chains { chains, starts, .. } => chains.saturating_mul(*starts),
+            Self::Strand { beads, .. } => u64::from(*beads) + 1,
+            Self::Listed(runs) => runs.len() as u64,
+        }
+    }
+
+    /// One of the runs.
+    fn run(&self, index: u64) -> [u32; LENGTH] {
+        match self {
+            Self::Chains { first, beads, starts, .. } => {
+                let (chain, start) = (index / starts, index % starts);
+                std::array::from_fn(|at| (first + chain * beads + (start + at as u64) % beads) as u32)
+            }
+            Self::Strand { before, first, beads, after, .. } => std::array::from_fn(|at| match index + at as u64 {
+                0 => *before,
+                place if place > u64::from(*beads) => *after,
+                place => first + (place - 1) as u32,
+            }),
+            Self::Listed(runs) => runs[index as usize],
+        }
+    }
+
+    fn alike(&self) -> Alike<'_, LENGTH> {
+        match self {
+            Self::Chains { species, .. } => Alike::Species(*species),
+            Self::Strand { species, end_species, .. } => Alike::Ended(*species, *end_species),
+            Self::Listed(runs) => Alike::Listed(runs),
+        }
+    }
+}
+
+/// A group of chains of particles with consecutive numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ChainGroup {
+    /// Number of its first particle.
+    pub first: u32,
+    /// Number of chains.
+    pub chains: u32,
+    /// Particles in a chain.
+    pub beads: u32,
+    /// Whether chains are rings.
+    pub closed: bool,
+    /// Index of the species.
+    pub species: u32,
+}
+
+/// All groups of chains; `species` gives the index of a name.
+pub(crate) fn chain_groups(scene: &Scene, species: impl Fn(&str) -> Option<usize>) -> Vec<ChainGroup> {
+    let mut groups = Vec::new();
+    let mut first = 0_u64;
+    for group in &scene.particles {
+        let count = group.resolved_count(scene.space.volume());
+        if let Some(chain) = &group.chain {
+            let beads = chain.beads.max(1);
+            groups.push(ChainGroup {
+                first: first as u32,
+                chains: (count / u64::from(beads)) as u32,
+                beads,
+                closed: chain.closed && beads > 2,
+                species: species(&group.species).unwrap_or(0) as u32,
+            });
+        }
+        first = first.saturating_add(count);
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chains(first: u64, chains: u64, beads: u64, starts: u64) -> Stretch<2> {
+        Stretch { kind: 0, shape: Shape::Chains { first, chains, beads, starts, species: 0 } }
+    }
+
+    #[test]
+    fn chains_open_and_closed_are_described_without_being_listed() {
+        let runs = Runs { stretches: vec![chains(2, 2, 3, 2), chains(8, 1, 3, 3)] };
+        let all: Vec<[u32; 2]> = runs.iter().map(|(ends, _)| ends).collect();
+        assert_eq!(all, [[2, 3], [3, 4], [5, 6], [6, 7], [8, 9], [9, 10], [10, 8]]);
+        assert_eq!(runs.count(), 7);
+        // Four thousand million beads take no more than ten.
+        let endless = Runs { stretches: vec![chains(0, 400_000_000, 10, 9)] };
+        assert_eq!((endless.count(), endless.most_partners(|_| true)), (3_600_000_000, 2));
+        assert_eq!(endless.iter().nth(9), Some(([10, 11], 0)));
+    }
+
+    /// The number of partners counted by hand.
+    #[test]
+    fn partners_are_those_of_all_runs_together() {
+        let cases: [(Vec<Stretch<2>>, Vec<[u32; 2]>); 5] = [
+            (vec![chains(0, 3, 2, 1)], vec![]),
+            (vec![chains(0, 3, 4, 3)], vec![[0, 1], [1, 5], [1, 9], [3, 4]]),
+            (vec![chains(0, 2, 4, 4), chains(0, 2, 4, 3)], vec![[0, 2], [6, 1]]),
+            (vec![chains(1, 0, 4, 3)], vec![[7, 8]]),
+            (vec![], vec![]),
+        ];
+        for (mut stretches, listed) in cases {
+            stretches.push(Stretch { kind: 0, shape: Shape::Listed(listed) });
+            let runs = Runs { stretches };
+            let mut partners = vec![HashSet::new(); 20];
+            for ([a, b], _) in runs.iter() {
+                partners[a as usize].insert(b);
+                partners[b as usize].insert(a);
+            }
+            let counted = partners.iter().map(HashSet::len).max().unwrap_or(0);
+            assert_eq!(runs.most_partners(|_| true), counted, "{runs:?}");
+        }
+    }
+
+    #[test]
+    fn a_strand_hangs_between_its_ends() {
+        let mut runs = Runs::<2>::default();
+        runs.add_strand(3, [20, 21], 5, 2, [0, 2]);
+        assert_eq!(runs.iter().collect::<Vec<_>>(), [([20, 5], 3), ([5, 6], 3), ([6, 21], 3)]);
+    }
+}

@@ -1,0 +1,220 @@
+//! All couplings and baths at once: pairs, coordinates, bonds, angles, tethers and coloured noise, each with the bath the
+//! scene gives it, by the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, and its limit without
+//! memory (18)-(21).
+//!
+//! ```text
+//! p(n+½) = p(n) - dt/2 [∇V + Σ ∇h s(n)]                                               (14)
+//! r(n+1) = r(n) + dt p(n+½) / m                                                       (15)
+//! s(n+1) = e s(n) + λₑ(1+e)/2 [h(r(n+1)) - h(r(n))] + √(kTλₑ(1-e²)) ξ                 (16)
+//! p(n+1) = p(n+½) - dt/2 [∇V + Σ ∇h s(n+1)]                                           (17)
+//! ```
+//! Without memory e = 0 and λₑ = 2γ/dt. The state keeps r(n) and p(n-½), so that (16), (17), (14) and (15) make a step, in
+//! this order. Every coupling forms its half kick, -dt/2 (∇V + ∇h s), once; it is applied twice, closing and opening.
+//! Impulses of couplings between particles are rounded once and handed to all ends, so that nothing depends on their order.
+//!
+//! At step 0 the momenta are those of the report point, and baths with memory are as they are in the state: nothing is
+//! closed. Baths without memory take the initial momenta for those that brought the particles there.
+
+mod angles;
+mod bath;
+mod bonds;
+mod coloured_noise;
+mod motion;
+mod observables;
+mod pair_list;
+mod pairs;
+mod position_baths;
+mod tethers;
+
+use crate::families::Model;
+use crate::families::Observables;
+use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow, widen};
+use crate::prediction;
+use crate::scene::Integrator;
+use crate::state::State;
+use bath::BathSums;
+use motion::Motion;
+
+/// A model of couplings and baths and its state, stepped on the CPU: the reference of every scene whose model
+/// [is coupled](Model::is_coupled).
+///
+/// With the integrator `groot-warren` baths without memory see velocities, as they do in
+/// [`Reference`](super::Reference); with every other one they see the discrete gradient of `cotter-reich`. Baths with
+/// memory are the same in both.
+///
+/// ```
+/// use mesoscope::{families::Model, families::reference::CouplingsReference, scene};
+///
+/// let scene = scene::load("langevin-gas", &["space.box=[4,4,4]".to_owned()])?;
+/// let model = Model::new(&scene);
+/// assert!(model.is_coupled() && !model.conserves_momentum());
+/// let start = families::initial_state(&scene, &model);
+/// let mut reference = CouplingsReference::new(model, start.clone());
+/// reference.run(10)?;
+/// assert_ne!(reference.state().total_momentum(), start.total_momentum());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct CouplingsReference {
+    model: Model,
+    state: State,
+    masses: Vec<f64>,
+}
+
+/// What a step finds at its report point.
+struct Evaluation {
+    /// p(n), in integer units.
+    momenta: Vec<[i64; 3]>,
+    /// The opening kick that follows.
+    opening: Vec<[i64; 3]>,
+    /// What the baths are at n, with a list renewed if it had to be; positions and momenta are left empty.
+    baths: State,
+    /// Of the baths with memory.
+    bath_sums: BathSums,
+    /// Σ r·F over pairs and bonds, of all forces of the step.
+    total_virial: f64,
+}
+
+impl CouplingsReference {
+    /// A reference run from a state whose species are indices into those of the model.
+    #[must_use]
+    pub fn new(model: Model, state: State) -> Self {
+        let masses = state.species.iter().map(|&species| model.species[species as usize].mass).collect();
+        Self { model, state, masses }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state between steps: r(n) and p(n-½), as the GPU keeps it. Bath variables are those of the step before, s(n-1),
+    /// but at step 0, where they are s(0).
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Unstable`] when a momentum or a drift does not fit the integer state or a bond is too long, and the state is then
+    /// left as it was.
+    pub fn step(&mut self) -> Result<(), Unstable> {
+        let step = self.state.step;
+        let Evaluation { mut momenta, opening, baths, .. } = self.evaluate()?;
+        add(&mut momenta, &opening);
+        let advanced = narrow(&momenta, step)?;
+        let mut predicted = Vec::new();
+        if let Integrator::GrootWarren { lambda } = self.model.integrator
+            && lambda != 0.5
+        {
+            predicted = prediction::predicted(&advanced, &opening, lambda);
+        }
+        let drifts = motion::drifts(&self.model, &self.masses, &advanced);
+        let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
+        if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
+            return Err(Unstable::Drift { step, particle });
+        }
+        for (position, drift) in self.state.positions.iter_mut().zip(&drifts) {
+            for axis in 0..3 {
+                position[axis] = position[axis].wrapping_add(drift[axis] as u32);
+            }
+        }
+        self.state.momenta = advanced;
+        self.state.predicted = predicted;
+        self.state.step = step + 1;
+        self.state.pair_baths = baths.pair_baths;
+        self.state.anchors = baths.anchors;
+        self.state.position_baths = baths.position_baths;
+        self.state.bond_baths = baths.bond_baths;
+        self.state.holds = baths.holds;
+        Ok(())
+    }
+
+    /// Advances by a number of steps.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; the state is then that before the failing step.
+    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
+    /// Measures at the report point of the current step, without changing the state.
+    ///
+    /// # Errors
+    /// [`Unstable::Bond`] for a bond that is too long.
+    pub fn observe(&self) -> Result<Observables, Unstable> {
+        Ok(observables::observe(self, &self.evaluate()?))
+    }
+
+    /// Positions and momenta at the report point of the current step, r(n) and p(n).
+    ///
+    /// # Errors
+    /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
+    pub fn reported_state(&self) -> Result<State, Unstable> {
+        let momenta = narrow(&self.evaluate()?.momenta, self.state.step)?;
+        Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+    }
+
+    /// Everything at the report point of the current step.
+    fn evaluate(&self) -> Result<Evaluation, Unstable> {
+        let (model, state) = (&self.model, &self.state);
+        let motion = Motion::of(model, state, &self.masses);
+        let mut kick = vec![[0; 3]; state.len()];
+        let mut bath_sums = BathSums::default();
+        let mut baths = State::default();
+        let mut total_virial = 0.0;
+
+        if let Some(force) = &model.pair_force {
+            if force.remembers() {
+                (baths.pair_baths, baths.anchors) = pair_list::renew(model, force, state);
+            }
+            total_virial += pairs::kick(model, force, state, &motion, &mut baths.pair_baths, &mut kick, &mut bath_sums);
+        }
+        if let Some(bonds) = &model.bonds {
+            let found = bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums)?;
+            (baths.bond_baths, total_virial) = (found.baths, total_virial + found.virial);
+        }
+        if let Some(angles) = &model.angles {
+            angles::kick(model, angles, &state.positions, &mut kick);
+        }
+        if let Some(bath) = &model.position_bath {
+            baths.position_baths = position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
+        }
+        if let Some(stiffness) = model.tether {
+            tethers::kick(model, stiffness, state, &mut kick);
+        }
+
+        let mut momenta = widen(&state.momenta);
+        let mut opening = kick.clone();
+        if state.step > 0 {
+            add(&mut momenta, &kick);
+        }
+        if let Some(noise) = &model.coloured_noise {
+            let held = coloured_noise::advance(model, noise, state);
+            add(&mut momenta, &held.closing);
+            add(&mut opening, &held.opening);
+            baths.holds = held.holds;
+        }
+        for particle in (0..state.len()).filter(|&particle| is_fixed(model, state, particle)) {
+            momenta[particle] = [0; 3];
+            opening[particle] = [0; 3];
+        }
+        Ok(Evaluation { momenta, opening, baths, bath_sums, total_virial })
+    }
+}
+
+/// Whether a particle is held where it is.
+fn is_fixed(model: &Model, state: &State, particle: usize) -> bool {
+    model.species[state.species[particle] as usize].fixed
+}
+
+/// Adds an impulse to that of one particle, rounded half to even to whole units.
+fn push(sum: &mut [i64; 3], impulse: [f64; 3], unit: f64) {
+    for axis in 0..3 {
+        sum[axis] +=
+            (impulse[axis] / unit).round_ties_even().clamp(-super::pairs::MOST_UNITS, super::pairs::MOST_UNITS) as i64;
+    }
+}

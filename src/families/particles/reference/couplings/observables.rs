@@ -1,0 +1,237 @@
+//! Sums over particles, pairs, bonds, angles, tethers and baths at the report point.
+//!
+//! The virial is that of pairs and bonds. Angles have none: cos θ does not change when all arms are stretched alike, so that
+//! Σ r·F = 0. Tethers and baths of coordinates pull at points in space and add nothing to the pressure between particles.
+//! The configurational temperature is that of the particles that can move.
+
+use super::angles::Corner;
+use super::bonds::{self, Potential};
+use super::{CouplingsReference, Evaluation, is_fixed, pairs, tethers};
+use crate::families::Bonds;
+use crate::families::Observables;
+use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
+
+/// Sums of the potential and its derivatives.
+struct Configuration {
+    potential: f64,
+    virial: f64,
+    gradients: Vec<[f64; 3]>,
+    laplacians: Vec<f64>,
+    dimension: usize,
+}
+
+impl Configuration {
+    /// Adds the potential V of a distance with its derivatives V' and V''. Two particles in the same place have no
+    /// direction, and no derivatives.
+    fn add(&mut self, pair: &Pair, [energy, slope, curvature]: [f64; 3]) {
+        self.potential += energy;
+        self.virial -= pair.distance * slope;
+        if pair.distance == 0.0 {
+            return;
+        }
+        let direction = pair.direction();
+        let laplacian = curvature + (self.dimension - 1) as f64 * slope / pair.distance;
+        for (end, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
+            self.laplacians[end] += laplacian;
+            for axis in 0..3 {
+                self.gradients[end][axis] += sign * slope * direction[axis];
+            }
+        }
+    }
+}
+
+/// All observables of the report point.
+pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -> Observables {
+    let (model, state) = (&reference.model, &reference.state);
+    let mut total = [0_i64; 3];
+    let mut kinetic_energy = 0.0;
+    for (momentum, mass) in evaluation.momenta.iter().zip(&reference.masses) {
+        for axis in 0..3 {
+            total[axis] += momentum[axis];
+            kinetic_energy += (momentum[axis] as f64 * model.units.momentum).powi(2) / (2.0 * mass);
+        }
+    }
+    let configuration = configuration(reference);
+    let mobile = |particle: &usize| !is_fixed(model, state, *particle);
+    let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
+    let baths = evaluation.bath_sums;
+    Observables {
+        step: state.step,
+        particles: state.len() as u64,
+        mobile: model.mobile_particles(),
+        dimension: model.units.dimension,
+        volume: model.units.volume(),
+        mass: reference.masses.iter().sum(),
+        kinetic_energy,
+        potential_energy: configuration.potential,
+        gradient_squared: (0..state.len()).filter(mobile).map(squares).sum(),
+        laplacian: (0..state.len()).filter(mobile).map(|particle| configuration.laplacians[particle]).sum(),
+        conservative_virial: configuration.virial,
+        total_virial: evaluation.total_virial,
+        momentum: total.map(|units| units as f64 * model.units.momentum),
+        about_centre_of_mass: model.measures_about_centre_of_mass(),
+        bath_energy: baths.energy,
+        bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
+        cells: None,
+    }
+}
+
+fn configuration(reference: &CouplingsReference) -> Configuration {
+    let (model, state) = (&reference.model, &reference.state);
+    let count = state.len();
+    let dimension = model.units.dimension;
+    let mut sums = Configuration {
+        potential: 0.0,
+        virial: 0.0,
+        gradients: vec![[0.0; 3]; count],
+        laplacians: vec![0.0; count],
+        dimension,
+    };
+    if let Some(force) = &model.pair_force {
+        let excluded = pairs::excluded_pairs(model);
+        for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
+            if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
+                continue;
+            }
+            // V = a rc/2 (1 - r/rc)².
+            let magnitude = Forces::between(model, &state.species, &pair).conservative;
+            let closeness = 1.0 - pair.distance / force.cutoff;
+            let repulsion = force.repulsion(state.species[pair.first] as usize, state.species[pair.second] as usize);
+            sums.add(&pair, [0.5 * force.cutoff * magnitude * closeness, -magnitude, repulsion / force.cutoff]);
+        }
+    }
+    for bond in model.bonds.iter().flat_map(Bonds::iter) {
+        let kind = model.bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
+        let pair = bonds::span(model, &bond, &state.positions);
+        let potential = kind.and_then(|kind| kind.potential.as_ref());
+        if let Some(potential) = Potential::at(potential, pair.distance) {
+            sums.add(&pair, [potential.energy, potential.slope, potential.curvature]);
+        }
+    }
+    if let Some(angles) = &model.angles {
+        for angle in angles.iter() {
+            let stiffness = angles.stiffness[angle.kind as usize];
+            let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
+            sums.potential += stiffness * (1.0 + corner.cosine);
+            let [first, last] = corner.gradients();
+            let middle = std::array::from_fn(|axis| -first[axis] - last[axis]);
+            let derivatives = [first, middle, last].into_iter().zip(corner.laplacians(dimension));
+            for (end, (gradient, laplacian)) in angle.ends.iter().zip(derivatives) {
+                sums.laplacians[*end as usize] += stiffness * laplacian;
+                for axis in 0..3 {
+                    sums.gradients[*end as usize][axis] += stiffness * gradient[axis];
+                }
+            }
+        }
+    }
+    if let Some(stiffness) = model.tether {
+        for particle in 0..count {
+            let way = tethers::displacement(model, state, particle);
+            for axis in 0..3 {
+                sums.potential += 0.5 * stiffness * way[axis] * way[axis];
+                sums.gradients[particle][axis] += stiffness * way[axis];
+            }
+            sums.laplacians[particle] += stiffness * dimension as f64;
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::families::Model;
+    use crate::scene::Scene;
+    use serde_json::json;
+
+    /// Particles at arbitrary places with every potential there is between them, one of them fixed.
+    fn crowd(dimension: usize) -> CouplingsReference {
+        let positions: Vec<Vec<f64>> = (0..6_u32)
+            .map(|id| (0..dimension as u32).map(|axis| 2.0 + 0.4 * f64::from((id * (3 + axis) + axis) % 7)).collect())
+            .collect();
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "space": {"box": vec![8.0; dimension]}, "time": {"step": 0.01, "steps": 1},
+            "temperature": 0.0, "integrator": {"type": "cotter-reich"},
+            "particles": [
+                {"species": "A", "placement": {"type": "listed", "positions": positions[..5]},
+                    "velocities": {"type": "listed", "velocities": vec![vec![1.0; dimension]; 5]}},
+                {"species": "B", "fixed": true, "placement": {"type": "listed", "positions": positions[5..]}}],
+            "interactions": [
+                {"type": "dpd", "cutoff": 2.5, "repulsion": 25.0},
+                {"type": "bonds", "pairs": [[0, 1], [2, 1], [3, 5]], "exclude_repulsion": true,
+                    "potential": {"type": "harmonic", "stiffness": 30.0, "length": 0.7}},
+                {"type": "bonds", "pairs": [[1, 4]], "potential": {"type": "fene", "stiffness": 20.0, "extent": 9.0}},
+                {"type": "angles", "triples": [[0, 1, 2], [4, 3, 5], [0, 5, 1]], "stiffness": 6.0},
+                {"type": "tether", "stiffness": 4.0}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let mut state = crate::families::initial_state(&scene, &model);
+        for (id, tether) in state.tethers.iter_mut().enumerate() {
+            tether[0] = tether[0].wrapping_add(10_000_000 * id as u32);
+        }
+        CouplingsReference::new(model, state)
+    }
+
+    /// Sums of derivatives, and the impulses of a step without heat, against differences of the potential.
+    #[test]
+    fn derivatives_are_those_of_the_potential() {
+        for dimension in 1..=3 {
+            let reference = crowd(dimension);
+            let here = reference.observe().unwrap();
+            let shift = 50_000_u32;
+            let length = 2.0 * f64::from(shift) * 8.0 / 4_294_967_296.0;
+            let (mut squares, mut laplacian) = (0.0, 0.0);
+            let mut after = reference.clone();
+            after.step().unwrap();
+            for id in 0..6 {
+                for axis in 0..dimension {
+                    let energy = |shift: u32| {
+                        let mut moved = reference.clone();
+                        moved.state.positions[id][axis] = moved.state.positions[id][axis].wrapping_add(shift);
+                        moved.observe().unwrap().potential_energy
+                    };
+                    let [less, more] = [energy(shift.wrapping_neg()), energy(shift)];
+                    let slope = (more - less) / length;
+                    let unit = reference.model.units.momentum;
+                    let [before, after] = [&reference, &after].map(|run| f64::from(run.state.momenta[id][axis]) * unit);
+                    if id == 5 {
+                        assert_eq!((before, after), (0.0, 0.0), "a fixed particle does not move");
+                        continue;
+                    }
+                    assert!(
+                        (after - before + 0.005 * slope).abs() < 1e-5 * slope.abs().max(1.0),
+                        "{dimension} {id} {axis}: {slope}"
+                    );
+                    squares += slope * slope;
+                    laplacian += (more - 2.0 * here.potential_energy + less) / (0.5 * length).powi(2);
+                }
+            }
+            assert!((here.gradient_squared / squares - 1.0).abs() < 1e-6, "{dimension}: {squares}");
+            assert!((here.laplacian / laplacian - 1.0).abs() < 1e-4, "{dimension}: {} {laplacian}", here.laplacian);
+        }
+    }
+
+    /// Σ r·F of pairs, bonds and angles is minus the derivative of the potential when everything is stretched.
+    #[test]
+    fn the_virial_is_that_of_a_stretched_box() {
+        for dimension in 1..=3 {
+            let mut reference = crowd(dimension);
+            // Tethers and what is held pull at points in space.
+            reference.model.tether = None;
+            let energy = |factor: f64| {
+                let mut stretched = reference.clone();
+                for length in &mut stretched.model.units.lengths[..dimension] {
+                    *length *= factor;
+                }
+                stretched.observe().unwrap().potential_energy
+            };
+            let slope = (energy(1.0 + 1e-5) - energy(1.0 - 1e-5)) / 2e-5;
+            let found = reference.observe().unwrap();
+            assert!((found.conservative_virial / -slope - 1.0).abs() < 1e-6, "{dimension}: {slope}");
+            assert!((found.total_virial / found.conservative_virial - 1.0).abs() < 1e-12, "{dimension}");
+        }
+    }
+}

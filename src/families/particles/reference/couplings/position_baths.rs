@@ -1,0 +1,45 @@
+//! Langevin dynamics: a bath coupled to every coordinate of every particle by itself, h = x.
+
+use super::bath::{self, BathSums};
+use super::motion::Motion;
+use super::{is_fixed, push};
+use crate::families::{Model, PositionBath};
+use crate::noise::{self, stream};
+use crate::state::State;
+
+/// Adds the half kicks of all baths and gives their variables, where they remember.
+pub(super) fn kick(
+    model: &Model,
+    bath: &PositionBath,
+    state: &State,
+    motion: &Motion,
+    kick: &mut [[i64; 3]],
+    bath_sums: &mut BathSums,
+) -> Vec<[u32; 3]> {
+    let key = noise::step_key(model.seed, stream::PARTICLE, state.step);
+    let mut baths = state.position_baths.clone();
+    for (particle, sum) in kick.iter_mut().enumerate() {
+        let step = &bath.steps[state.species[particle] as usize];
+        let drift = if bath.memory { motion.drift(particle) } else { motion.drift_seen(particle) };
+        let mut impulse = [0.0; 3];
+        for axis in 0..model.units.dimension {
+            let words = noise::words(model.generator, key, [particle as u32, axis as u32]);
+            let next = |before| bath::advanced(step, bath.temperature, before, drift[axis], noise::gaussian(words));
+            let value = if bath.memory {
+                let before = f64::from(f32::from_bits(state.position_baths[particle][axis]));
+                if state.step == 0 { before } else { next(before) }
+            } else {
+                next(0.0)
+            };
+            if bath.memory {
+                baths[particle][axis] = (value as f32).to_bits();
+                if !is_fixed(model, state, particle) {
+                    bath_sums.add(step, value);
+                }
+            }
+            impulse[axis] = -0.5 * model.time_step * value;
+        }
+        push(sum, impulse, model.units.momentum);
+    }
+    baths
+}

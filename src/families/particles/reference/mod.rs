@@ -1,0 +1,220 @@
+//! Pairs without memory, and all couplings and baths, in float64.
+
+mod cotter_reich;
+mod couplings;
+mod groot_warren;
+mod observables;
+pub(crate) mod pairs;
+mod splitting;
+
+pub use couplings::CouplingsReference;
+pub use splitting::Relaxation;
+
+use crate::families::Model;
+use crate::families::Observables;
+use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow};
+use crate::prediction;
+use crate::scene::Integrator;
+use crate::state::State;
+use pairs::Pair;
+
+/// What an integrator finds at the report point of a step.
+struct Report {
+    /// p(n), in integer units.
+    momenta: Vec<[i64; 3]>,
+    /// The opening kick that follows.
+    kick: Vec<[i64; 3]>,
+    /// Σ r·F over pairs, of all forces of the step.
+    total_virial: f64,
+}
+
+/// A model and its state, stepped on the CPU.
+///
+/// ```
+/// use mesoscope::{families::Model, families::reference::Reference, scene};
+///
+/// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let model = Model::new(&scene);
+/// let start = families::initial_state(&scene, &model);
+/// let mut reference = Reference::new(model, start.clone());
+/// reference.run(20)?;
+/// assert_eq!(reference.state().step, 20);
+/// assert_eq!(reference.state().total_momentum(), start.total_momentum());
+/// assert!(reference.observe()?.pressure() > 15.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Reference {
+    model: Model,
+    state: State,
+    masses: Vec<f64>,
+    relaxation: Relaxation,
+}
+
+impl Reference {
+    /// A reference run from a state whose species are indices into those of the model.
+    #[must_use]
+    pub fn new(model: Model, state: State) -> Self {
+        Self::with_relaxation(model, state, Relaxation::default())
+    }
+
+    /// The same with another rule for the O step of the integrator `splitting`.
+    #[must_use]
+    pub fn with_relaxation(model: Model, state: State, relaxation: Relaxation) -> Self {
+        let masses = state.species.iter().map(|&species| model.species[species as usize].mass).collect();
+        Self { model, state, masses, relaxation }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state between steps: r(n) and p(n-½), as the GPU keeps it.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Unstable`] when a momentum or a drift does not fit the integer state, which is then left as it was.
+    pub fn step(&mut self) -> Result<(), Unstable> {
+        let Report { mut momenta, kick, .. } = self.report(&self.pairs());
+        add(&mut momenta, &kick);
+        let mut next =
+            State { step: self.state.step + 1, momenta: narrow(&momenta, self.state.step)?, ..State::default() };
+        if let Integrator::GrootWarren { lambda } = self.model.integrator
+            && lambda != 0.5
+        {
+            next.predicted = prediction::predicted(&next.momenta, &kick, lambda);
+        }
+        let kept = std::mem::replace(&mut self.state.momenta, next.momenta);
+        let drifts: Vec<[i64; 3]> = (0..kept.len()).map(|particle| self.drift(particle)).collect();
+        let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
+        if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
+            self.state.momenta = kept;
+            return Err(Unstable::Drift { step: self.state.step, particle });
+        }
+        for (position, drift) in self.state.positions.iter_mut().zip(&drifts) {
+            for axis in 0..3 {
+                position[axis] = position[axis].wrapping_add(drift[axis] as u32);
+            }
+        }
+        self.state.predicted = next.predicted;
+        self.state.step = next.step;
+        Ok(())
+    }
+
+    /// Advances by a number of steps.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; the state is then that before the failing step.
+    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
+        (0..steps).try_for_each(|_| self.step())
+    }
+
+    /// Measures at the report point of the current step, without changing the state: the motion at r(n), p(n), and the
+    /// configuration there too, but for a split step at [`Self::state_between_forces`].
+    ///
+    /// # Errors
+    /// [`Unstable`] as [`Self::step`], of a split step only.
+    pub fn observe(&self) -> Result<Observables, Unstable> {
+        let found = self.pairs();
+        let report = self.report(&found);
+        let configuration = if self.model.splits() {
+            let range = self.model.pair_force.as_ref().map_or(0.0, |force| force.cutoff);
+            pairs::find_pairs(&self.model.units, &self.state_between_forces()?.positions, range)
+        } else {
+            found
+        };
+        Ok(observables::observe(self, &configuration, &report))
+    }
+
+    /// Positions and momenta of the motion at the report point of the current step, r(n) and p(n): full-step momenta,
+    /// for a split step those after the relaxation.
+    ///
+    /// # Errors
+    /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
+    pub fn reported_state(&self) -> Result<State, Unstable> {
+        let momenta = narrow(&self.report(&self.pairs()).momenta, self.state.step)?;
+        Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+    }
+
+    /// The state half a drift after the report point of the current step: r(n) + dt/2 p(n+½)/m and p(n+½).
+    ///
+    /// There the symmetric step A(½) B(½) O B(½) A(½) of the integrator `splitting` begins and ends. Its positions are
+    /// distributed more accurately there than where the forces are evaluated: for a harmonic oscillator under strong
+    /// friction exactly, against 1 / (1 - K dt²/4m) times too wide.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn state_between_forces(&self) -> Result<State, Unstable> {
+        let mut ahead = self.clone();
+        ahead.step()?;
+        let mut state = self.state.clone();
+        for (particle, position) in state.positions.iter_mut().enumerate() {
+            for (position, drift) in position.iter_mut().zip(ahead.drift(particle)) {
+                *position = position.wrapping_add((drift / 2) as u32);
+            }
+        }
+        Ok(State { momenta: ahead.state.momenta, predicted: Vec::new(), ..state })
+    }
+
+    /// Counts of unordered pairs in `bins` equal bins of distance up to `range`, which is at most half the shortest
+    /// box edge.
+    ///
+    /// ```
+    /// # use mesoscope::{families::Model, families::reference::Reference, scene, state::State};
+    /// # let scene = scene::load("dpd-fluid", &[])?;
+    /// # let model = Model::new(&scene);
+    /// // Three particles in a row, 0.6 and 1.8 apart.
+    /// let positions = [0.0, 0.6, 2.4].map(|x| model.units.fraction([x, 0.0, 0.0])).to_vec();
+    /// let state = State { positions, momenta: vec![[0; 3]; 3], species: vec![0; 3], ..State::default() };
+    /// let reference = Reference::new(model, state);
+    /// assert_eq!(reference.radial_distribution(3.0, 6), [0, 1, 0, 1, 1, 0]);
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn radial_distribution(&self, range: f64, bins: usize) -> Vec<u64> {
+        observables::radial_distribution(self, range, bins)
+    }
+
+    fn pairs(&self) -> Vec<Pair> {
+        let Some(force) = &self.model.pair_force else { return Vec::new() };
+        pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
+    }
+
+    fn report(&self, found: &[Pair]) -> Report {
+        match self.model.integrator {
+            Integrator::GrootWarren { .. } => groot_warren::report(self, found),
+            Integrator::CotterReich {} => cotter_reich::report(self, found),
+            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                splitting::report(self, found)
+            }
+        }
+    }
+
+    /// dt p/m of the momenta in the state, in whole units of the box fraction, rounded half to even.
+    fn drift(&self, particle: usize) -> [i64; 3] {
+        let momentum = self.model.units.momentum(self.state.momenta[particle]);
+        // A split step drifts in two equal halves, between which a report may fall.
+        let parts = if self.model.splits() { 2 } else { 1 };
+        std::array::from_fn(|axis| {
+            let distance = self.model.time_step * momentum[axis] / self.masses[particle] / parts as f64;
+            let units = (distance / self.model.units.lengths[axis] * 4_294_967_296.0).round_ties_even();
+            parts * units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
+        })
+    }
+
+    /// vᵢ - vⱼ of a pair.
+    fn relative_velocity(&self, momenta: &[[i64; 3]], pair: &Pair) -> [f64; 3] {
+        let scale_i = self.model.units.momentum / self.masses[pair.first];
+        let scale_j = self.model.units.momentum / self.masses[pair.second];
+        let (momentum_i, momentum_j) = (momenta[pair.first], momenta[pair.second]);
+        std::array::from_fn(|axis| momentum_i[axis] as f64 * scale_i - momentum_j[axis] as f64 * scale_j)
+    }
+}

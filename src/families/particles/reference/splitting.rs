@@ -1,0 +1,150 @@
+//! The splitting A(½) B(½) O B(½) A(½), with friction and noise applied at the half-drifted positions.
+//!
+//! A drifts, B kicks by the conservative force, O relaxes the relative velocities of all pairs along their lines of
+//! centres. Its report point is in the middle, just after O, where B and O see the same pairs; what the state keeps is
+//! cut just before the closing B: two half drifts make one.
+//!
+//! ```text
+//! p'   = p(n-½) + C(n)           closing kick, C = dt/2 F(r(n))
+//! p(n) = p' + Σ J                O
+//! p(n+½) = p(n) + C(n)           opening kick
+//! r(n+1) = r(n) + dt p(n+½) / m
+//! ```
+//! The initial momenta are those of the report point of step 0, so that closing kick and O are left out there.
+
+use super::pairs::{self, Forces, Pair, dot};
+use super::{Reference, Report};
+use crate::families::Model;
+use crate::families::reference::{add, widen};
+use crate::noise::{self, stream};
+
+/// The rule by which O relaxes the velocities of pairs that share particles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Relaxation {
+    /// Exponential relaxation in the mean field of all pairs that share a particle; the rule of the device.
+    ///
+    /// A pair alone relaxes at the rate g/μ, g = γω dt. All pairs act from the same velocities, so a pair's relative
+    /// velocity relaxes at the rate s that its particles feel from all their pairs, those other than itself counted with
+    /// the mean projection 1/d of one direction on another:
+    /// s = μ (g/μ² + (Γᵢ - g)/(d mᵢ²) + (Γⱼ - g)/(d mⱼ²)), Γᵢ the sum of g over the pairs of i. The impulse is
+    /// -g (1 - e⁻ˢ)/s u + √(kT g (1 - e⁻²ˢ)/s) ζ: for a pair alone the exact solution.
+    #[default]
+    MeanField,
+    /// Each pair by the exact solution for that pair alone, all from the same momenta.
+    Exponential,
+    /// The implicit midpoint rule for all pairs at once, by fixed-point iteration from the explicit rule.
+    Midpoint {
+        /// Number of corrections; none is the explicit rule.
+        corrections: u32,
+    },
+}
+
+/// Momenta after O and the kick that follows.
+pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
+    let (model, state) = (&reference.model, &reference.state);
+    let mut kick = vec![[0; 3]; state.len()];
+    let mut total_virial = 0.0;
+    for pair in found {
+        let force = Forces::between(model, &state.species, pair).conservative;
+        let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
+        pairs::exchange(&mut kick, pair, impulse, model.units.momentum);
+        total_virial += pair.distance * force;
+    }
+    let mut momenta = widen(&state.momenta);
+    if state.step > 0 {
+        add(&mut momenta, &kick);
+        let (impulses, virial) = relax(reference, found, &momenta);
+        add(&mut momenta, &impulses);
+        total_virial += virial / model.time_step;
+    }
+    Report { momenta, kick, total_virial }
+}
+
+/// The sums of the impulses of O, and Σ r·J over pairs.
+fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i64; 3]>, f64) {
+    let (model, state) = (&reference.model, &reference.state);
+    let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let couplings: Vec<_> = found
+        .iter()
+        .map(|pair| {
+            let forces = Forces::between(model, &state.species, pair);
+            let rate = forces.friction * forces.weight * forces.weight;
+            let noise = if rate > 0.0 && model.pair_temperature() > 0.0 { pairs::noise(model, key, pair) } else { 0.0 };
+            (rate, noise)
+        })
+        .collect();
+    let corrections = match reference.relaxation {
+        Relaxation::MeanField | Relaxation::Exponential => 0,
+        Relaxation::Midpoint { corrections } => corrections,
+    };
+    let mut fields = vec![0.0; state.len()];
+    for (pair, &(rate, _)) in found.iter().zip(&couplings) {
+        fields[pair.first] += rate * model.time_step;
+        fields[pair.second] += rate * model.time_step;
+    }
+    let mut seen = momenta.to_vec();
+    let mut correction = 0;
+    loop {
+        let mut sums = vec![[0; 3]; state.len()];
+        let mut virial = 0.0;
+        for (pair, &(rate, noise)) in found.iter().zip(&couplings) {
+            let approach = dot(pair.direction(), reference.relative_velocity(&seen, pair));
+            let inverse = [1.0 / reference.masses[pair.first], 1.0 / reference.masses[pair.second]];
+            let reduced_mass = 1.0 / (inverse[0] + inverse[1]);
+            let impulse = if reference.relaxation == Relaxation::MeanField {
+                let own = rate * model.time_step;
+                let others =
+                    (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
+                let among = reduced_mass * (own / reduced_mass.powi(2) + others / model.units.dimension as f64);
+                mean_field_relaxation(model.pair_temperature(), own, among, approach, noise)
+            } else {
+                pair_relaxation(reference.relaxation, model, rate, reduced_mass, approach, noise)
+            };
+            pairs::exchange(
+                &mut sums,
+                pair,
+                pair.direction().map(|component| impulse * component),
+                model.units.momentum,
+            );
+            virial += pair.distance * impulse;
+        }
+        if correction == corrections {
+            return (sums, virial);
+        }
+        correction += 1;
+        for (seen, (momentum, sum)) in seen.iter_mut().zip(momenta.iter().zip(&sums)) {
+            for axis in 0..3 {
+                seen[axis] = momentum[axis] + (sum[axis] as f64 / 2.0).round_ties_even() as i64;
+            }
+        }
+    }
+}
+
+/// The impulse along e of a pair with g = `own` that relaxes at the rate s = `among` with all others.
+fn mean_field_relaxation(temperature: f64, own: f64, among: f64, approach: f64, noise: f64) -> f64 {
+    if among == 0.0 {
+        return 0.0;
+    }
+    let relaxed = -(-among).exp_m1() / among;
+    let spread = -(-2.0 * among).exp_m1() / among;
+    -own * relaxed * approach + (temperature * own * spread).sqrt() * noise
+}
+
+/// The impulse along e that a pair with friction `rate` = γω gets from its velocity of approach u = e·(vᵢ - vⱼ) and
+/// its noise ζ.
+fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64, approach: f64, noise: f64) -> f64 {
+    match rule {
+        Relaxation::Exponential => {
+            // u relaxes to the Maxwell distribution of width √(kT/μ) at the rate γω/μ.
+            let exponent = rate * model.time_step / reduced_mass;
+            let decay = -(-exponent).exp_m1();
+            let spread = (model.pair_temperature() / reduced_mass * -(-2.0 * exponent).exp_m1()).sqrt();
+            reduced_mass * (-decay * approach + spread * noise)
+        }
+        Relaxation::MeanField | Relaxation::Midpoint { .. } => {
+            let amplitude = (2.0 * rate * model.pair_temperature() * model.time_step).sqrt();
+            -rate * model.time_step * approach + amplitude * noise
+        }
+    }
+}

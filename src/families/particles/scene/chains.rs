@@ -1,0 +1,75 @@
+//! Bonds and angles: what a scene says about them.
+
+use crate::scene::Bath;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Bonds along chains, or between listed particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BondsInteraction {
+    /// Species whose chains are bonded; left out, all chains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
+    pub species: Option<Vec<String>>,
+    /// Pairs of particle numbers to bond, in place of chains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<[u32; 2]>,
+    /// The potential; left out, none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub potential: Option<BondPotential>,
+    /// Friction γ along the bond.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// The heat bath of every bond, coupled to its length.
+    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    pub bath: Bath,
+    /// Whether bonded particles are spared each other's repulsion.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub exclude_repulsion: bool,
+}
+
+/// The potential of a bond of length r.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum BondPotential {
+    /// V = K(r - r₀)²/2.
+    Harmonic {
+        /// Spring constant K.
+        #[schemars(range(min = 0.0))]
+        stiffness: f64,
+        /// Length r₀ at rest.
+        #[serde(default)]
+        #[schemars(range(min = 0.0))]
+        length: f64,
+    },
+    /// Finitely extensible: V = -K R²/2 ln(1 - (r - r₀)²/R²), doi:10.1063/1.458541 with r₀ = 0.
+    Fene {
+        /// Spring constant K.
+        #[schemars(range(min = 0.0))]
+        stiffness: f64,
+        /// Largest extension R.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        extent: f64,
+        /// Length r₀ at rest.
+        #[serde(default)]
+        #[schemars(range(min = 0.0))]
+        length: f64,
+    },
+}
+
+/// Stiffness of chains, or of listed triples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnglesInteraction {
+    /// Species whose chains are stiff; left out, all chains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
+    pub species: Option<Vec<String>>,
+    /// Triples of particle numbers, the middle of the angle in the middle, in place of chains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub triples: Vec<[u32; 3]>,
+    /// Stiffness k.
+    pub stiffness: f64,
+}

@@ -1,0 +1,387 @@
+//! What scenes with bonds, angles, baths, coloured noise, tethers and fixed particles have to fulfil beyond their shape.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::scene::{
+    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
+    ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
+};
+
+/// Checks one interaction by itself.
+pub(crate) fn check_interaction(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    interaction: &Interaction,
+    path: &str,
+    problems: &mut Problems,
+) {
+    match interaction {
+        Interaction::Dpd(dpd) => {
+            let named = dpd.pairs.iter().enumerate().filter_map(|(index, pair)| {
+                pair.friction.map(|friction| (format!("{path}.pairs[{index}].friction"), friction))
+            });
+            let frictions = std::iter::once((format!("{path}.friction"), dpd.friction)).chain(named).collect();
+            check_bath(&dpd.bath, frictions, path, problems);
+        }
+        Interaction::Langevin(langevin) => check_langevin(names, langevin, path, problems),
+        Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
+        Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
+        Interaction::ColouredNoise(_)
+        | Interaction::Tether(_)
+        | Interaction::HarmonicChain(_)
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => {}
+    }
+}
+
+/// Checks what interactions and particles have to have in common.
+pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
+    check_numbers(scene, problems);
+    check_groups(scene, problems);
+    check_integrator(scene, problems);
+    if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
+        let accepted = "a scene with chains: a `chain` in one of `particles`";
+        problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
+    }
+    if scene.space.lengths.len() == 1 && scene.output.viscosity.is_some() {
+        let found = "found in a scene of one dimension";
+        problems.push(Problem::new("output.viscosity", found, "two or three dimensions: on a line nothing shears"));
+    }
+}
+
+/// Whether a scene has more than pairs without memory in two or three dimensions, as [`Model::is_coupled`] tells once there
+/// is a model.
+pub(crate) fn scene_is_coupled(scene: &Scene) -> bool {
+    let coupled = |interaction: &Interaction| match interaction {
+        Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
+        Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
+        _ => true,
+    };
+    let alone =
+        |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
+    !scene.interactions.iter().any(alone)
+        && (scene.space.lengths.len() == 1
+            || scene.particles.iter().any(|group| group.fixed)
+            || scene.interactions.iter().any(coupled))
+}
+
+/// Everything that acts on single particles is there at most once.
+fn check_numbers(scene: &Scene, problems: &mut Problems) {
+    let single = |interaction: &Interaction| match interaction {
+        Interaction::Dpd(_) => Some((
+            "dpd",
+            "defines the same pairs of species again",
+            "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`",
+        )),
+        Interaction::Langevin(_) => Some((
+            "langevin",
+            "acts on the same particles again",
+            "one `langevin` interaction; give species their own friction in its `species`",
+        )),
+        Interaction::ColouredNoise(_) => {
+            Some(("coloured-noise", "acts on the same particles again", "one `coloured-noise` interaction"))
+        }
+        Interaction::Tether(_) => Some((
+            "tether",
+            "ties the same particles again",
+            "one `tether` interaction; two springs to the same place are one of their summed stiffness",
+        )),
+        Interaction::Bonds(_)
+        | Interaction::Angles(_)
+        | Interaction::HarmonicChain(_)
+        | Interaction::ShallowWater(_)
+        | Interaction::Voronoi(_) => None,
+    };
+    let mut seen = HashSet::new();
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let Some((name, again, accepted)) = single(interaction) else { continue };
+        if !seen.insert(name) {
+            let found = format!("a second `{name}` interaction {again}");
+            problems.push(Problem::new(format!("interactions[{index}]"), found, accepted));
+        }
+    }
+}
+
+fn check_groups(scene: &Scene, problems: &mut Problems) {
+    let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
+    let mut fixed: HashMap<&str, (usize, bool)> = HashMap::new();
+    for (index, group) in scene.particles.iter().enumerate() {
+        let path = format!("particles[{index}]");
+        if water && group.fixed {
+            let accepted = "particles that move: in shallow water all of them carry the depth along";
+            problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+        }
+        if water && group.chain.is_some() {
+            let accepted = "no chains in shallow water: its particles have no forces between them";
+            problems.push(Problem::new(format!("{path}.chain"), "found a chain", accepted));
+        }
+        let (known, held) = *fixed.entry(&group.species).or_insert((index, group.fixed));
+        if held != group.fixed {
+            let accepted = format!(
+                "{held} as in particles[{known}]: particles of species `{}` are all held or all free; or another name",
+                group.species
+            );
+            problems.push(Problem::new(format!("{path}.fixed"), format!("found {}", group.fixed), accepted));
+        }
+        if let Some(chain) = &group.chain {
+            check_chain(scene, group, chain, &path, problems);
+        }
+    }
+}
+
+fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, problems: &mut Problems) {
+    let beads = u64::from(chain.beads.max(1));
+    let wrong = |number: u64| {
+        let fewer = number / beads * beads;
+        let sizes = if fewer == 0 { beads.to_string() } else { format!("{fewer} or {}", fewer.saturating_add(beads)) };
+        format!("a multiple of {beads}, the beads of a chain: {sizes}, say")
+    };
+    if let Placement::Listed { positions } = &group.placement {
+        let length = positions.len() as u64;
+        if !length.is_multiple_of(beads) {
+            let found = format!("found a list of {length}");
+            problems.push(Problem::new(format!("{path}.placement.positions"), found, wrong(length)));
+        }
+    } else if let Some(count) = group.count.filter(|count| !count.is_multiple_of(beads)) {
+        problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), wrong(count)));
+    }
+    if let Placement::Lattice { jitter } = group.placement
+        && jitter > 0.0
+    {
+        let accepted = "no `jitter` for chains, which would stretch their bonds";
+        problems.push(Problem::new(format!("{path}.placement.jitter"), format!("found {jitter}"), accepted));
+    }
+    let placed = matches!(group.placement, Placement::Random | Placement::Lattice { .. });
+    let half = half_box(scene);
+    if placed && chain.spacing > half {
+        let accepted = format!(
+            "at most {half}, half the shortest box edge: two beads further apart would be bonded through the next image"
+        );
+        problems.push(Problem::new(format!("{path}.chain.spacing"), format!("found {}", chain.spacing), accepted));
+    }
+}
+
+fn half_box(scene: &Scene) -> f64 {
+    0.5 * scene.space.shortest_length()
+}
+
+fn check_integrator(scene: &Scene, problems: &mut Problems) {
+    if !scene_is_coupled(scene) {
+        return;
+    }
+    match scene.integrator {
+        Integrator::Splitting {} => {
+            let found = format!("found `splitting`, which relaxes pairs only, beside {}", reason(scene));
+            let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
+            problems.push(Problem::new("integrator.type", found, accepted));
+        }
+        Integrator::GrootWarren { .. } => check_groot_warren(scene, problems),
+        // The last two are refused with all other scenes that are not of shallow water.
+        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {}
+    }
+}
+
+/// What makes a scene a coupled one, in words.
+fn reason(scene: &Scene) -> String {
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let what = match interaction {
+            Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
+            Interaction::Dpd(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => continue,
+            Interaction::Langevin(_) => "a bath on every particle",
+            Interaction::ColouredNoise(_) => "a coloured noise",
+            Interaction::Tether(_) => "tethers",
+            Interaction::Bonds(_) => "bonds",
+            Interaction::Angles(_) => "angles",
+            Interaction::HarmonicChain(_) => "harmonic chains",
+        };
+        return format!("{what} in interactions[{index}]");
+    }
+    match scene.particles.iter().position(|group| group.fixed) {
+        Some(group) => format!("particles[{group}], which are fixed"),
+        None => "a box of one dimension".to_owned(),
+    }
+}
+
+fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let found = match interaction {
+            Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
+            Interaction::Langevin(_) => "a bath on every particle",
+            Interaction::Bonds(bonds) if bonds.friction > 0.0 || matches!(bonds.bath, Bath::Memory { .. }) => {
+                "a bath on every bond"
+            }
+            Interaction::HarmonicChain(_) => "chains with baths on their springs",
+            _ => continue,
+        };
+        let found = format!("found `groot-warren` and {found} in interactions[{index}]");
+        let accepted = "`cotter-reich`; `groot-warren` takes friction between pairs without memory only";
+        problems.push(Problem::new("integrator.type", found, accepted));
+    }
+}
+
+/// A bath with memory is given by a friction or by its coupling, and both with finite numbers.
+fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: &mut Problems) {
+    let Bath::Memory { rate, coupling, .. } = *bath else { return };
+    let given = frictions.into_iter().filter(|(_, friction)| *friction > 0.0);
+    for (place, friction) in given {
+        let found = format!("found {friction}");
+        if coupling.is_some() {
+            let accepted =
+                format!("no friction beside {path}.bath.coupling, or no coupling: one follows from the other");
+            problems.push(Problem::new(place, found, accepted));
+        } else if rate == 0.0 {
+            let found = format!("{found}, which at a rate of 0 is no coupling at all: λ = αγ");
+            let accepted = "a `bath.coupling` λ in place of the friction where the bath never forgets";
+            problems.push(Problem::new(place, found, accepted));
+        } else if !fits(rate * friction) {
+            let found = format!("{found}, a coupling λ = αγ of {:.3e}", rate * friction);
+            problems.push(Problem::new(place, found, "a coupling that single precision holds, up to 3e38"));
+        }
+    }
+    if let Some(coupling) = coupling.filter(|coupling| !fits(*coupling)) {
+        let accepted = "a coupling that single precision holds, up to 3e38";
+        problems.push(Problem::new(format!("{path}.bath.coupling"), format!("found {coupling:.3e}"), accepted));
+    }
+}
+
+fn fits(value: f64) -> bool {
+    value < f64::from(f32::MAX)
+}
+
+fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path: &str, problems: &mut Problems) {
+    let mut frictions = vec![(format!("{path}.friction"), langevin.friction)];
+    let mut known: HashMap<&str, usize> = HashMap::new();
+    for (index, entry) in langevin.species.iter().enumerate() {
+        let path = format!("{path}.species[{index}]");
+        names.check(&entry.name, &format!("{path}.name"), problems);
+        if let Some(earlier) = known.insert(&entry.name, index) {
+            let found = format!("species[{earlier}] gives the friction of `{}` already", entry.name);
+            problems.push(Problem::new(&path, found, "every species once"));
+        }
+        frictions.push((format!("{path}.friction"), entry.friction));
+    }
+    check_bath(&langevin.bath, frictions, path, problems);
+}
+
+fn check_bonds(scene: &Scene, names: &SpeciesNames<'_>, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
+    check_bath(&bonds.bath, vec![(format!("{path}.friction"), bonds.friction)], path, problems);
+    check_members(scene, names, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
+    if bonds.species.is_none() || bonds.pairs.is_empty() {
+        check_presence(scene, bonds.species.as_deref(), "pairs", bonds.pairs.is_empty(), 2, path, problems);
+    }
+    let rest = match bonds.potential {
+        None => return,
+        Some(BondPotential::Harmonic { length, .. } | BondPotential::Fene { length, .. }) => length,
+    };
+    let half = half_box(scene);
+    if rest >= half {
+        let accepted = format!(
+            "less than {half}, half the shortest box edge: a longer bond would reach the next image of its end"
+        );
+        problems.push(Problem::new(format!("{path}.potential.length"), format!("found {rest}"), accepted));
+    }
+}
+
+fn check_angles(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    angles: &AnglesInteraction,
+    path: &str,
+    problems: &mut Problems,
+) {
+    check_members(scene, names, angles.species.as_deref(), "triples", &angles.triples, path, problems);
+    if angles.species.is_none() || angles.triples.is_empty() {
+        check_presence(scene, angles.species.as_deref(), "triples", angles.triples.is_empty(), 3, path, problems);
+    }
+}
+
+/// Mistakes of a list that are told one by one; more are counted.
+const LISTED: usize = 5;
+
+/// Species that are named, or particles that are listed, have to exist.
+fn check_members<const LENGTH: usize>(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    species: Option<&[String]>,
+    key: &str,
+    members: &[[u32; LENGTH]],
+    path: &str,
+    problems: &mut Problems,
+) {
+    if species.is_some() && !members.is_empty() {
+        let found = format!("found beside `{key}`");
+        let accepted = format!("either the species whose chains are meant, or {key} of particle numbers");
+        problems.push(Problem::new(format!("{path}.species"), found, accepted));
+    }
+    for (index, name) in species.unwrap_or_default().iter().enumerate() {
+        names.check(name, &format!("{path}.species[{index}]"), problems);
+    }
+    let counts = scene.particles.iter().map(|group| group.resolved_count(scene.space.volume()));
+    let total = counts.fold(0, u64::saturating_add);
+    let mut known: HashMap<[u32; LENGTH], usize> = HashMap::with_capacity(members.len());
+    let mut mistakes = 0;
+    for (index, numbers) in members.iter().enumerate() {
+        let place = || format!("{path}.{key}[{index}]");
+        let backward = std::array::from_fn(|at| numbers[LENGTH - 1 - at]);
+        let beyond = numbers.iter().position(|number| u64::from(*number) >= total);
+        let repeated = (1..LENGTH).any(|at| numbers[..at].contains(&numbers[at]));
+        let earlier = known.get(numbers).or_else(|| known.get(&backward));
+        if beyond.is_none() && !repeated && earlier.is_none() {
+            known.insert(*numbers, index);
+            continue;
+        }
+        mistakes += 1;
+        if mistakes > LISTED {
+            continue;
+        }
+        problems.push(match (beyond, earlier) {
+            (Some(at), _) => {
+                let accepted = match total {
+                    0 => "no number: there are no particles".to_owned(),
+                    _ => format!("the number of a particle, 0 to {}", total - 1),
+                };
+                Problem::new(format!("{}[{at}]", place()), format!("found {}", numbers[at]), accepted)
+            }
+            (None, Some(earlier)) if !repeated => {
+                let found = format!("{key}[{earlier}] lists the same particles");
+                Problem::new(place(), found, format!("each of the {key} once, in either order"))
+            }
+            _ => Problem::new(place(), format!("found {numbers:?}"), "particles that are all different"),
+        });
+    }
+    if mistakes > LISTED {
+        let more = mistakes - LISTED;
+        problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "as above"));
+    }
+}
+
+/// An interaction along chains needs chains.
+fn check_presence(
+    scene: &Scene,
+    species: Option<&[String]>,
+    key: &str,
+    unlisted: bool,
+    length: u32,
+    path: &str,
+    problems: &mut Problems,
+) {
+    if !unlisted {
+        return;
+    }
+    let exists = |name: &String| scene.particles.iter().any(|group| group.species == *name);
+    if species.is_some_and(|names| !names.iter().all(exists)) {
+        return;
+    }
+    let named = |group: &&ParticleGroup| species.is_none_or(|names| names.contains(&group.species));
+    let longest =
+        scene.particles.iter().filter(named).filter_map(|group| group.chain.as_ref()).map(|chain| chain.beads);
+    let found = match longest.max() {
+        // A chain of less than two beads is a mistake by itself.
+        Some(beads) if beads >= length || beads < 2 => return,
+        Some(beads) => format!("found chains of {beads} beads"),
+        None if species.is_some() => "found no chains of these species".to_owned(),
+        None => "found neither chains nor a list".to_owned(),
+    };
+    let accepted = format!("`{key}` of particle numbers, or particles with a `chain` of at least {length} `beads`");
+    problems.push(Problem::new(path, found, accepted));
+}

@@ -1,0 +1,65 @@
+//! Pair forces: what a scene says about them.
+
+use crate::scene::Bath;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Parameters of a DPD interaction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DpdInteraction {
+    /// Range rc of all pair forces.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cutoff: f64,
+    /// Exponent of the friction weight ω = (1 - r/rc)^exponent; 2 is the standard choice.
+    #[serde(default = "two")]
+    #[schemars(range(min = 0.0))]
+    pub weight_exponent: f64,
+    /// Repulsion a of every pair of species not listed in `pairs`; all zero leaves the conservative force out.
+    #[serde(default)]
+    pub repulsion: f64,
+    /// Friction γ of every pair of species not listed in `pairs`; the noise follows from σ² = 2γkT.
+    #[serde(default)]
+    #[schemars(range(min = 0.0))]
+    pub friction: f64,
+    /// Pairs of species with coefficients of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 32896))]
+    pub pairs: Vec<DpdPair>,
+    /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
+    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    pub bath: Bath,
+    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, or beside couplings
+    /// other than pairs. A wide one is built less often and holds more pairs; no result but the noise depends on it.
+    #[serde(default = "default_skin")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub skin: f64,
+}
+
+/// Coefficients of one pair of species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DpdPair {
+    /// The two species; the same name twice for a species with itself.
+    pub between: [String; 2],
+    /// Repulsion a; left out, that of the interaction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repulsion: Option<f64>,
+    /// Friction γ; left out, that of the interaction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+}
+
+fn default_skin() -> f64 {
+    0.3
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+fn one() -> f64 {
+    1.0
+}

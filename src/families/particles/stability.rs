@@ -1,0 +1,386 @@
+//! Whether a time step can be stable at all, before a run finds out.
+//!
+//! A scheme of the family of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, is stable for a coupling function of constant
+//! gradient on a mass m in a harmonic potential K while B + W < 4, where B = λₑdt²/m and W = K dt²/m. For many of them
+//! λₑ∇h∇hᵀ and the Hessian of the potential add up to a matrix, of which the largest eigenvalue counts. Adding to it what is
+//! left out here, springs, baths and neighbours that attract, only makes that larger: a part of it at 4 is certainly
+//! unstable, and refused.
+
+use crate::families::{Alike, BathStep, Bond, BondKind, Bonds, Model};
+use crate::scene::{Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning};
+use std::f64::consts::PI;
+
+/// B + W beyond which nothing is stable.
+const LIMIT: f64 = 4.0;
+
+/// B + W from which on a warning is due: positions are a third off their temperature where there is no potential but this.
+const CLEAN: f64 = 1.0;
+
+/// Bonds that an estimate looks at: the largest eigenvalue of a part is not above that of the whole.
+const MOST_BONDS: usize = 10_000;
+
+/// Rounds of the power iteration for the largest eigenvalue, which comes from below.
+const ROUNDS: usize = 40;
+
+/// What puts the most strain on a time step.
+#[derive(Debug, Clone)]
+struct Strain {
+    /// B + W.
+    sum: f64,
+    /// The part B of a bath.
+    bath: f64,
+    /// The interaction it belongs to.
+    place: usize,
+    /// What is strained, in words.
+    what: String,
+}
+
+/// Refuses a time step that is certainly unstable.
+pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
+    let step = scene.time.step;
+    let network = model.bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let Some(worst) = worst(&certain(scene, model, network.as_ref(), step)) else { return };
+    if worst.sum < LIMIT {
+        return;
+    }
+    let found = format!("found {step}, at which B + W is {:.4} for {}", worst.sum, worst.what);
+    let mut accepted = format!(
+        "at most {}, so that B + W = (λₑ + K)dt²/m stays below {LIMIT}, beyond which no scheme is stable",
+        two_digits(largest_step(scene, model, network.as_ref(), worst.sum))
+    );
+    let spring = worst.sum - worst.bath;
+    if worst.bath > 0.0 && spring < LIMIT {
+        let share = (LIMIT - spring) / worst.bath;
+        let (key, value) = bath_strength(&scene.interactions[worst.place]);
+        if value > 0.0 {
+            let most = two_digits(share * value);
+            accepted = format!("{accepted}; or a {key} of at most {most} in interactions[{}]", worst.place);
+        }
+    }
+    problems.push(Problem::new("time.step", found, accepted));
+}
+
+/// Warns of a time step near the edge.
+pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
+    let network = model.bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let mut strains = certain(scene, model, network.as_ref(), scene.time.step);
+    strains.extend(possible(scene, model, network.as_ref(), scene.time.step));
+    let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
+    let verdict = if worst.sum >= LIMIT {
+        format!("{LIMIT} is the limit of stability, which is passed at times")
+    } else {
+        format!("{LIMIT} is the limit of stability, and up to {CLEAN} is advisable")
+    };
+    // Stiffness goes with the square of the step, friction with a lower power.
+    let advisable = scene.time.step * (CLEAN / worst.sum).min(1.0);
+    let message = format!(
+        "B + W = (λₑ + K)dt²/m is {:.3} for {}: {verdict}; a step of {} is safe",
+        worst.sum,
+        worst.what,
+        two_digits(advisable)
+    );
+    Some(Warning { path: "time.step".to_owned(), message })
+}
+
+fn worst(strains: &[Strain]) -> Option<Strain> {
+    strains.iter().max_by(|a, b| a.sum.total_cmp(&b.sum)).cloned()
+}
+
+/// The largest step that is not certainly unstable: every strain grows with the step.
+fn largest_step(scene: &Scene, model: &Model, network: Option<&Network>, sum: f64) -> f64 {
+    let strain = |step: f64| worst(&certain(scene, model, network, step)).map_or(0.0, |strain| strain.sum);
+    let mut high = scene.time.step;
+    let mut low = high * (0.5 * LIMIT / sum).min(0.5);
+    for _ in 0..60 {
+        if strain(low) < LIMIT {
+            break;
+        }
+        low *= 0.1;
+    }
+    for _ in 0..20 {
+        let middle = (low * high).sqrt();
+        if strain(middle) < LIMIT { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// The key that sets the strength of a bath, and its value.
+fn bath_strength(interaction: &Interaction) -> (&'static str, f64) {
+    let (bath, friction) = match interaction {
+        Interaction::Dpd(dpd) => {
+            let own = dpd.pairs.iter().filter_map(|pair| pair.friction);
+            (&dpd.bath, own.fold(dpd.friction, f64::max))
+        }
+        Interaction::Langevin(langevin) => {
+            let own = langevin.species.iter().map(|entry| entry.friction);
+            (&langevin.bath, own.fold(langevin.friction, f64::max))
+        }
+        Interaction::Bonds(bonds) => (&bonds.bath, bonds.friction),
+        _ => return ("friction", 0.0),
+    };
+    match bath {
+        Bath::Memory { coupling: Some(coupling), .. } => ("coupling", *coupling),
+        _ => ("friction", friction),
+    }
+}
+
+/// Parts of the matrix that are there at all times.
+fn certain(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
+    let mut strains = of_particles(scene, model, step);
+    strains.extend(of_pairs_on_average(scene, model, step));
+    if let Some(bonds) = &model.bonds {
+        strains.extend(of_single_bonds(scene, model, bonds, step));
+        let line = model.units.dimension == 1;
+        // Without a length at rest a spring is as stiff across as along.
+        let isotropic = |kind: usize| match bonds.kinds[kind].potential {
+            Some(BondPotential::Harmonic { stiffness, length: 0.0 }) => [stiffness, 0.0],
+            _ => [0.0; 2],
+        };
+        let all = stiffnesses(scene, model, bonds, step);
+        let stiffness = |kind: usize| if line { all[kind] } else { isotropic(kind) };
+        strains.extend(network.and_then(|network| network.strain(step, &stiffness)));
+    }
+    strains
+}
+
+/// The matrix as it may be: chains that are straight, two particles in one place.
+fn possible(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
+    let mut strains = Vec::new();
+    if let Some(bonds) = &model.bonds {
+        let all = stiffnesses(scene, model, bonds, step);
+        strains.extend(network.and_then(|network| network.strain(step, &|kind| all[kind])));
+    }
+    strains
+}
+
+fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
+    scene.interactions.iter().position(wanted).unwrap_or(0)
+}
+
+fn inverse_mass(model: &Model, species: usize) -> f64 {
+    let species = &model.species[species];
+    if species.fixed { 0.0 } else { 1.0 / species.mass }
+}
+
+/// Springs and baths on single particles.
+fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
+    let mut strains = Vec::new();
+    let langevin = scene.interactions.iter().find_map(|interaction| match interaction {
+        Interaction::Langevin(langevin) => Some(langevin),
+        _ => None,
+    });
+    let place = match langevin {
+        Some(_) => place_of(scene, |interaction| matches!(interaction, Interaction::Langevin(_))),
+        None => place_of(scene, |interaction| matches!(interaction, Interaction::Tether(_))),
+    };
+    for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
+        let friction = langevin.map_or(0.0, |langevin| {
+            let own = langevin.species.iter().find(|entry| entry.name == species.name);
+            own.map_or(langevin.friction, |entry| entry.friction)
+        });
+        let bath = langevin.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
+        let spring = model.tether.unwrap_or(0.0);
+        let scale = step * step * inverse_mass(model, index);
+        let what = format!("every `{}` of mass {}", species.name, species.mass);
+        strains.push(Strain { sum: scale * (bath + spring), bath: scale * bath, place, what });
+    }
+    strains
+}
+
+/// λₑ of pairs: the mean of all eigenvalues for evenly spread particles, Σ λₑρ\[ω\]/(d·m). The largest is several times
+/// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
+fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
+    let mut strains = Vec::new();
+    let Some(force) = model.pair_force.as_ref().filter(|_| model.integrator == Integrator::CotterReich {}) else {
+        return strains;
+    };
+    let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
+    let exponent = force.weight_exponent;
+    let first = 2.0 * force.cutoff / (exponent + 1.0);
+    let weight = match model.units.dimension {
+        1 => first,
+        2 => first * PI * force.cutoff / (exponent + 2.0),
+        _ => first * 4.0 * PI * force.cutoff.powi(2) / ((exponent + 2.0) * (exponent + 3.0)),
+    };
+    let volume = model.units.volume();
+    for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
+        let others = model
+            .species
+            .iter()
+            .enumerate()
+            .map(|(other, species)| force.bath_step(index, other, step).coupling * species.count as f64 / volume);
+        let mean =
+            others.sum::<f64>() * weight * step * step * inverse_mass(model, index) / model.units.dimension as f64;
+        let what = format!("the bath of pairs of `{}` with their neighbours", species.name);
+        strains.push(Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what });
+    }
+    strains
+}
+
+/// K and λₑ at a step of each kind of bonds; K at rest, the least of a bond that is finitely extensible.
+fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f64; 2]> {
+    let asked: Vec<&BondsInteraction> = scene
+        .interactions
+        .iter()
+        .filter_map(|interaction| match interaction {
+            Interaction::Bonds(bonds) => Some(bonds),
+            _ => None,
+        })
+        .collect();
+    let kind = |(index, kind): (usize, &BondKind)| {
+        let spring = match kind.potential {
+            Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
+            None => 0.0,
+        };
+        let bath = match asked.get(index) {
+            Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling,
+            // The baths of harmonic chains are white: 2γ/dt.
+            None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),
+        };
+        [spring, bath]
+    };
+    bonds.kinds.iter().enumerate().map(kind).collect()
+}
+
+/// The interaction that each kind of bonds comes from.
+fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
+    let of_chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    if let Some(place) = scene.interactions.iter().position(of_chains) {
+        return vec![place; bonds.kinds.len()];
+    }
+    let is_bonds = |index: &usize| matches!(scene.interactions[*index], Interaction::Bonds(_));
+    (0..scene.interactions.len()).filter(is_bonds).collect()
+}
+
+/// Which species the particles of a scene are of.
+struct Members {
+    /// The first number after those of a group, and the species of the group.
+    ends: Vec<(u64, usize)>,
+}
+
+impl Members {
+    fn of(scene: &Scene, model: &Model) -> Self {
+        let mut end = 0_u64;
+        let groups = scene.particles.iter().map(|group| {
+            end = end.saturating_add(group.resolved_count(scene.space.volume()));
+            (end, model.species.iter().position(|species| species.name == group.species).unwrap_or(0))
+        });
+        let mut ends: Vec<(u64, usize)> = groups.collect();
+        if model.chains.is_some() {
+            // Their particles lie species by species.
+            for (index, species) in model.species.iter().enumerate() {
+                end = end.saturating_add(species.count);
+                ends.push((end, index));
+            }
+        }
+        Self { ends }
+    }
+
+    fn species(&self, particle: u32) -> usize {
+        let group = self.ends.partition_point(|(end, _)| *end <= u64::from(particle));
+        self.ends.get(group).map_or(0, |(_, species)| *species)
+    }
+}
+
+/// Every bond by itself, on the reduced mass of its ends.
+fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
+    let members = Members::of(scene, model);
+    let (stiffnesses, places) = (stiffnesses(scene, model, bonds, step), places(scene, bonds));
+    let mut largest = vec![0.0_f64; bonds.kinds.len()];
+    for (kind, alike) in bonds.alike() {
+        let inverse = match alike {
+            Alike::Species(species) => 2.0 * inverse_mass(model, species),
+            Alike::Ended(species, ends) => {
+                let inverse = inverse_mass(model, species);
+                (2.0 * inverse).max(inverse + inverse_mass(model, ends))
+            }
+            Alike::Listed(pairs) => {
+                let inverse = |end: &u32| inverse_mass(model, members.species(*end));
+                pairs.iter().map(|ends| ends.iter().map(inverse).sum::<f64>()).fold(0.0, f64::max)
+            }
+        };
+        largest[kind as usize] = largest[kind as usize].max(inverse);
+    }
+    let strain = |(kind, inverse): (usize, &f64)| {
+        let [spring, bath] = stiffnesses[kind].map(|value| value * step * step * inverse);
+        let what = format!("the bonds of interactions[{}], of reduced mass {}", places[kind], 1.0 / inverse);
+        Strain { sum: spring + bath, bath, place: places[kind], what }
+    };
+    largest.iter().enumerate().filter(|(_, inverse)| **inverse > 0.0).map(strain).collect()
+}
+
+/// The first bonds of a scene, and of their particles the numbers and inverse masses.
+struct Network {
+    /// Places of the ends among the particles, and the kind.
+    bonds: Vec<([usize; 2], usize)>,
+    particles: Vec<u32>,
+    inverse_masses: Vec<f64>,
+    kinds: usize,
+    /// The interaction that they come from.
+    place: usize,
+}
+
+impl Network {
+    fn of(scene: &Scene, model: &Model, bonds: &Bonds) -> Option<Self> {
+        let members = Members::of(scene, model);
+        let seen: Vec<Bond> = bonds.iter().take(MOST_BONDS).collect();
+        let mut particles: Vec<u32> = seen.iter().flat_map(|bond| bond.ends).collect();
+        particles.sort_unstable();
+        particles.dedup();
+        let place_of = |end: u32| particles.partition_point(|particle| *particle < end);
+        Some(Self {
+            bonds: seen.iter().map(|bond| (bond.ends.map(place_of), bond.kind as usize)).collect(),
+            inverse_masses: particles.iter().map(|end| inverse_mass(model, members.species(*end))).collect(),
+            particles,
+            kinds: bonds.kinds.len(),
+            place: *places(scene, bonds).first()?,
+        })
+    }
+
+    /// All bonds together as if they were in one line, by power iteration. `stiffness` gives K and λₑ of a kind.
+    fn strain(&self, step: f64, stiffness: &dyn Fn(usize) -> [f64; 2]) -> Option<Strain> {
+        let kinds: Vec<[f64; 2]> = (0..self.kinds).map(stiffness).collect();
+        if kinds.iter().all(|[spring, bath]| spring + bath == 0.0) {
+            return None;
+        }
+        let roots: Vec<f64> = self.inverse_masses.iter().map(|inverse| inverse.sqrt() * step).collect();
+        let product = |vector: &[f64], part: usize| {
+            let mut result = vec![0.0; vector.len()];
+            for &([a, b], kind) in &self.bonds {
+                let [spring, bath] = kinds[kind];
+                let pull = [spring + bath, bath][part] * (roots[a] * vector[a] - roots[b] * vector[b]);
+                result[a] += roots[a] * pull;
+                result[b] -= roots[b] * pull;
+            }
+            result
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        // Neighbours against each other, and not quite in order: near the stiffest mode of a chain and of all others.
+        let first = |id: &u32| (if id.is_multiple_of(2) { 1.0 } else { -1.0 }) * (1.0 + 0.1 * f64::from(*id).sin());
+        let mut vector: Vec<f64> = self.particles.iter().map(first).collect();
+        for _ in 0..ROUNDS {
+            vector = product(&vector, 0);
+            let length = dot(&vector, &vector).sqrt();
+            if length == 0.0 {
+                return None;
+            }
+            for component in &mut vector {
+                *component /= length;
+            }
+        }
+        let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
+        Some(Strain { sum, bath, place: self.place, what: "all bonds together".to_owned() })
+    }
+}
+
+/// The largest number of two digits below `value`: at the edge itself nothing is stable.
+fn two_digits(value: f64) -> String {
+    if !(value.is_finite() && value > 0.0) {
+        return "0".to_owned();
+    }
+    let value = value * (1.0 - 1e-9);
+    let magnitude = 10_f64.powf(value.log10().floor() - 1.0);
+    let rounded = (value / magnitude).floor() * magnitude;
+    let number: f64 = format!("{rounded:.1e}").parse().unwrap_or(rounded);
+    if (1e-3..1e6).contains(&number) { format!("{number}") } else { format!("{number:e}") }
+}

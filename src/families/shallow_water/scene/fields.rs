@@ -1,0 +1,90 @@
+//! Fields on the mesh, as pictures and arrays.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Fields on the mesh, as pictures and arrays.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Fields {
+    /// Steps between two numbered pictures and arrays; zero writes them only at the end.
+    pub every: u64,
+    /// Which fields.
+    #[schemars(length(max = 16))]
+    pub quantities: Vec<FieldQuantity>,
+    /// Ranges of colours.
+    pub ranges: FieldRanges,
+}
+
+impl Default for Fields {
+    fn default() -> Self {
+        let quantities = vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity];
+        Self { every: 0, quantities, ranges: FieldRanges::default() }
+    }
+}
+
+/// The lowest and the highest value on the scale of colours of each field, of all pictures of the run. What is left out
+/// follows from the first of several numbered pictures, or fits the only one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FieldRanges {
+    /// Of the depth, in mean depths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<[f64; 2]>,
+    /// Of the potential vorticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub potential_vorticity: Option<[f64; 2]>,
+    /// Of the vorticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vorticity: Option<[f64; 2]>,
+    /// Of the speed of the flow.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<[f64; 2]>,
+}
+
+impl FieldRanges {
+    /// The range of a field, if it is given.
+    ///
+    /// ```
+    /// use mesoscope::scene::{FieldQuantity, FieldRanges};
+    /// let ranges = FieldRanges { depth: Some([0.8, 1.2]), ..FieldRanges::default() };
+    /// assert_eq!(ranges.of(FieldQuantity::Depth), Some([0.8, 1.2]));
+    /// assert_eq!(ranges.of(FieldQuantity::Speed), None);
+    /// ```
+    #[must_use]
+    pub fn of(&self, quantity: FieldQuantity) -> Option<[f64; 2]> {
+        match quantity {
+            FieldQuantity::Depth => self.depth,
+            FieldQuantity::PotentialVorticity => self.potential_vorticity,
+            FieldQuantity::Vorticity => self.vorticity,
+            FieldQuantity::Speed => self.speed,
+        }
+    }
+}
+
+/// A field on the mesh of shallow water.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldQuantity {
+    /// The smoothed depth h.
+    Depth,
+    /// The potential vorticity (ζ + f₀)/h with ζ = ∂v/∂x - ∂u/∂y.
+    PotentialVorticity,
+    /// The vorticity ζ.
+    Vorticity,
+    /// The speed of the flow.
+    Speed,
+}
+
+impl FieldQuantity {
+    /// What the names of its files begin with.
+    #[must_use]
+    pub fn stem(self) -> &'static str {
+        match self {
+            Self::Depth => "depth",
+            Self::PotentialVorticity => "potential_vorticity",
+            Self::Vorticity => "vorticity",
+            Self::Speed => "speed",
+        }
+    }
+}

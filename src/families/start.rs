@@ -1,0 +1,444 @@
+//! Where the particles of a scene start, and how fast.
+
+use super::particles::chains;
+use super::voronoi::start as voronoi_start;
+use crate::families::{Model, ShallowWater};
+use crate::noise::{self, stream};
+use crate::scene::{Generator, ParticleGroup, Placement, Scene, Velocities};
+use crate::state::{State, crossings};
+
+/// The state at step 0 of a scene: particles numbered group by group, each group in its own order.
+///
+/// `scene` has been checked and `model` was made from it. The words of random placements and velocities depend on
+/// the seed and the particle's number only, and always come from Threefry: what is drawn once may cost a little more.
+/// The net momentum of all thermal groups together is zero to the last bit, so a single thermal particle is at rest.
+///
+/// ```
+/// use mesoscope::families::Model;
+/// use mesoscope::scene::{self, placement::initial_state};
+///
+/// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let state = initial_state(&scene, &Model::new(&scene));
+/// assert_eq!((state.step, state.len()), (0, 192));
+/// assert_eq!(state.total_momentum(), [0; 3]);
+/// # Ok::<(), scene::SceneError>(())
+/// ```
+#[must_use]
+pub fn initial_state(scene: &Scene, model: &Model) -> State {
+    let mut state = State::default();
+    let mut thermal = Vec::new();
+    let lattices = scene.particles.iter().filter(|group| group.placement.is_lattice()).count();
+    let mut lattice = 0;
+    for group in &scene.particles {
+        let first = state.len();
+        let count = group.resolved_count(scene.space.volume()) as usize;
+        place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
+        lattice += usize::from(group.placement.is_lattice());
+        if let Some(water) = &model.shallow_water {
+            fill(&mut state, group, first, model, water);
+        }
+        set_in_motion(&mut state, group, count, model);
+        let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
+        state.species.resize(first + count, species as u32);
+        if group.velocities == Velocities::Thermal && !group.fixed {
+            thermal.extend(first..first + count);
+        }
+    }
+    if let Some(chains) = &model.chains {
+        chains.fill(&mut state, &model.units, model.seed);
+    } else if let Some(water) = &model.shallow_water {
+        set_mean_depth(&mut state.masses[..water.carriers as usize], water);
+        draw_thermal_velocities(&mut state, &thermal, model, water);
+        draw_bath(&mut state, model, water);
+    } else if let Some(cells) = &model.voronoi {
+        voronoi_start::fill(&mut state, scene, model, cells);
+    } else {
+        if model.conserves_momentum() {
+            let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
+            bring_to_rest(&mut state, &thermal, model.units.dimension, |id| masses[id]);
+        }
+        draw_position_baths(&mut state, model);
+        draw_bond_baths(&mut state, model);
+        if let Some(noise) = &model.coloured_noise {
+            state.holds = noise.first_holds(model, state.len());
+        }
+        if model.tether.is_some() {
+            state.tethers.clone_from(&state.positions);
+        }
+    }
+    if scene.output.trajectory.is_some() {
+        state.images = images(&state, model);
+    }
+    state
+}
+
+/// Times round the box at the start, so that what is bonded together is whole: from the first particle of every molecule
+/// along its bonds.
+fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
+    let mut images = vec![[0; 3]; state.len()];
+    let Some(bonds) = &model.bonds else { return images };
+    let mut bonded: Vec<Vec<usize>> = vec![Vec::new(); state.len()];
+    for [first, second] in bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
+        bonded[first].push(second);
+        bonded[second].push(first);
+    }
+    let mut reached = vec![false; state.len()];
+    let mut ahead = Vec::new();
+    for first in 0..state.len() {
+        if !std::mem::replace(&mut reached[first], true) {
+            ahead.push(first);
+        }
+        while let Some(particle) = ahead.pop() {
+            for &other in &bonded[particle] {
+                if !std::mem::replace(&mut reached[other], true) {
+                    let crossed = crossings(state.positions[particle], state.positions[other]);
+                    images[other] = std::array::from_fn(|axis| images[particle][axis] + crossed[axis]);
+                    ahead.push(other);
+                }
+            }
+        }
+    }
+    images
+}
+
+/// Draws the bath variables of all coordinates from their law at rest.
+fn draw_position_baths(state: &mut State, model: &Model) {
+    let Some(bath) = model.position_bath.as_ref().filter(|bath| bath.memory) else { return };
+    let key = noise::step_key(model.seed, stream::PARTICLE, 0);
+    let draw = |id: usize, axis: usize| {
+        let width = bath.steps[state.species[id] as usize].deviation(bath.temperature);
+        let words = noise::words(model.generator, key, [id as u32, axis as u32]);
+        if axis < model.units.dimension { (width * noise::gaussian(words)) as f32 } else { 0.0 }
+    };
+    let all = (0..state.len()).map(|id| std::array::from_fn(|axis| draw(id, axis).to_bits()));
+    state.position_baths = all.collect();
+}
+
+/// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
+fn draw_bond_baths(state: &mut State, model: &Model) {
+    let Some(bonds) = model.bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
+    let key = noise::step_key(model.seed, stream::BOND, 0);
+    let all = bonds.iter().enumerate().map(|(index, bond)| {
+        let kind = &bonds.kinds[bond.kind as usize];
+        let width =
+            kind.bath.filter(crate::families::BathStep::remembers).map_or(0.0, |step| step.deviation(kind.temperature));
+        let words = noise::words(model.generator, key, [index as u32, 1]);
+        ((width * noise::gaussian(words)) as f32).to_bits()
+    });
+    state.bond_baths = all.collect();
+}
+
+/// Gives the particles of a group masses in proportion to the depth where they are; tracers have none.
+fn fill(state: &mut State, group: &ParticleGroup, first: usize, model: &Model, water: &ShallowWater) {
+    let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
+    let mean = water.nodes() as f64 / water.carriers.max(1) as f64 / water.mass_unit;
+    let masses = state.positions[first..].iter().map(|position| {
+        if group.tracer {
+            return 0;
+        }
+        let [x, y, _] = model.units.position(*position);
+        let depth = surface.unsmoothed([x, y], water.smoothing.length, water.smoothing.power);
+        (mean * depth).round_ties_even() as u32
+    });
+    state.masses.extend(masses);
+}
+
+/// Scales the masses so that they add up to 1 a node, to the last unit.
+fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
+    let wanted = water.total_mass();
+    let sum: u64 = masses.iter().map(|mass| u64::from(*mass)).sum();
+    if sum == 0 {
+        return;
+    }
+    let scale = wanted as f64 / sum as f64;
+    let mut left = wanted as i64;
+    for mass in masses.iter_mut() {
+        *mass = (f64::from(*mass) * scale).round_ties_even() as u32;
+        left -= i64::from(*mass);
+    }
+    // What rounding has left over is at most half a unit a particle.
+    let heavy = masses.iter_mut().filter(|mass| **mass > 0);
+    for mass in heavy.take(left.unsigned_abs() as usize) {
+        *mass = mass.saturating_add_signed(left.signum() as i32);
+    }
+}
+
+/// Maxwell's distribution of velocities for particles of different masses. The mesh takes momentum anyway, so that the
+/// centre of mass need not be at rest.
+fn draw_thermal_velocities(state: &mut State, thermal: &[usize], model: &Model, water: &ShallowWater) {
+    let key = noise::step_key(model.seed, stream::VELOCITY, 0);
+    for &particle in thermal.iter().filter(|&&particle| state.masses[particle] > 0) {
+        let width = (model.temperature / (f64::from(state.masses[particle]) * water.mass_unit)).sqrt();
+        for axis in 0..2 {
+            let words = noise::words(Generator::Threefry2x32, key, [particle as u32, axis as u32]);
+            let velocity = width * noise::gaussian(words);
+            state.momenta[particle][axis] = (velocity / model.units.momentum).round_ties_even() as i32;
+        }
+    }
+}
+
+/// Draws the bath variables of all nodes from their law at rest.
+fn draw_bath(state: &mut State, model: &Model, water: &ShallowWater) {
+    let Some(bath) = &water.bath else { return };
+    let key = noise::step_key(model.seed, stream::MESH, 0);
+    let width = bath.deviation(model.temperature) / water.wave_speed;
+    let nodes = 0..water.nodes() as u32;
+    let draw = |node| (width * noise::gaussian(noise::words(model.generator, key, [0, node]))) as f32;
+    state.node_bath = nodes.map(|node| draw(node).to_bits()).collect();
+}
+
+/// Appends the positions of a group; `shift` moves a lattice by this fraction of its spacing, so that the lattices of
+/// several groups do not fall on each other.
+fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, shift: f64) {
+    let dimension = model.units.dimension;
+    let first = state.len();
+    if let (Some(chain), Placement::Random | Placement::Lattice { .. }) = (&group.chain, &group.placement) {
+        return chains::place(state, group, chain, count, model, shift);
+    }
+    match &group.placement {
+        Placement::Random => {
+            state.positions.extend((first..first + count).map(|id| random_position(id, model)));
+        }
+        Placement::Lattice { jitter } => {
+            let sites = lattice_sites(count as u64, &model.units.lengths[..dimension]);
+            let all: u128 = sites.iter().map(|sites| u128::from(*sites)).product();
+            let offset = (0.5 + shift).fract();
+            let shifts = |id: usize| {
+                let shift = |word: u32| jitter * (f64::from(word) / 2_147_483_648.0 - 1.0);
+                if *jitter > 0.0 { random_position(id, model).map(shift) } else { [0.0; 3] }
+            };
+            state.positions.extend((0..count).map(|index| {
+                let shifts = shifts(first + index);
+                // Sites left empty are spread over the lattice instead of collecting at its end.
+                let mut site = index as u128 * all / count as u128;
+                std::array::from_fn(|axis| {
+                    if axis >= dimension {
+                        return 0;
+                    }
+                    let coordinate = (site % u128::from(sites[axis])) as f64;
+                    site /= u128::from(sites[axis]);
+                    let place = (coordinate + offset + shifts[axis]) / sites[axis] as f64;
+                    (place * 4_294_967_296.0).round() as i64 as u32
+                })
+            }));
+        }
+        Placement::Circle { center, radius } => {
+            state.positions.extend((0..count).map(|index| {
+                let (sine, cosine) = (std::f64::consts::TAU * index as f64 / count as f64).sin_cos();
+                model.units.fraction([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
+            }));
+        }
+        Placement::Listed { positions } => {
+            state.positions.extend(positions.iter().map(|position| {
+                let position = std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0));
+                model.units.fraction(position)
+            }));
+        }
+    }
+}
+
+/// A random place in the box.
+pub(crate) fn random_position(id: usize, model: &Model) -> [u32; 3] {
+    let key = noise::step_key(model.seed, stream::POSITION, 0);
+    let [x, y] = noise::words(Generator::Threefry2x32, key, [id as u32, 0]);
+    let [z, _] = noise::words(Generator::Threefry2x32, key, [id as u32, 1]);
+    let words = [x, y, z];
+    std::array::from_fn(|axis| if axis < model.units.dimension { words[axis] } else { 0 })
+}
+
+/// The numbers of lattice sites along each axis: the axis with the widest spacing is refined until all fit.
+pub(crate) fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
+    let mut sites = [1_u64; 3];
+    while sites.iter().map(|sites| u128::from(*sites)).product::<u128>() < u128::from(count) {
+        let mut widest = 0;
+        for axis in 1..lengths.len() {
+            if lengths[axis] / sites[axis] as f64 > lengths[widest] / sites[widest] as f64 {
+                widest = axis;
+            }
+        }
+        sites[widest] += 1;
+    }
+    sites
+}
+
+/// Appends the momenta of a group, rounded to integer units.
+fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: &Model) {
+    let dimension = model.units.dimension;
+    let first = state.momenta.len();
+    let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
+    match &group.velocities {
+        _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
+        // Masses differ from particle to particle there, and are known only once all are.
+        _ if model.voronoi.is_some() => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Thermal if model.shallow_water.is_some() => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Thermal => {
+            let key = noise::step_key(model.seed, stream::VELOCITY, 0);
+            let width = (group.mass * model.temperature).sqrt();
+            state.momenta.extend((first..first + count).map(|id| {
+                std::array::from_fn(|axis| {
+                    if axis >= dimension {
+                        return 0;
+                    }
+                    let words = noise::words(Generator::Threefry2x32, key, [id as u32, axis as u32]);
+                    to_units(width * noise::gaussian(words))
+                })
+            }));
+        }
+        Velocities::Geostrophic => {
+            let Some(water) = &model.shallow_water else { return state.momenta.resize(first + count, [0; 3]) };
+            let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
+            let factor = water.wave_speed * water.wave_speed / water.rotation;
+            let balanced = state.positions[first..].iter().map(|position| {
+                let [x, y, _] = model.units.position(*position);
+                let [slope_x, slope_y] = surface.slope([x, y]);
+                [to_units(-factor * slope_y), to_units(factor * slope_x), 0]
+            });
+            state.momenta.extend(balanced);
+        }
+        Velocities::Rest | Velocities::ShearWave { .. } => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Listed { velocities } => {
+            state.momenta.extend(velocities.iter().take(count).map(|velocity| {
+                std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))
+            }));
+            state.momenta.resize(first + count, [0; 3]);
+        }
+    }
+}
+
+/// Takes the common centre-of-mass velocity from the listed particles, to the last bit of their net momentum.
+pub(crate) fn bring_to_rest(state: &mut State, particles: &[usize], dimension: usize, mass: impl Fn(usize) -> f64) {
+    let total_mass: f64 = particles.iter().map(|&particle| mass(particle)).sum();
+    for axis in 0..dimension {
+        let net: i64 = particles.iter().map(|&particle| i64::from(state.momenta[particle][axis])).sum();
+        let mut left = net;
+        for &particle in particles {
+            let share = (net as f64 * (mass(particle) / total_mass)).round_ties_even() as i64;
+            state.momenta[particle][axis] = (i64::from(state.momenta[particle][axis]) - share) as i32;
+            left -= share;
+        }
+        // What rounding the shares has left over is at most half a unit per particle.
+        for &particle in particles.iter().take(left.unsigned_abs() as usize) {
+            state.momenta[particle][axis] -= left.signum() as i32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::families::reference::Reference;
+    use serde_json::{Value, json};
+
+    fn start(seed: u64, lengths: &Value, particles: &Value) -> (Model, State) {
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "seed": seed, "space": {"box": lengths}, "time": {"step": 0.1, "steps": 1},
+            "temperature": 2.0, "particles": particles, "interactions": [{"type": "dpd"}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        (model, state)
+    }
+
+    #[test]
+    fn particles_are_numbered_group_by_group() {
+        let (_, state) = start(
+            1,
+            &json!([4.0, 5.0]),
+            &json!([{"species": "B", "count": 2}, {"species": "A", "number_density": 0.1}, {"species": "B", "count": 1}]),
+        );
+        assert_eq!(state.species, [0, 0, 1, 1, 0]);
+        assert_eq!((state.positions.len(), state.momenta.len(), state.step), (5, 5, 0));
+        assert!(state.positions.iter().all(|position| position[2] == 0));
+        assert!(state.momenta.iter().all(|momentum| momentum[2] == 0));
+        assert!(state.predicted.is_empty());
+    }
+
+    #[test]
+    fn thermal_groups_together_are_at_rest_and_at_temperature() {
+        let (model, state) = start(
+            1,
+            &json!([9.0, 9.0, 9.0]),
+            &json!([{"species": "A", "count": 3001}, {"species": "B", "count": 2000, "mass": 7.0},
+                {"species": "A", "velocities": {"type": "listed", "velocities": [[1.0, -2.0, 0.5]]},
+                 "placement": {"type": "listed", "positions": [[-1.0, 10.0, 4.5]]}}]),
+        );
+        let last = state.len() - 1;
+        assert_eq!(model.units.momentum(state.momenta[last]), [1.0, -2.0, 0.5]);
+        assert_eq!(state.positions[last], model.units.fraction([8.0, 1.0, 4.5]));
+        assert_eq!(state.total_momentum(), state.momenta[last].map(i64::from));
+        for (range, mass) in [(0..3001, 1.0_f64), (3001..5001, 7.0)] {
+            let count = range.len() as f64;
+            let momenta: Vec<f64> =
+                state.momenta[range].iter().flat_map(|momentum| model.units.momentum(*momentum)).collect();
+            let moment =
+                |power: i32| momenta.iter().map(|p| (p / mass.sqrt()).powi(power)).sum::<f64>() / (3.0 * count);
+            let width = (2.0 / (3.0 * count)).sqrt();
+            assert!((moment(2) / 2.0 - 1.0).abs() < 4.0 * width, "{}", moment(2));
+            // Maxwell's distribution: ⟨v⁴⟩ = 3 (kT/m)².
+            assert!((moment(4) / 12.0 - 1.0).abs() < 10.0 * width, "{}", moment(4));
+        }
+    }
+
+    #[test]
+    fn a_single_thermal_particle_is_at_rest() {
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 1}]));
+        assert_eq!(state.momenta, [[0; 3]]);
+        let (_, state) = start(3, &json!([2.0, 2.0]), &json!([{"species": "A", "count": 0}]));
+        assert!(state.is_empty());
+    }
+
+    #[test]
+    fn random_positions_are_uniform_and_follow_the_seed() {
+        let particles = json!([{"species": "A", "count": 8000}]);
+        let (_, state) = start(1, &json!([9.0, 7.0, 8.0]), &particles);
+        let mut octants = [0_u32; 8];
+        for [x, y, z] in &state.positions {
+            octants[(x >> 31 | (y >> 31) << 1 | (z >> 31) << 2) as usize] += 1;
+        }
+        // Expected 1000 ± 30 each.
+        assert!(octants.iter().all(|count| (880..1120).contains(count)), "{octants:?}");
+        assert_eq!(start(1, &json!([9.0, 7.0, 8.0]), &particles).1, state);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.positions, state.positions);
+        assert_ne!(start(2, &json!([9.0, 7.0, 8.0]), &particles).1.momenta, state.momenta);
+    }
+
+    #[test]
+    fn lattices_are_even_and_do_not_coincide() {
+        let lattice = json!({"type": "lattice"});
+        let (model, state) =
+            start(1, &json!([8.0, 4.0, 4.0]), &json!([{"species": "A", "count": 1024, "placement": lattice}]));
+        // 16 × 8 × 8 sites, half a unit apart: each particle has its six neighbours.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.6, 1), [3 * 1024]);
+        assert_eq!(run.radial_distribution(0.49, 1), [0]);
+
+        let (model, state) = start(
+            1,
+            &json!([4.0, 4.0, 4.0]),
+            &json!([{"species": "A", "count": 64, "placement": lattice}, {"species": "B", "count": 64, "placement": lattice}]),
+        );
+        // Each at the centres of the other's cells, √¾ away.
+        let run = Reference::new(model, state);
+        assert_eq!(run.radial_distribution(0.86, 1), [0]);
+        assert_eq!(run.radial_distribution(0.88, 1), [8 * 64]);
+
+        // Of 4³ sites for 50 particles, every half of the box holds 25.
+        let (_, state) =
+            start(1, &json!([4.0, 4.0, 4.0]), &json!([{"species": "A", "count": 50, "placement": lattice}]));
+        let lower = state.positions.iter().filter(|position| position[2] < 1 << 31).count();
+        assert!((24..=26).contains(&lower), "{lower}");
+    }
+
+    #[test]
+    fn lattices_follow_the_shape_of_the_box() {
+        assert_eq!(lattice_sites(1000, &[10.0, 10.0, 10.0]), [10, 10, 10]);
+        assert_eq!(lattice_sites(200, &[20.0, 10.0]), [20, 10, 1]);
+        assert_eq!(lattice_sites(100, &[0.01, 10.0, 10.0]), [1, 10, 10]);
+        assert_eq!(lattice_sites(28, &[3.0, 3.0, 3.0]), [4, 3, 3]);
+        assert_eq!(lattice_sites(0, &[3.0, 3.0]), [1, 1, 1]);
+    }
+}

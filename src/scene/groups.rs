@@ -1,0 +1,162 @@
+//! Groups of particles: how many, where they start and how fast.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A group of particles of one species.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = one_amount)]
+pub struct ParticleGroup {
+    /// Name of the species; groups of the same species share their mass.
+    #[schemars(length(min = 1))]
+    pub species: String,
+    /// Number of particles; give this or `number_density`, or list `placement.positions`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u64>,
+    /// Particles per unit volume (area in two dimensions); the count is rounded to the nearest integer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub number_density: Option<f64>,
+    /// Mass of one particle. Left out in shallow water, where the surface makes it.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub mass: f64,
+    /// Shallow water: particles without mass, which drift along. The circulation of a tracer group on a circle is
+    /// measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub tracer: bool,
+    /// Whether the particles are held where they start.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
+    /// Chains that the particles form, one after the other; left out, none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<Chain>,
+    /// Where the particles start.
+    #[serde(default)]
+    pub placement: Placement,
+    /// How fast they start.
+    #[serde(default)]
+    pub velocities: Velocities,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Tells other readers of the schema that a group says in exactly one way how many particles it has.
+fn one_amount(schema: &mut schemars::Schema) {
+    let given = |key: &str| serde_json::json!({"required": [key], "properties": {key: {"type": "number"}}});
+    let listed = serde_json::json!({
+        "required": ["placement"],
+        "properties": {"placement": {"properties": {"type": {"const": "listed"}}}},
+    });
+    schema.insert("if".to_owned(), listed);
+    schema.insert("then".to_owned(), serde_json::json!({"properties": {"number_density": {"type": "null"}}}));
+    schema.insert("else".to_owned(), serde_json::json!({"oneOf": [given("count"), given("number_density")]}));
+}
+
+/// Chains of particles with consecutive numbers; `bonds` and `angles` act along them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Chain {
+    /// Particles in a chain; those of the group are a whole number of chains.
+    #[schemars(range(min = 2))]
+    pub beads: u32,
+    /// Distance of neighbours along a chain at the start.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub spacing: f64,
+    /// Whether the last particle of a chain is bonded to the first.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub closed: bool,
+}
+
+/// Where the particles of a group start.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Placement {
+    /// Independent uniform positions.
+    #[default]
+    #[serde(rename_all = "kebab-case")]
+    Random,
+    /// The smallest nearly cubic (square) lattice that holds the group, filled evenly.
+    Lattice {
+        /// Largest random shift of a particle along each axis, as a part of the spacing. Not for chains.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        jitter: f64,
+    },
+    /// Positions listed one by one; each is taken modulo the box.
+    Listed {
+        /// One position per particle.
+        positions: Vec<Vec<f64>>,
+    },
+    /// Evenly on a circle, counterclockwise; two dimensions only.
+    Circle {
+        /// Centre.
+        center: [f64; 2],
+        /// Radius.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        radius: f64,
+    },
+}
+
+impl Placement {
+    /// Whether the particles start on a lattice, shifted or not.
+    #[must_use]
+    pub fn is_lattice(&self) -> bool {
+        matches!(self, Self::Lattice { .. })
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// How fast the particles of a group start.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Velocities {
+    /// Maxwell's distribution at the temperature of the scene; the net momentum of all thermal groups together is
+    /// removed to the last bit.
+    #[default]
+    Thermal,
+    /// At rest.
+    Rest,
+    /// Shallow water: in balance between rotation and the slope of the smoothed surface, V = (c₀²/f₀)(-∂H/∂y, ∂H/∂x).
+    Geostrophic,
+    /// Voronoi DPD: a transverse wave `u_x = amplitude sin(2π periods y/L)` on top of Maxwell's distribution.
+    ShearWave {
+        /// The largest velocity.
+        amplitude: f64,
+        /// Number of waves in the box.
+        #[serde(default = "one_period")]
+        #[schemars(range(min = 1, max = 64))]
+        periods: u32,
+    },
+    /// Velocities listed one by one.
+    Listed {
+        /// One velocity per particle.
+        velocities: Vec<Vec<f64>>,
+    },
+}
+
+fn one_period() -> u32 {
+    1
+}
+
+impl ParticleGroup {
+    /// Number of particles, whichever way the scene gives it; a density is rounded to whole chains.
+    #[must_use]
+    pub fn resolved_count(&self, volume: f64) -> u64 {
+        let beads = self.chain.as_ref().map_or(1.0, |chain| f64::from(chain.beads.max(1)));
+        match (&self.placement, self.count, self.number_density) {
+            (Placement::Listed { positions }, _, _) => positions.len() as u64,
+            (_, Some(count), _) => count,
+            (_, None, Some(density)) => ((density * volume / beads).round() * beads) as u64,
+            (_, None, None) => 0,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! How the equations of motion are integrated.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the equations of motion are integrated.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Integrator {
+    /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
+    /// traversal a step. The default: both temperatures within about one
+    /// per cent at a step of 0.04 in the standard fluid; with strong friction it runs cold. In Voronoi DPD O is friction
+    /// and noise by Crank-Nicolson.
+    Splitting {},
+    /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
+    GrootWarren {
+        /// Weight λ of the predicted velocity that enters the friction.
+        #[serde(default = "half")]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        lambda: f64,
+    },
+    /// The Markov limit (18)-(21) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8: friction from the discrete
+    /// gradient of the coupling function. With memory, and for couplings other than pairs, their scheme (14)-(17): the
+    /// default of scenes that have those.
+    CotterReich {},
+    /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
+    /// circles. Symplectic in its magnetic form, so that the circulation of material loops is kept at any time step.
+    /// The default of scenes of shallow water.
+    Gyro {},
+    /// Shallow water: R(½) kick(½) drift kick(½) R(½) with R the rotation of velocities alone.
+    Rotate {},
+    /// Voronoi DPD: the explicit scheme of Euler, as printed by Flekkøy, Coveney and De Fabritiis,
+    /// doi:10.1103/PhysRevE.62.2140. Hot by 2 % at a time step of 0.005 where `splitting` is right at 0.16.
+    Euler {},
+}
+
+impl Integrator {
+    /// The name in a scene.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Splitting {} => "splitting",
+            Self::GrootWarren { .. } => "groot-warren",
+            Self::CotterReich {} => "cotter-reich",
+            Self::Gyro {} => "gyro",
+            Self::Rotate {} => "rotate",
+            Self::Euler {} => "euler",
+        }
+    }
+}
+
+impl Default for Integrator {
+    fn default() -> Self {
+        Self::Splitting {}
+    }
+}
+
+fn half() -> f64 {
+    0.5
+}

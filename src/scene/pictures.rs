@@ -1,0 +1,94 @@
+//! The look of plots and pictures.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The look of the plots.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlotStyle {
+    /// Width of a plot in pixels.
+    #[schemars(range(min = 320, max = 8192))]
+    pub width: u32,
+    /// Height of a plot in pixels; left out, three quarters of the width, and for fields what the shape of the box asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 240, max = 8192))]
+    pub height: Option<u32>,
+    /// Factor on every type size and line width.
+    #[schemars(range(min = 0.25, max = 8.0))]
+    pub scale: f64,
+    /// Light or dark.
+    pub theme: Theme,
+}
+
+impl Default for PlotStyle {
+    fn default() -> Self {
+        Self { width: 1600, height: None, scale: 1.0, theme: Theme::Light }
+    }
+}
+
+impl PlotStyle {
+    /// Height of a plot in pixels.
+    ///
+    /// ```
+    /// use mesoscope::scene::PlotStyle;
+    /// assert_eq!(PlotStyle { width: 800, ..PlotStyle::default() }.height(), 600);
+    /// assert_eq!(PlotStyle { height: Some(500), ..PlotStyle::default() }.height(), 500);
+    /// ```
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height.unwrap_or(self.width * 3 / 4)
+    }
+}
+
+/// Colours of paper and ink.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Theme {
+    /// Dark ink on white (default).
+    #[default]
+    Light,
+    /// Light ink on near-black.
+    Dark,
+}
+
+/// Pictures of the particles.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Snapshot {
+    /// Steps between two numbered pictures `snapshot-<number>.png`; zero writes only `snapshot.png` at the end.
+    pub every: u64,
+    /// Width of a picture in pixels; left out, what the shape of the box asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 64, max = 8192))]
+    pub width: Option<u32>,
+    /// Height of a picture in pixels; left out, what the shape of the box asks for. Without both the longer side has 1200.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 64, max = 8192))]
+    pub height: Option<u32>,
+    /// Radius of the drawn discs in units of length; left out, a third of the cutoff.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: Option<f64>,
+    /// What the colour of a particle shows; left out, the species, or the density of Voronoi cells of one species.
+    pub color: SnapshotColor,
+    /// The lowest and the highest value on the scale of colours, of all pictures of the run; left out, they follow from the
+    /// first picture and the temperature of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+}
+
+/// What the colour of a particle shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SnapshotColor {
+    /// The species.
+    #[default]
+    Species,
+    /// The speed, on a perceptually uniform scale.
+    Speed,
+    /// Mass by volume; of Voronoi cells only.
+    Density,
+    /// The temperature inside; of Voronoi cells with internal energies only.
+    Temperature,
+}
