@@ -4,6 +4,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod canonical;
 mod compilers;
 mod elementary;
+mod unchanged;
 mod variants;

@@ -381,7 +381,7 @@ pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
 }
 
 /// The buffer that a kernel's variable is bound to.
-fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
+pub fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
     kernel.renamed.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
 }
 
