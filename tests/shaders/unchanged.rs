@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use mesoscope::gpu::LinkedShader;
-use mesoscope::plan::{Contents, Kernel, Plan};
+use mesoscope::plan::{Contents, Kernel, Plan, Texture};
 
 use crate::canonical::{hash, hash_of_kernel};
 use crate::variants::{buffer_name, plans, shader as shader_of};
@@ -17,29 +17,29 @@ use crate::variants::{buffer_name, plans, shader as shader_of};
 fn record() -> String {
     let mut hashes: BTreeMap<*const LinkedShader, u64> = BTreeMap::new();
     let mut kernels: Vec<u64> = Vec::new();
-    let mut plans: Vec<(String, u64)> = Vec::new();
+    let mut hashes_of_plans: Vec<(String, u64)> = Vec::new();
     for (scene, plan) in plans() {
         let mut text = String::new();
         for kernel in &plan.kernels {
             let shader = shader_of(kernel);
-            let hash = *hashes.entry(std::ptr::from_ref(shader)).or_insert_with(|| hash_of_kernel(&shader.module));
-            kernels.push(hash);
-            writeln!(text, "{hash:x} {}", dispatch(plan, kernel, shader)).unwrap();
+            let computed = *hashes.entry(std::ptr::from_ref(shader)).or_insert_with(|| hash_of_kernel(&shader.module));
+            kernels.push(computed);
+            writeln!(text, "{computed:x} {}", dispatch(plan, kernel, shader)).unwrap();
         }
         describe(plan, &mut text);
-        plans.push((group(scene).to_owned(), hash(&text)));
+        hashes_of_plans.push((group(scene).to_owned(), hash(&text)));
     }
     kernels.sort_unstable();
     kernels.dedup();
     let mut text = format!("kernels {}\n", kernels.len());
-    lines(kernels, &mut text);
+    lines(&kernels, &mut text);
     let mut groups: BTreeMap<String, Vec<u64>> = BTreeMap::new();
-    for (group, hash) in plans {
+    for (group, hash) in hashes_of_plans {
         groups.entry(group).or_default().push(hash);
     }
     for (group, hashes) in groups {
         writeln!(text, "plans of {group} {}", hashes.len()).unwrap();
-        lines(hashes.chunks(16).map(|some| hash(&format!("{some:x?}"))).collect(), &mut text);
+        lines(&hashes.chunks(16).map(|some| hash(&format!("{some:x?}"))).collect::<Vec<_>>(), &mut text);
     }
     text
 }
@@ -48,7 +48,7 @@ fn group(scene: &str) -> &'static str {
     ["water", "Voronoi"].into_iter().find(|family| scene.contains(family)).unwrap_or("particles")
 }
 
-fn lines(hashes: Vec<u64>, text: &mut String) {
+fn lines(hashes: &[u64], text: &mut String) {
     for line in hashes.chunks(14) {
         let words: Vec<String> = line.iter().map(|hash| format!("{:08x}", (hash ^ (hash >> 32)) as u32)).collect();
         writeln!(text, "{}", words.join(" ")).unwrap();
@@ -68,7 +68,7 @@ fn dispatch(plan: &Plan, kernel: &Kernel, shader: &LinkedShader) -> String {
         .map(|binding| {
             let name = buffer_name(kernel, &binding.name);
             let buffer = plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
-            let texture = plan.textures.iter().find(|texture| texture.name == name).map(|texture| texture.bytes());
+            let texture = plan.textures.iter().find(|texture| texture.name == name).map(Texture::bytes);
             buffer.or(texture).unwrap_or(0)
         })
         .collect();
