@@ -114,7 +114,7 @@ impl Flow {
         let scene = scene(size, NEVER, &[])?;
         let model = Model::new(&scene);
         let state = mesoscope::families::initial_state(&scene, &model);
-        let water = model.shallow_water.clone().ok_or("the scene holds no shallow water")?;
+        let water = model.shallow_water().cloned().ok_or("the scene holds no shallow water")?;
         Ok(Self { size, model, water, state })
     }
 

@@ -161,7 +161,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Opti
         0 => bytes(plan.bytes()),
         count => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
     };
-    let particles = match &model.shallow_water {
+    let particles = match model.shallow_water() {
         Some(water) if water.carriers < plan.particles => {
             let noun = if plan.particles - water.carriers == 1 { "tracer" } else { "tracers" };
             format!("{} of water and {} {noun},", grouped(water.carriers), grouped(plan.particles - water.carriers))
@@ -179,10 +179,10 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Opti
         ("adapter", adapter.to_owned()),
         ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
     ]);
-    if let (Some(water), [Interaction::ShallowWater(asked)]) = (&model.shallow_water, scene.interactions.as_slice()) {
+    if let (Some(water), [Interaction::ShallowWater(asked)]) = (model.shallow_water(), scene.interactions.as_slice()) {
         rows.extend(mesh(scene, water, asked.bath.as_ref(), plan, &cells));
     } else {
-        let bins = if model.voronoi.is_some() { "search grid" } else { "cells" };
+        let bins = if model.voronoi().is_some() { "search grid" } else { "cells" };
         rows.push((bins, cells));
         rows.extend(list(model, plan));
         rows.extend(fluid_of_cells(model));
@@ -195,7 +195,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Opti
 
 /// The list of neighbours and what its pairs take.
 fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
-    let (Layout::Coupled { listed: Some(listed), .. }, Some(force)) = (plan.layout, &model.pair_force) else {
+    let (Layout::Coupled { listed: Some(listed), .. }, Some(force)) = (plan.layout, model.pair_force()) else {
         return None;
     };
     let noun = if listed.capacity == 1 { "pair" } else { "pairs" };
@@ -216,7 +216,7 @@ fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
 
 /// What a scene says of Voronoi cells.
 fn fluid_of_cells(model: &Model) -> Vec<(&'static str, String)> {
-    let Some(cells) = &model.voronoi else { return Vec::new() };
+    let Some(cells) = model.voronoi() else { return Vec::new() };
     let form = match cells.form {
         VoronoiForm::Gradient => "gradient: constant masses, pressures that follow from a free energy",
         VoronoiForm::Consistent => "consistent: cells exchange mass as their faces turn",
@@ -446,7 +446,7 @@ fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
             sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
         ),
     ];
-    if let Some(water) = &model.shallow_water {
+    if let Some(water) = model.shallow_water() {
         if water.closed_loops().next().is_some() {
             let when = format!("a row {}", interval(0, output.energies.every));
             rows.push((files::CIRCULATION.to_owned(), sized(&when, sizes.circulation)));

@@ -15,7 +15,7 @@ const MOST_TRIED: u64 = 20_000;
 
 /// All problems of a scene that makes sense otherwise.
 pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
-    let needs_model = couplings::scene_is_coupled(scene);
+    let needs_model = couplings::is_coupled(scene);
     if !needs_model && !has_requirements(scene) {
         return;
     }
@@ -70,14 +70,14 @@ fn has_requirements(scene: &Scene) -> bool {
 
 fn check_state(scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
     check_extents(scene, model, state, problems);
-    if let Some(cells) = &model.voronoi {
+    if let Some(cells) = model.voronoi() {
         check_masses(scene, cells, &state.masses, problems);
     }
 }
 
 /// A bond of finite extent cannot start longer than it can be.
 fn check_extents(scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
-    let Some(bonds) = &model.bonds else { return };
+    let Some(bonds) = model.bonds() else { return };
     let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
         Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),
         _ => None,

@@ -54,7 +54,7 @@ const VELOCITY_RANGE: f64 = 1_073_741_824.0;
 
 /// What a momentum out of its range is.
 fn momentum(plan: &Plan, model: &Model) -> String {
-    if model.shallow_water.is_some() {
+    if model.shallow_water().is_some() {
         let limit = plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
         let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
         let reason = if limit < VELOCITY_RANGE {
@@ -64,7 +64,7 @@ fn momentum(plan: &Plan, model: &Model) -> String {
         };
         return format!("a velocity is above {}, {reason}", crate::scene::brief(limit * plan.units.momentum));
     }
-    if model.voronoi.is_some() {
+    if model.voronoi().is_some() {
         return "a momentum is more than 1024 times its natural scale".to_owned();
     }
     "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much closer together \

@@ -35,7 +35,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         let count = group.resolved_count(scene.space.volume()) as usize;
         place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
-        if let Some(water) = &model.shallow_water {
+        if let Some(water) = model.shallow_water() {
             fill(&mut state, group, first, model, water);
         }
         set_in_motion(&mut state, group, count, model);
@@ -45,13 +45,13 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    if let Some(chains) = &model.chains {
+    if let Some(chains) = model.chains() {
         chains.fill(&mut state, &model.units, model.seed);
-    } else if let Some(water) = &model.shallow_water {
+    } else if let Some(water) = model.shallow_water() {
         set_mean_depth(&mut state.masses[..water.carriers as usize], water);
         draw_thermal_velocities(&mut state, &thermal, model, water);
         draw_bath(&mut state, model, water);
-    } else if let Some(cells) = &model.voronoi {
+    } else if let Some(cells) = model.voronoi() {
         voronoi_start::fill(&mut state, scene, model, cells);
     } else {
         if model.conserves_momentum() {
@@ -60,10 +60,10 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         }
         draw_position_baths(&mut state, model);
         draw_bond_baths(&mut state, model);
-        if let Some(noise) = &model.coloured_noise {
+        if let Some(noise) = model.coloured_noise() {
             state.holds = noise.first_holds(model, state.len());
         }
-        if model.tether.is_some() {
+        if model.tether().is_some() {
             state.tethers.clone_from(&state.positions);
         }
     }
@@ -77,7 +77,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
 /// along its bonds.
 fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
     let mut images = vec![[0; 3]; state.len()];
-    let Some(bonds) = &model.bonds else { return images };
+    let Some(bonds) = model.bonds() else { return images };
     let mut bonded: Vec<Vec<usize>> = vec![Vec::new(); state.len()];
     for [first, second] in bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
         bonded[first].push(second);
@@ -104,7 +104,7 @@ fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
 
 /// Draws the bath variables of all coordinates from their law at rest.
 fn draw_position_baths(state: &mut State, model: &Model) {
-    let Some(bath) = model.position_bath.as_ref().filter(|bath| bath.memory) else { return };
+    let Some(bath) = model.position_bath().filter(|bath| bath.memory) else { return };
     let key = noise::step_key(model.seed, stream::PARTICLE, 0);
     let draw = |id: usize, axis: usize| {
         let width = bath.steps[state.species[id] as usize].deviation(bath.temperature);
@@ -117,7 +117,7 @@ fn draw_position_baths(state: &mut State, model: &Model) {
 
 /// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
 fn draw_bond_baths(state: &mut State, model: &Model) {
-    let Some(bonds) = model.bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
+    let Some(bonds) = model.bonds().filter(|bonds| bonds.have_memory()) else { return };
     let key = noise::step_key(model.seed, stream::BOND, 0);
     let all = bonds.iter().enumerate().map(|(index, bond)| {
         let kind = &bonds.kinds[bond.kind as usize];
@@ -270,8 +270,8 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
     match &group.velocities {
         _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
         // Masses differ from particle to particle there, and are known only once all are.
-        _ if model.voronoi.is_some() => state.momenta.resize(first + count, [0; 3]),
-        Velocities::Thermal if model.shallow_water.is_some() => state.momenta.resize(first + count, [0; 3]),
+        _ if model.voronoi().is_some() => state.momenta.resize(first + count, [0; 3]),
+        Velocities::Thermal if model.shallow_water().is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
             let width = (group.mass * model.temperature).sqrt();
@@ -286,7 +286,7 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
             }));
         }
         Velocities::Geostrophic => {
-            let Some(water) = &model.shallow_water else { return state.momenta.resize(first + count, [0; 3]) };
+            let Some(water) = model.shallow_water() else { return state.momenta.resize(first + count, [0; 3]) };
             let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
             let factor = water.wave_speed * water.wave_speed / water.rotation;
             let balanced = state.positions[first..].iter().map(|position| {

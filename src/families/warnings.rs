@@ -24,12 +24,12 @@ const FEWEST_UNITS: f64 = 1000.0;
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let model = Model::new(scene);
-    if let Some(force) = &model.pair_force {
+    if let Some(force) = model.pair_force() {
         warn_of_friction(scene, &model, force, &mut warnings);
         warn_of_stiffness(scene, &model, force, &mut warnings);
         warn_of_attraction(&model, force, &mut warnings);
     }
-    if model.shallow_water.is_none() && model.voronoi.is_none() {
+    if model.shallow_water().is_none() && model.voronoi().is_none() {
         warn_of_rounding(&model, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -45,11 +45,11 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warnings.extend(super::particles::stability::warn(scene, &model));
         warn_of_loose_chains(scene, &mut warnings);
     }
-    if let (Some(cells), Some(voronoi)) = (&model.voronoi, super::voronoi::scene::voronoi(scene)) {
+    if let (Some(cells), Some(voronoi)) = (model.voronoi(), super::voronoi::scene::voronoi(scene)) {
         warn_of_cells(scene, &model, cells, &mut warnings);
         warn_of_fluid(scene, &model, voronoi, cells, &mut warnings);
     }
-    match &model.shallow_water {
+    match model.shallow_water() {
         Some(water) => {
             if water.carriers == 0 {
                 let message =
@@ -148,7 +148,7 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     if warmth > 0.0 && warmth < FEWEST_UNITS {
         warn(warnings, "particles", told(&format!("the thermal momentum of `{}`", lightest.name), warmth));
     }
-    let Some(force) = &model.pair_force else { return };
+    let Some(force) = model.pair_force() else { return };
     let impulse = units(force.largest_repulsion() * model.time_step);
     if impulse > 0.0 && impulse < FEWEST_UNITS {
         warn(warnings, "interactions", told("the impulse of the repulsion in a step", impulse));

@@ -18,7 +18,7 @@ use crate::state::State;
 /// let model = Model::new(&scene);
 /// let mut state = families::initial_state(&scene, &model);
 /// state.momenta.fill([3_000_000, 4_000_000, 0]);
-/// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
+/// let water = model.shallow_water().ok_or("no shallow water")?;
 /// let flow = MeshFlow::new(&model, water, &state);
 /// let speed = 5e6 * model.units.momentum;
 /// assert!(flow.speed().iter().all(|found| (found / speed - 1.0).abs() < 1e-12));
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn a_shear_and_a_swirl_have_their_vorticity() {
         let (model, mut state) = start([24, 40], 48 * 80);
-        let water = model.shallow_water.clone().unwrap();
+        let water = model.shallow_water().cloned().unwrap();
         // u = sin(y'), v = 2 cos(x'), and tracers that would spoil it.
         let carriers = water.carriers as usize;
         for (particle, position) in state.positions.clone().into_iter().enumerate() {
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn without_water_nothing_flows() {
         let (model, state) = start([4, 4], 0);
-        let flow = MeshFlow::new(&model, model.shallow_water.as_ref().unwrap(), &state);
+        let flow = MeshFlow::new(&model, model.shallow_water().unwrap(), &state);
         assert_eq!(flow.speed(), [0.0; 16]);
         assert_eq!(flow.vorticity(), [0.0; 16]);
     }

@@ -31,10 +31,10 @@ use crate::plan::Plan;
 pub fn observables_of(sample: &Sample, plan: &Plan, model: &Model) -> Observables {
     let sum = |index: usize| sample.sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
     let quanta = plan.quanta;
-    if let Some(water) = &model.shallow_water {
+    if let Some(water) = model.shallow_water() {
         return shallow_water(sample.step, sum, plan, model, water);
     }
-    if let Some(cells) = &model.voronoi {
+    if let Some(cells) = model.voronoi() {
         return voronoi(sample, sum, plan, model, cells);
     }
     // Energy, square and number of the baths come last, where there are any that remember.

@@ -143,7 +143,7 @@ fn velocity_scale(model: &Model) -> f64 {
 /// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
 /// of the strongest contact.
 fn acceleration_scale(model: &Model) -> f64 {
-    let Some(force) = &model.pair_force else { return 1.0 };
+    let Some(force) = model.pair_force() else { return 1.0 };
     let dimension = model.units.dimension as f64;
     let (cutoff, exponent) = (force.cutoff, force.weight_exponent);
     let (sphere, weight) = if model.units.dimension == 2 {
@@ -291,10 +291,10 @@ impl Builder<'_> {
     }
 
     fn chain_sizes(&mut self, asked: &ChainSizes) {
-        let groups = &self.reported.model.chain_groups;
+        let groups = self.reported.model.chain_groups();
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
         let quantities = 2 * groups.len();
-        self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.clone()));
+        self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.to_vec()));
         self.sums(SumSampler {
             name: "chain_sizes",
             modules: vec!["common/turns_endless", "kernels/chain_sizes"],

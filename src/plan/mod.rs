@@ -52,7 +52,7 @@ use crate::state::Units;
 /// ```
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-    let mut plan = match (&model.shallow_water, &model.voronoi) {
+    let mut plan = match (model.shallow_water(), model.voronoi()) {
         (Some(water), _) => shallow_water::plan(model, water, output, hardware, options),
         (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
         _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),

@@ -24,9 +24,9 @@ const SCAN_AT_END_CELLS: u64 = 1 << 11;
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
-    let force = model.pair_force.as_ref().unwrap_or(&free);
+    let force = model.pair_force().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff, particles);
-    let traversal = match (model.pair_force.is_some(), options.traversal) {
+    let traversal = match (model.pair_force().is_some(), options.traversal) {
         (false, _) => Traversal::Alone,
         (true, Some(traversal)) => traversal,
         (true, None) if hardware.takes_eights() => Traversal::Clusters,
@@ -77,8 +77,8 @@ pub(super) fn quanta(model: &Model) -> Quanta {
     // from elsewhere may all be those of the lightest.
     let thermal = typical_momentum * typical_momentum <= 4.0 * heaviest * model.temperature;
     let kinetic = typical_momentum * typical_momentum / if thermal { heaviest } else { lightest };
-    let cutoff = model.pair_force.as_ref().map_or(1.0, |force| force.cutoff);
-    let repulsive = model.pair_force.as_ref().map_or(0.0, |force| force.largest_repulsion() * cutoff);
+    let cutoff = model.pair_force().map_or(1.0, |force| force.cutoff);
+    let repulsive = model.pair_force().map_or(0.0, |force| force.largest_repulsion() * cutoff);
     let strongest = kinetic.max(repulsive);
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let energy = power_of_two(kinetic) * 2_f64.powi(-32);

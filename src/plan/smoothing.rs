@@ -42,7 +42,7 @@ pub struct SmoothingPlan {
 ///
 /// let iterated = [r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#.to_owned()];
 /// let model = Model::new(&scene::load("shallow-water", &iterated)?);
-/// let water = model.shallow_water.ok_or("no shallow water")?;
+/// let water = model.shallow_water().ok_or("no shallow water")?;
 /// let lengths = [model.units.lengths[0], model.units.lengths[1]];
 /// let plan = smoothing::smoothing(&water, lengths, Options::default());
 /// assert_eq!(plan.order.len() as u32, smoothing::iterations(&water, lengths, 1e-3));

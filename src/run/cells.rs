@@ -192,7 +192,7 @@ impl Wave {
             "kinematic_viscosity": scaled(wave_number.powi(-2)),
             "shear_viscosity": scaled(density * wave_number.powi(-2)),
         });
-        if let Some(cells) = &model.voronoi {
+        if let Some(cells) = model.voronoi() {
             result["viscosity_of_friction"] = json!(cells.viscosity);
             result["viscosity_of_the_network"] = json!(NETWORK_VISCOSITY * cells.viscosity);
         }

@@ -31,7 +31,7 @@ impl KeptQuantity {
 /// What a model keeps to the last bit.
 pub(super) fn kept(model: &Model) -> Vec<KeptQuantity> {
     use KeptQuantity::{Energy, Mass, MeshMass, Momentum};
-    match (&model.voronoi, &model.shallow_water) {
+    match (model.voronoi(), model.shallow_water()) {
         (Some(cells), _) if cells.keeps_energy() => vec![Mass, Momentum, Energy],
         (Some(_), _) => vec![Mass, Momentum],
         (None, Some(_)) => vec![MeshMass],
@@ -43,13 +43,13 @@ pub(super) fn kept(model: &Model) -> Vec<KeptQuantity> {
 /// What a run conserves, to the last bit or to rounding where that is said, but for what was seen to be lost.
 pub(super) fn conserved(model: &Model, lost: &[KeptQuantity]) -> Vec<String> {
     let mut conserved = Vec::new();
-    if model.voronoi.is_none() && model.shallow_water.is_none() {
+    if model.voronoi().is_none() && model.shallow_water().is_none() {
         // Nothing changes the mass of a particle.
         conserved.push("mass".to_owned());
     }
     let left = kept(model).into_iter().filter(|quantity| !lost.contains(quantity));
     conserved.extend(left.map(|quantity| format!("{}, to the last bit", quantity.name())));
-    let loops = model.shallow_water.as_ref().is_some_and(|water| water.closed_loops().next().is_some());
+    let loops = model.shallow_water().is_some_and(|water| water.closed_loops().next().is_some());
     if loops && model.integrator == (Integrator::Gyro {}) {
         conserved.push("the circulation of material loops, to rounding".to_owned());
     }
@@ -73,13 +73,13 @@ pub(super) fn not_conserved(model: &Model, changed: &[(KeptQuantity, String)]) -
 const INTEGRATED: &str = "only as well as the time step integrates the forces";
 
 fn fate_of_energy(model: &Model) -> String {
-    if let Some(water) = &model.shallow_water {
+    if let Some(water) = model.shallow_water() {
         return match water.bath {
             Some(_) => "exchanged with the bath on the mesh, which also slows a uniform flow down".to_owned(),
             None => INTEGRATED.to_owned(),
         };
     }
-    if let Some(cells) = &model.voronoi {
+    if let Some(cells) = model.voronoi() {
         return fate_of_energy_in_cells(model, cells).to_owned();
     }
     let baths = baths(model);
@@ -88,7 +88,7 @@ fn fate_of_energy(model: &Model) -> String {
     let athermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature == 0.0);
     let lent = baths.iter().any(|(step, _)| step.coupling > 0.0 && step.remembers());
     let mut ways = Vec::new();
-    if model.coloured_noise.is_some_and(|noise| noise.strength > 0.0) {
+    if model.coloured_noise().is_some_and(|noise| noise.strength > 0.0) {
         ways.push("put in by the coloured noise");
     }
     if thermal {
@@ -121,25 +121,25 @@ fn fate_of_energy_in_cells(model: &Model, cells: &Voronoi) -> &'static str {
 fn baths(model: &Model) -> Vec<(BathStep, f64)> {
     let mut baths = Vec::new();
     let species = model.species.len();
-    if let Some(force) = &model.pair_force {
+    if let Some(force) = model.pair_force() {
         let steps = (0..species * species).map(|pair| force.bath_step(pair / species, pair % species, model.time_step));
         baths.extend(steps.map(|step| (step, force.temperature)));
     }
-    if let Some(bath) = &model.position_bath {
+    if let Some(bath) = model.position_bath() {
         baths.extend(bath.steps.iter().map(|step| (*step, bath.temperature)));
     }
-    if let Some(bonds) = &model.bonds {
+    if let Some(bonds) = model.bonds() {
         baths.extend(bonds.kinds.iter().filter_map(|kind| Some((kind.bath?, kind.temperature))));
     }
     baths
 }
 
 fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
-    if model.shallow_water.is_some() {
+    if model.shallow_water().is_some() {
         return vec!["the mesh is fixed in space, and a rotation turns it"];
     }
     let mut reasons = Vec::new();
-    match model.coloured_noise.map(|noise| noise.process) {
+    match model.coloured_noise().map(|noise| noise.process) {
         None => {}
         Some(NoiseProcess::Literal) => reasons.push(
             "the coloured noise pushes every particle by itself, with a mean force that is not zero, so that the centre \
@@ -148,16 +148,16 @@ fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
         Some(_) => reasons
             .push("the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders"),
     }
-    if model.position_bath.is_some() {
+    if model.position_bath().is_some() {
         reasons.push("friction and noise act on every particle by itself");
     }
-    if model.tether.is_some() {
+    if model.tether().is_some() {
         reasons.push("every particle is tied to a point fixed in space");
     }
     if model.has_fixed_particles() {
         reasons.push("fixed particles take up what others give them");
     }
-    if model.coloured_noise.is_some() && model.measures_about_centre_of_mass() {
+    if model.coloured_noise().is_some() && model.measures_about_centre_of_mass() {
         reasons.push("temperatures are about the velocity of the centre of mass");
     }
     reasons

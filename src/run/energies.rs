@@ -17,16 +17,16 @@ type Cell = fn(&Observables, f64) -> f64;
 fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
     let potential = model.has_potential();
     let dimension = model.units.dimension;
-    let water = model.shallow_water.as_ref();
-    let cells = model.voronoi.as_ref();
+    let water = model.shallow_water();
+    let cells = model.voronoi();
     let memory = model.has_memory();
     // Curvature is summed over all particles, and the force on those that are held is not one of heat.
     let configurational =
-        potential && water.is_none() && cells.is_none() && !model.has_fixed_particles() && model.angles.is_none();
+        potential && water.is_none() && cells.is_none() && !model.has_fixed_particles() && model.angles().is_none();
     // What is tied to places in space presses on nothing.
-    let pressure = water.is_none() && model.tether.is_none() && !model.has_fixed_particles();
+    let pressure = water.is_none() && model.tether().is_none() && !model.has_fixed_particles();
     // Harmonic chains are at temperature zero and at that of the scene side by side.
-    let one_temperature = model.chains.is_none();
+    let one_temperature = model.chains().is_none();
     let kept = cells.is_some_and(Voronoi::keeps_energy);
     let limited = cells.is_some_and(|cells| cells.has_limits(model.temperature));
     let solved = cells.is_some_and(|cells| cells.viscosity > 0.0) && model.integrator == Integrator::Splitting {};

@@ -130,7 +130,7 @@ impl KeptSum {
 fn sums_of(quantity: KeptQuantity, model: &Model, state: &State) -> Vec<KeptSum> {
     let sum = |direction, place, unit, start| KeptSum { quantity, direction, place, unit, start, change: None };
     let mass = || state.masses.iter().map(|mass| i64::from(*mass)).sum::<i64>();
-    match (quantity, &model.voronoi, &model.shallow_water) {
+    match (quantity, model.voronoi(), model.shallow_water()) {
         (KeptQuantity::Momentum, cells, _) => {
             let first = if cells.is_some() { 1 } else { 2 };
             let total = state.total_momentum();

@@ -62,7 +62,7 @@ pub fn redraw(
     let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     let state = engine.reported()?;
-    if let Some(water) = &model.shallow_water {
+    if let Some(water) = model.shallow_water() {
         let depth = mesh_depth(&mut engine, water)?;
         let names = pictures.fields(None, &state, &depth, &model, water)?;
         written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
@@ -135,7 +135,7 @@ impl<'a> Pictures<'a> {
     pub(super) fn energies(&mut self, table: &Table, model: &Model, summary: &Summary) -> Result<(), RunError> {
         let averages = averages(summary);
         let (title, particles) = (&self.scene.title, model.particle_count());
-        let mut chart = if let Some(water) = &model.shallow_water {
+        let mut chart = if let Some(water) = model.shallow_water() {
             let set = water.bath.is_some().then_some(model.temperature);
             let mut chart = shallow_water_chart(title, table, set, &averages);
             let [columns, rows] = water.mesh;
@@ -146,7 +146,7 @@ impl<'a> Pictures<'a> {
                 with_error(water.rotation, None)
             );
             chart
-        } else if model.voronoi.as_ref().is_some_and(Voronoi::keeps_energy) {
+        } else if model.voronoi().is_some_and(Voronoi::keeps_energy) {
             let mut chart = energetic_cells_chart(title, table, particles, &averages);
             chart.subtitle = format!("{} cells", grouped(particles));
             chart
@@ -198,7 +198,7 @@ impl<'a> Pictures<'a> {
 
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
-        if let Some(cells) = &model.voronoi {
+        if let Some(cells) = model.voronoi() {
             return self.cells(name, state, model, cells);
         }
         // Points on a line show nothing.
@@ -426,7 +426,7 @@ fn radius(model: &Model) -> f64 {
         let volume = model.units.volume() / model.particle_count().max(1) as f64;
         volume.powf(1.0 / model.units.dimension as f64)
     };
-    model.pair_force.as_ref().map_or_else(spacing, |force| force.cutoff) / 3.0
+    model.pair_force().map_or_else(spacing, |force| force.cutoff) / 3.0
 }
 
 /// A time without the noise digits of a product: `0.3`, not `0.30000000000000004`.

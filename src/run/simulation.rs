@@ -198,9 +198,9 @@ impl Simulation {
                     // Too rare for every run to pay for it in memory or time.
                     options = options.with_room(task.model.particle_count());
                     start = task.last_checkpoint(start)?;
-                    let reason = if task.model.shallow_water.is_some() {
+                    let reason = if task.model.shallow_water().is_some() {
                         "the particles crowd in one cell of the mesh"
-                    } else if task.model.voronoi.is_some() {
+                    } else if task.model.voronoi().is_some() {
                         "a cell has more corners than there is room for"
                     } else if task.model.is_coupled() {
                         "a particle has more neighbours than the list has room for"
@@ -379,7 +379,7 @@ impl<'a> Run<'a> {
         analyses.continue_windows(engine, &sections)?;
         let chains = chains_of(scene, model, &sections)?;
         let cells = Cells::new(scene, &sections)?;
-        let tally = if model.voronoi.is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
+        let tally = if model.voronoi().is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
         let kept_sums = KeptSums::new(model, &start.state, &sections)?;
         let schedule = Schedule::new(scene);
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
@@ -494,7 +494,7 @@ impl<'a> Run<'a> {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
             }
-            if let Some(water) = &self.model.shallow_water {
+            if let Some(water) = self.model.shallow_water() {
                 let depth = mesh_depth(engine, water)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
                     self.pictures.fields(number, &state, &depth, self.model, water)?;
@@ -535,7 +535,7 @@ impl<'a> Run<'a> {
         sections.extend(self.cells.sections());
         sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
         sections.extend(self.pictures.sections());
-        if self.model.voronoi.is_some() {
+        if self.model.voronoi().is_some() {
             sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
         }
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
@@ -636,7 +636,7 @@ impl<'a> Run<'a> {
 
 /// The samples of harmonic chains, from the start or from a checkpoint.
 fn chains_of(scene: &Scene, model: &Model, sections: &Sections<'_>) -> Result<Option<Chains>, CheckpointError> {
-    let (Some(asked), Some(trios)) = (&scene.output.chain, &model.chains) else { return Ok(None) };
+    let (Some(asked), Some(trios)) = (&scene.output.chain, model.chains()) else { return Ok(None) };
     let mut chains = Chains::new(trios.clone(), model.units, model.time_step, asked.every);
     chains.restore(sections)?;
     Ok(Some(chains))

@@ -65,10 +65,10 @@ impl Sizes {
             TrajectoryFormat::Gsd => GSD_PARTICLE,
             TrajectoryFormat::ExtendedXyz => XYZ_PARTICLE,
         };
-        let loops = model.shallow_water.as_ref().map_or(0, |water| water.closed_loops().count() as u64);
+        let loops = model.shallow_water().map_or(0, |water| water.closed_loops().count() as u64);
         let circulation =
             if loops == 0 { 0 } else { times(output.energies.every).saturating_mul(NUMBER * (loops + 2)) };
-        let of_chains = match (&output.chain, &model.chains) {
+        let of_chains = match (&output.chain, model.chains()) {
             (Some(asked), Some(trios)) => numbers_kept(trios, times(asked.every)).saturating_mul(8),
             _ => 0,
         };
@@ -77,7 +77,7 @@ impl Sizes {
         });
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
-        let (picture, pictures, numbered) = match &model.shallow_water {
+        let (picture, pictures, numbered) = match model.shallow_water() {
             Some(water) => {
                 let fields = output.fields.clone().unwrap_or_default();
                 let count = fields.quantities.len() as u64;
@@ -145,7 +145,7 @@ fn checkpoint(model: &Model, plan: &Plan) -> u64 {
                 // Where it was when it was listed, and its pairs: the list has room for half again as many and twelve.
                 particle += 12 + 20 * ((listed.capacity as u64).saturating_sub(12) * 2 / 3);
             }
-            beside += 4 * model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);
+            beside += 4 * model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);
         }
     }
     if plan.paths.are_followed() {

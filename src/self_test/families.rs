@@ -145,11 +145,11 @@ fn reference_step(model: &Model, start: &State) -> Result<State, String> {
     let words = |error: crate::families::reference::Unstable| format!("the reference: {error}");
     let missing = || "the reference does not know this scene".to_owned();
     let (model, start) = (model.clone(), start.clone());
-    if model.shallow_water.is_some() {
+    if model.shallow_water().is_some() {
         let mut reference = ShallowWaterReference::new(model, start).ok_or_else(missing)?;
         reference.step().map_err(words)?;
         Ok(reference.state().clone())
-    } else if model.voronoi.is_some() {
+    } else if model.voronoi().is_some() {
         let mut reference = VoronoiReference::new(model, start).ok_or_else(missing)?;
         reference.step().map_err(words)?;
         Ok(reference.state().clone())

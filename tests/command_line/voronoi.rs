@@ -220,7 +220,7 @@ fn the_last_state_is_in_the_checkpoint() {
     place.run("out", &["--quiet"]);
     let checkpoint = checkpoint::load(&place.path("out").join(files::CHECKPOINT)).unwrap();
     let model = Model::new(&checkpoint.scene);
-    let cells = model.voronoi.as_ref().unwrap();
+    let cells = model.voronoi().unwrap();
     let state = checkpoint.state;
     assert_eq!((state.step, state.len(), state.masses.len(), state.energies.len()), (40, 144, 144, 144));
     let mass = state.masses.iter().map(|mass| f64::from(*mass)).sum::<f64>() * cells.mass_unit;

@@ -121,7 +121,7 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
     }
     let mut engine = Engine::new(gpu, plan, &state).unwrap();
     // A node has 2²⁴ units on average.
-    let expected = match &model.shallow_water {
+    let expected = match model.shallow_water() {
         Some(water) => vec![(water.nodes() << 24) as i64],
         None => totals(&state),
     };

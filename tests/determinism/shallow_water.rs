@@ -140,7 +140,7 @@ fn the_storage_order_does_not_matter() {
 fn sorted_water_is_put_in_order_of_cells_now_and_then() {
     let scene = sampled(&[]);
     let (model, state) = start(&scene);
-    let [columns, rows] = model.shallow_water.as_ref().unwrap().mesh.map(u64::from);
+    let [columns, rows] = model.shallow_water().unwrap().mesh.map(u64::from);
     // Words of a particle, of which the first two are its position: in textures, and in a buffer.
     for (serial_memory, words) in
         [(true, 4), (false, 6)].into_iter().filter(|(texels, _)| !texels || gpu().serial_memory())
@@ -201,7 +201,7 @@ fn a_run_split_in_two_at_any_step_is_the_run() {
 fn the_mass_on_the_mesh_is_constant_to_the_last_unit() {
     for scene in scenes() {
         let (model, state) = start(&scene);
-        let total = model.shallow_water.as_ref().unwrap().total_mass();
+        let total = model.shallow_water().unwrap().total_mass();
         assert_eq!(state.masses.iter().map(|mass| u64::from(*mass)).sum::<u64>(), total, "of the particles");
         for storage in [Storage::Bins, Storage::Sorted] {
             let mut engine = engine(&scene, &state, Options { storage: Some(storage), ..in_eights() });
@@ -210,7 +210,7 @@ fn the_mass_on_the_mesh_is_constant_to_the_last_unit() {
                 let reported = engine.reported().unwrap();
                 assert_eq!(reported.masses, state.masses);
                 let nodes = engine.words("node_masses").unwrap();
-                let nodes = &nodes[..model.shallow_water.as_ref().unwrap().nodes() as usize];
+                let nodes = &nodes[..model.shallow_water().unwrap().nodes() as usize];
                 assert_eq!(nodes.iter().map(|mass| u64::from(*mass)).sum::<u64>(), total, "step {step}, {storage:?}");
                 seen.insert(nodes.to_vec());
                 engine.advance(1, 1).unwrap();
@@ -225,7 +225,7 @@ fn the_mass_on_the_mesh_is_constant_to_the_last_unit() {
 fn the_mass_on_the_mesh_is_constant_for_twenty_thousand_steps() {
     let scene = sampled(&[MEMORY, WARM, LINEAR]);
     let (model, state) = start(&scene);
-    let total = model.shallow_water.as_ref().unwrap().total_mass();
+    let total = model.shallow_water().unwrap().total_mass();
     let mut engine = engine(&scene, &state, in_eights());
     for _ in 0..200 {
         engine.advance(100, 50).unwrap();

@@ -427,7 +427,7 @@ fn a_time_step_beyond_the_limit() {
     // Without the turn of `gyro` p grows with dt².
     let rotate = r#"integrator={"type":"rotate"}"#;
     let model = Model::new(&WATER.accepted(&[rotate, "time.step=1"]));
-    let share = model.shallow_water.unwrap().stability(&model.integrator, [6.0, 6.0], 1.0);
+    let share = model.shallow_water().unwrap().stability(&model.integrator, [6.0, 6.0], 1.0);
     let step = |p: f64| format!("time.step={}", (p / share).sqrt());
     assert!(WATER.warnings(&[rotate, &step(0.51)]).is_empty());
     let near = warned(&[rotate, &step(0.8)]);

@@ -119,7 +119,7 @@ fn one_viscosity() {
         "interactions[0]: both `viscosity` and `shear_viscosity` are given; accepted: one of `viscosity`, of the law of \
          friction, and `shear_viscosity`, of the network of cells",
     );
-    let viscosity = |scene: &Scene| Model::new(scene).voronoi.unwrap().viscosity;
+    let viscosity = |scene: &Scene| Model::new(scene).voronoi().unwrap().viscosity;
     assert_eq!(viscosity(&CELLS.accepted(&[])), 1.0);
     assert_eq!(viscosity(&CELLS.accepted(&["interactions.0.viscosity=3"])), 3.0);
     assert_eq!(viscosity(&CELLS.accepted(&["interactions.0.viscosity=0"])), 0.0);
@@ -340,7 +340,7 @@ const LARGE: [&str; 2] = ["space.box=[40,80]", "particles.0.count=3200"];
 fn equal_cells_have_the_mass_of_their_species() {
     let (model, state) =
         start(&[r#"particles=[{"species":"A","count":3,"mass":5},{"species":"B","count":2,"mass":2}]"#]);
-    let unit = model.voronoi.unwrap().mass_unit;
+    let unit = model.voronoi().unwrap().mass_unit;
     let masses: Vec<f64> = state.masses.iter().map(|mass| f64::from(*mass) * unit).collect();
     assert_eq!(masses, [5.0, 5.0, 5.0, 2.0, 2.0]);
     assert!(state.energies.is_empty());
@@ -350,7 +350,7 @@ fn equal_cells_have_the_mass_of_their_species() {
 #[test]
 fn masses_of_uniform_density_follow_the_volumes() {
     let (model, state) = start(&[&LARGE[..], &["interactions.0.initial_masses=uniform-density"]].concat());
-    let unit = model.voronoi.as_ref().unwrap().mass_unit;
+    let unit = model.voronoi().unwrap().mass_unit;
     let cells = Tessellation::of_fractions([40.0, 80.0], &state.positions).cells;
     // To half a unit, and one for the sum.
     for (mass, cell) in state.masses.iter().zip(&cells) {
@@ -399,7 +399,7 @@ fn energies_are_kinetic_and_internal_together() {
     let molecules = "interactions.0.molecular_mass=0.05";
     let masses = "interactions.0.initial_masses=uniform-pressure";
     let (model, state) = start(&[&LARGE[..], &[energy, molecules, masses]].concat());
-    let cells = model.voronoi.as_ref().unwrap();
+    let cells = model.voronoi().unwrap();
     let tessellation = Tessellation::of_fractions([40.0, 80.0], &state.positions).cells;
     let mut hot = 0;
     let mut pressures = Vec::new();

@@ -23,7 +23,7 @@ fn stored(storage: Storage) -> Options {
 }
 
 fn shallow_water(scene: &Scene) -> ShallowWater {
-    Model::new(scene).shallow_water.unwrap()
+    Model::new(scene).shallow_water().unwrap().clone()
 }
 
 /// Particles at given places with given velocities.
@@ -739,7 +739,7 @@ fn heavy_and_light_particles() {
         let rest = r#"particles.0.velocities={"type":"rest"}"#;
         let scene = water(&[&changes[..], &[rest, "time.step=0.002"]].concat());
         let (model, state) = start(&scene);
-        let water = model.shallow_water.unwrap();
+        let water = model.shallow_water().unwrap();
         assert_eq!(state.masses.iter().map(|mass| u64::from(*mass)).sum::<u64>(), water.total_mass());
         let [least, most] = [state.masses.iter().min(), state.masses.iter().max()].map(|mass| *mass.unwrap());
         assert!(least > 0 && most > 2 * least && most < 1 << 23, "{least} {most}");

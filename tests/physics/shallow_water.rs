@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use mesoscope::families::reference::{ShallowWaterReference, Unstable};
-use mesoscope::families::{BathStep, Model, ShallowWater};
+use mesoscope::families::{BathStep, Family, Model, ShallowWater};
 use mesoscope::measure::circulation::circulation;
 use mesoscope::measure::{MeshFlow, Observables};
 use mesoscope::plan::{Options, Storage};
@@ -65,7 +65,7 @@ fn the_shear_flow_starts_with_the_check_values() {
         let state = run.reported();
         let speed = |momentum: &[i32; 3]| model.units.momentum(*momentum)[0].hypot(model.units.momentum(*momentum)[1]);
         let fastest = state.momenta.iter().map(speed).fold(0.0, f64::max);
-        let masses = MeshFlow::new(&model, model.shallow_water.as_ref().unwrap(), &state).masses();
+        let masses = MeshFlow::new(&model, model.shallow_water().unwrap(), &state).masses();
         for (name, found, expected, digits) in [
             ("total energy", energy.total_energy(), 1323.2077, 6e-5),
             ("kinetic energy", energy.kinetic_energy, 698.3939, 6e-5),
@@ -88,7 +88,7 @@ fn the_shear_flow_starts_with_the_check_values() {
     }
     // What the mesh holds is what tests and pictures form again from the particles.
     let reference = water_reference(&scene);
-    let flow = MeshFlow::new(reference.model(), reference.model().shallow_water.as_ref().unwrap(), reference.state());
+    let flow = MeshFlow::new(reference.model(), reference.model().shallow_water().unwrap(), reference.state());
     for (a, b) in reference.node_masses().iter().zip(flow.masses()) {
         assert!((a - b).abs() < 1e-13);
     }
@@ -161,7 +161,7 @@ fn the_largest_stable_step_of_the_shear_flow() {
     for (step, stable) in [(0.125, true), (0.14, false)] {
         let scene = shear_flow(&[&time_step(step), "output.energies.every=100"]);
         let model = start(&scene).0;
-        let share = model.shallow_water.unwrap().stability(&model.integrator, [TAU, TAU], step);
+        let share = model.shallow_water().unwrap().stability(&model.integrator, [TAU, TAU], step);
         for mut run in implementations_with_room(&scene) {
             let initial = run.observe().total_energy();
             let energy = if run.attempt(100) { run.observe().total_energy() } else { f64::INFINITY };
@@ -184,7 +184,7 @@ fn with_loop(points: u32, changes: &[&str]) -> Scene {
 /// The relative change of the circulation of the loop after some steps of 0.05.
 fn change_of_circulation(scene: &Scene, steps: u64) -> Vec<(String, f64)> {
     let (model, state) = start(scene);
-    let water = model.shallow_water.as_ref().unwrap();
+    let water = model.shallow_water().unwrap();
     let of = |state: &State| {
         let first = water.carriers as usize;
         circulation(&model.units, &state.positions[first..], &state.momenta[first..], water.rotation)
@@ -409,8 +409,8 @@ fn a_bath_without_friction_keeps_the_extended_energy() {
         let (mut model, state) =
             start(&still_water(&[&memory("symmetric", 0.5), &wave([1, 1], 0.1), &time_step(step)]));
         let coupling = 0.5 * FRAC_PI_2.powi(2);
-        model.shallow_water.as_mut().unwrap().bath =
-            Some(BathStep { persistence: 1.0, coupling, continuous_coupling: coupling });
+        let Family::ShallowWater(water) = &mut model.family else { panic!("no water") };
+        water.bath = Some(BathStep { persistence: 1.0, coupling, continuous_coupling: coupling });
         let mut run = ShallowWaterReference::new(model, state).unwrap();
         let extended = |row: Observables| row.total_energy() + row.bath_energy;
         let (initial, mut error, mut stored) = (extended(run.observe().unwrap()), 0.0_f64, 0.0_f64);
@@ -483,8 +483,8 @@ fn equilibrium(bath: &str, changes: &[&str]) {
     let placed = r#"particles=[{"species":"water","count":1024,"placement":{"type":"random"}}]"#;
     let scene = still_water(&[&[bath, placed, "temperature=0.04", "output.energies.every=10"], changes].concat());
     let model = start(&scene).0;
-    let water = model.shallow_water.unwrap();
-    let expected = mean_square(&water, model.time_step);
+    let water = model.shallow_water().unwrap();
+    let expected = mean_square(water, model.time_step);
     let rest = 0.04 * water.bath.unwrap().coupling / (TAU * TAU);
     for mut run in implementations(&scene) {
         run.step(200);
@@ -535,7 +535,7 @@ fn the_bath_alone_has_its_own_law() {
             // At α dt = .4 the schemes are well apart.
             let step = [time_step(0.1), "output.energies.every=2".to_owned()];
             let scene = still_water(&[&bath, "particles=[]", "temperature=0.04", &noise, &step[0], &step[1]]);
-            let step = start(&scene).0.shallow_water.unwrap().bath.unwrap();
+            let step = start(&scene).0.shallow_water().unwrap().bath.unwrap();
             let exact = 0.04 * step.coupling / (TAU * TAU);
             for mut run in implementations(&scene) {
                 let ratio = |row: &Observables| row.bath_square / exact;
@@ -592,7 +592,7 @@ fn is_stable(set_up: SetUp, changes: &[&str], step: f64) -> bool {
 /// The predictor p of a time step.
 fn predicted_share(changes: &[&str], step: f64) -> f64 {
     let model = start(&small_still_water(changes, step)).0;
-    model.shallow_water.unwrap().stability(&model.integrator, [FRAC_PI_2 / 2.0, FRAC_PI_2 / 2.0], step)
+    model.shallow_water().unwrap().stability(&model.integrator, [FRAC_PI_2 / 2.0, FRAC_PI_2 / 2.0], step)
 }
 
 /// The largest time step for which p is not above a target.
@@ -683,7 +683,7 @@ fn water_at_random_places_is_stable_up_to_the_share_that_it_is_promised() {
         };
         let share = |step: f64| {
             let model = start(&scene(step)).0;
-            let water = model.shallow_water.unwrap();
+            let water = model.shallow_water().unwrap();
             (water.stability(&model.integrator, [TAU, TAU], step), water.clean_share())
         };
         let step_of = |target: f64| {
@@ -732,7 +732,7 @@ fn the_force_is_the_slope_of_the_energy() {
                     r#"particles.0={"species":"water","count":500,"velocities":{"type":"rest"}}"#,
                 ]);
                 let (model, state) = start(&scene);
-                let water = model.shallow_water.clone().unwrap();
+                let water = model.shallow_water().cloned().unwrap();
                 let mut run = ShallowWaterReference::new(model.clone(), state.clone()).unwrap();
                 run.step().unwrap();
                 for particle in [0, 7, 133] {
@@ -964,7 +964,7 @@ fn a_run_goes_on_from_its_state() {
         // A state that lacks what the bath remembers is no state to go on from.
         let torn = State { node_masses: Vec::new(), ..whole.state().clone() };
         assert_eq!(ShallowWaterReference::new(model.clone(), torn).is_none(), !bath.contains("null"));
-        let other = Model { shallow_water: None, ..model };
+        let other = Model::new(&mesoscope::scene::load("dpd-fluid", &[]).unwrap());
         assert!(ShallowWaterReference::new(other, state).is_none());
     }
 }

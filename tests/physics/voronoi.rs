@@ -123,7 +123,7 @@ fn adiabatic_error(step: f64, steps: u64) -> (f64, f64) {
 }
 
 fn adiabats(model: &Model, state: &State) -> Vec<f64> {
-    let cells = model.voronoi.as_ref().unwrap();
+    let cells = model.voronoi().unwrap();
     let tessellation = Tessellation::of_fractions([model.units.lengths[0], model.units.lengths[1]], &state.positions);
     (0..state.len())
         .map(|id| {
@@ -239,7 +239,7 @@ fn reports_add_up() {
         let mut run = Device::from_state(&scene, &state, Options::default());
         let row = run.observe();
         let found = row.cells.unwrap();
-        let own = model.voronoi.as_ref().unwrap();
+        let own = model.voronoi().unwrap();
         let mut kinetic = 0.0;
         for (momentum, mass) in state.momenta.iter().zip(&state.masses) {
             let momentum = model.units.momentum(*momentum);
@@ -350,7 +350,7 @@ fn analyses_know_the_masses_of_cells() {
         ],
     );
     let (model, state) = start(&scene);
-    let own = model.voronoi.as_ref().unwrap();
+    let own = model.voronoi().unwrap();
     let mut engine = engine(&scene, &state, Options::default());
     engine.advance(16, 8).unwrap();
     let after = engine.state().unwrap();

@@ -57,7 +57,7 @@ const WARM: Start = Start { jitter: Some(0.25), uniform_density: false, kinetic:
 
 fn begin(scene: &Scene, start: Start) -> VoronoiReference {
     let model = Model::new(scene);
-    let voronoi = model.voronoi.clone().unwrap();
+    let voronoi = model.voronoi().cloned().unwrap();
     let count = model.particle_count() as usize;
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let key = noise::seed_key(scene.seed, u32::MAX);
@@ -231,7 +231,7 @@ fn compression_is_adiabatic() {
     let mut run = begin(&scene, WARM);
     let adiabats = |run: &VoronoiReference| -> Vec<f64> {
         let (model, state) = (run.model(), run.state());
-        let voronoi = model.voronoi.as_ref().unwrap();
+        let voronoi = model.voronoi().unwrap();
         let lengths = [model.units.lengths[0], model.units.lengths[1]];
         let tessellation = Tessellation::of_fractions(lengths, &state.positions);
         let energy = |cell: usize| {

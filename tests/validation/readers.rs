@@ -56,11 +56,11 @@ fn write(scene: &Scene, place: &Path) {
             writer.append(&state).unwrap();
             writer.flush().unwrap();
         }
-        let unit = model.shallow_water.as_ref().map(|water| water.mass_unit);
-        let unit = unit.or(model.voronoi.as_ref().map(|cells| cells.mass_unit));
+        let unit = model.shallow_water().map(|water| water.mass_unit);
+        let unit = unit.or(model.voronoi().map(|cells| cells.mass_unit));
         let species = |id: usize| &model.species[state.species[id] as usize];
         let mass = |id: usize| unit.map_or(species(id).mass, |unit| unit * f64::from(state.masses[id]));
-        let inertia = |id: usize| if model.shallow_water.is_some() { 1.0 } else { mass(id) };
+        let inertia = |id: usize| if model.shallow_water().is_some() { 1.0 } else { mass(id) };
         let ids = || 0..state.len();
         let unwrapped = |id: usize| -> [f64; 3] {
             let position = model.units.position(state.positions[id]);
@@ -82,7 +82,7 @@ fn write(scene: &Scene, place: &Path) {
     let expected: Value = json!({
         "lengths": model.units.lengths,
         "dimension": model.units.dimension,
-        "bonds": model.bonds.as_ref().map_or(0, |bonds| bonds.count() as usize),
+        "bonds": model.bonds().map_or(0, |bonds| bonds.count() as usize),
         "frames": frames,
     });
     fs::write(place.join("expected.json"), expected.to_string()).unwrap();

@@ -5,3 +5,103 @@ pub(crate) mod model;
 pub mod reference;
 pub(crate) mod scene;
 pub(crate) mod stability;
+
+use super::{Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, PairForce, Physics, PositionBath, Species, units};
+use crate::scene::{Interaction, Scene};
+use model::topology;
+
+/// What acts on particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Particles {
+    /// The pair force, if the scene has one.
+    pub pair_force: Option<PairForce>,
+    /// A heat bath on the coordinates of particles.
+    pub position_bath: Option<PositionBath>,
+    /// A random force on every particle that is constant for random times.
+    pub coloured_noise: Option<ColouredNoise>,
+    /// Spring constant that ties every particle to where it started.
+    pub tether: Option<f64>,
+    /// Groups of chains.
+    pub chain_groups: Vec<ChainGroup>,
+    /// Bonds, if there are any.
+    pub bonds: Option<Bonds>,
+    /// Angles between bonds, if they are stiff.
+    pub angles: Option<Angles>,
+    /// Harmonic chains, if the scene is of them; their springs are among the bonds.
+    pub chains: Option<ChainTrios>,
+    /// Whether there is more than pairs without memory in two or three dimensions.
+    pub are_coupled: bool,
+}
+
+impl Particles {
+    /// What acts on the particles of a scene; harmonic chains add their species.
+    pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
+        let (mut pair_force, mut position_bath, mut coloured_noise, mut tether) = (None, None, None, None);
+        let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
+        let mut chains = None;
+        for interaction in &scene.interactions {
+            match interaction {
+                Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, species, scene.temperature)),
+                Interaction::Langevin(langevin) => {
+                    position_bath = Some(PositionBath::new(langevin, species, scene.temperature, scene.time.step));
+                }
+                Interaction::ColouredNoise(noise) => coloured_noise = Some(ColouredNoise::new(noise)),
+                Interaction::Tether(spring) => tether = Some(spring.stiffness),
+                Interaction::Bonds(interaction) => bonds.add(interaction, scene, |name| index_of(species, name)),
+                Interaction::Angles(interaction) => angles.add(interaction, scene, |name| index_of(species, name)),
+                Interaction::HarmonicChain(interaction) => {
+                    let trios = ChainTrios::new(interaction, scene);
+                    species.extend(trios.species());
+                    trios.add_bonds(&mut bonds, scene.time.step);
+                    chains = Some(trios);
+                }
+                // Of other families.
+                _ => {}
+            }
+        }
+        if let Some(force) = &mut pair_force {
+            // Of two images of a neighbour a list must see only one.
+            force.skin = force.skin.min(0.5 * scene.space.shortest_length() - force.cutoff).max(0.0);
+        }
+        Self {
+            pair_force,
+            position_bath,
+            coloured_noise,
+            tether,
+            chain_groups: topology::chain_groups(scene, |name| index_of(species, name)),
+            bonds: (bonds.count() > 0).then_some(bonds),
+            angles: (angles.count() > 0).then_some(angles),
+            chains,
+            are_coupled: scene::checks::is_coupled(scene),
+        }
+    }
+}
+
+impl Physics for Particles {
+    fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
+        units::momentum_unit(scene, species, self.pair_force.as_ref(), self.chains.as_ref(), 24.0)
+    }
+
+    fn has_potential(&self) -> bool {
+        let bonds = self.bonds.as_ref();
+        self.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0)
+            || self.tether.is_some()
+            || bonds.is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.potential.is_some()))
+            || self.angles.is_some()
+    }
+
+    fn has_memory(&self) -> bool {
+        self.pair_force.as_ref().is_some_and(PairForce::remembers)
+            || self.position_bath.as_ref().is_some_and(|bath| bath.memory)
+            || self.bonds.as_ref().is_some_and(Bonds::have_memory)
+    }
+
+    fn is_free(&self) -> bool {
+        self.position_bath.is_none() && self.tether.is_none()
+    }
+}
+
+/// The index of a species by its name.
+fn index_of(species: &[Species], name: &str) -> Option<usize> {
+    species.iter().position(|species| species.name == name)
+}

@@ -142,7 +142,7 @@ impl ShallowWater {
     /// use mesoscope::{families::Model, scene};
     ///
     /// let model = Model::new(&scene::load("shallow-water", &[])?);
-    /// let water = model.shallow_water.as_ref().ok_or("no shallow water")?;
+    /// let water = model.shallow_water().ok_or("no shallow water")?;
     /// let [x, y, _] = model.units.lengths;
     /// let share = water.stability(&model.integrator, [x, y], model.time_step);
     /// assert!(share > 0.0 && share < 1.0);
@@ -167,7 +167,7 @@ impl ShallowWater {
     ///
     /// let share = |name: &str| {
     ///     let model = Model::new(&scene::load(name, &[])?);
-    ///     Ok::<_, scene::SceneError>(model.shallow_water.map_or(0.0, |water| water.clean_share()))
+    ///     Ok::<_, scene::SceneError>(model.shallow_water().map_or(0.0, |water| water.clean_share()))
     /// };
     /// // 16 particles a cell, and 4.
     /// assert!((share("shallow-water")? - 0.70).abs() < 0.01);

@@ -62,13 +62,13 @@ impl Description {
             units: model.units,
             time_step: model.time_step,
             species: model.species.clone(),
-            mass_unit: match (&model.shallow_water, &model.voronoi) {
+            mass_unit: match (model.shallow_water(), model.voronoi()) {
                 (Some(water), _) => Some(water.mass_unit),
-                (None, cells) => cells.as_ref().map(|cells| cells.mass_unit),
+                (None, cells) => cells.map(|cells| cells.mass_unit),
             },
-            specific_momenta: model.shallow_water.is_some(),
-            changing_masses: model.voronoi.as_ref().is_some_and(Voronoi::exchanges_mass),
-            bonds: model.bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
+            specific_momenta: model.shallow_water().is_some(),
+            changing_masses: model.voronoi().is_some_and(Voronoi::exchanges_mass),
+            bonds: model.bonds().into_iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
         }
     }
 

@@ -44,7 +44,7 @@ impl Builder<'_> {
         // On the side: the list and what it has noted stay as they are.
         let arrange = [&[self.cells()][..], &ARRANGE].concat();
         kernels.push(self.kernel("arrange_by_cell", &arrange, groups));
-        if self.model.pair_force.is_none() {
+        if self.model.pair_force().is_none() {
             self.ordering_buffers();
         }
         let sorted = ["common/particles", self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];

@@ -5,7 +5,7 @@ use crate::plan::Table;
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
-        let Some(angles) = &self.model.angles else { return };
+        let Some(angles) = self.model.angles() else { return };
         let count = angles.count();
         let groups = self.groups(count);
         // The constant of pairs counts both ends of one.

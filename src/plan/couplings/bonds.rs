@@ -8,7 +8,7 @@ use crate::scene::{BondPotential, Generator};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
-        let Some(bonds) = &self.model.bonds else { return };
+        let Some(bonds) = self.model.bonds() else { return };
         let count = bonds.count();
         let groups = self.groups(count);
         let (species, kinds) = (self.model.species.len(), bonds.kinds.len());
@@ -107,7 +107,7 @@ impl Builder<'_> {
 
     /// Partners that each particle is to be spared from, in rows of equal length; none where there are none.
     pub(super) fn exclusions(&mut self) -> &'static str {
-        let Some(bonds) = self.model.bonds.as_ref().filter(|_| self.spares()) else { return "common/exclusions_off" };
+        let Some(bonds) = self.model.bonds().filter(|_| self.spares()) else { return "common/exclusions_off" };
         let width = bonds.most_spared().max(1) as u64;
         self.plan.constants.push(("EXCLUSIONS", width as f64));
         let purpose = "partners whose repulsion each particle is spared";

@@ -10,7 +10,7 @@ const LONGEST_TIME: f64 = 1e30;
 impl Builder<'_> {
     /// Modules of the random force; with one, `pair_words` has to be defined.
     pub(super) fn hold_modules(&self) -> Vec<&'static str> {
-        let Some(noise) = &self.model.coloured_noise else { return vec!["common/holds_off"] };
+        let Some(noise) = self.model.coloured_noise() else { return vec!["common/holds_off"] };
         let direction = match self.model.units.dimension {
             1 => "common/direction1",
             2 => "common/direction2",
@@ -27,7 +27,7 @@ impl Builder<'_> {
 
     /// Constants and state of the random force.
     pub(super) fn coloured_noise(&mut self) {
-        let Some(noise) = &self.model.coloured_noise else { return };
+        let Some(noise) = self.model.coloured_noise() else { return };
         let half_step = 0.5 * self.model.time_step;
         let key = noise::seed_key(self.model.seed, stream::JUMP);
         self.plan.constants.extend([

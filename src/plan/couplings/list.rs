@@ -29,17 +29,21 @@ pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u6
 impl Builder<'_> {
     /// Whether bonds ask where a particle is.
     fn slots(&self) -> &'static str {
-        if self.model.bonds.is_some() || self.model.angles.is_some() { "common/slots_on" } else { "common/slots_off" }
+        if self.model.bonds().is_some() || self.model.angles().is_some() {
+            "common/slots_on"
+        } else {
+            "common/slots_off"
+        }
     }
 
     /// The clock and, for pairs, the list.
     pub(super) fn list(&mut self) {
-        if self.model.bonds.is_some() || self.model.angles.is_some() {
+        if self.model.bonds().is_some() || self.model.angles().is_some() {
             self.plan.add_buffer("slots", "where each particle is stored", 4 * self.particles);
         }
         let clock = ["common/begin_step", "common/threefry"];
         let groups = self.groups(self.particles);
-        if self.model.pair_force.is_none() {
+        if self.model.pair_force().is_none() {
             let tick = self.plan.add_kernel(Kernel::new(
                 "tick",
                 [&["common/control", "common/clock", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),

@@ -29,7 +29,7 @@ const BATH_OBSERVABLES: u64 = 3;
 pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: Options) -> Plan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
-    let force = model.pair_force.as_ref().unwrap_or(&free);
+    let force = model.pair_force().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff + force.skin, particles);
     let plan = empty_plan(model, &grid, options);
     let species = Species::of(model);
@@ -53,17 +53,17 @@ pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let listed = model
-        .pair_force
+        .pair_force()
         .as_ref()
         .map(|force| Listed { capacity: list::capacity(model, force, options) as usize, memory: force.remembers() });
     let layout = Layout::Coupled {
         dimension: model.units.dimension,
         predicted,
         listed,
-        position_baths: model.position_bath.as_ref().is_some_and(|bath| bath.memory),
-        bond_baths: model.bonds.as_ref().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.count() as usize),
-        holds: model.coloured_noise.is_some(),
-        tethers: model.tether.is_some(),
+        position_baths: model.position_bath().is_some_and(|bath| bath.memory),
+        bond_baths: model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.count() as usize),
+        holds: model.coloured_noise().is_some(),
+        tethers: model.tether().is_some(),
     };
     let plan = Plan::new(model, grid.cells, layout, quanta(model), stream::PAIR);
     Plan { reported: Some("reported"), ..plan }
@@ -83,15 +83,15 @@ fn quanta(model: &Model) -> Quanta {
 /// The baths that remember.
 fn baths(model: &Model) -> Vec<BathStep> {
     let mut steps = Vec::new();
-    if let Some(force) = model.pair_force.as_ref().filter(|force| force.remembers()) {
+    if let Some(force) = model.pair_force().filter(|force| force.remembers()) {
         let count = model.species.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
         steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
     }
-    if let Some(bath) = model.position_bath.as_ref().filter(|bath| bath.memory) {
+    if let Some(bath) = model.position_bath().filter(|bath| bath.memory) {
         steps.extend(&bath.steps);
     }
-    if let Some(bonds) = &model.bonds {
+    if let Some(bonds) = model.bonds() {
         steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
     }
     steps
@@ -157,7 +157,7 @@ impl Builder<'_> {
     /// How far a particle may go in a step along an axis.
     fn reach(&self) -> f64 {
         // Nothing but a pair force tells, but it must not go round the box.
-        if self.model.pair_force.is_some() { self.force.cutoff } else { 0.4 * self.model.units.shortest_length() }
+        if self.model.pair_force().is_some() { self.force.cutoff } else { 0.4 * self.model.units.shortest_length() }
     }
 
     /// Follows the particles, where a trajectory asks.

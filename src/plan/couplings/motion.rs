@@ -14,23 +14,23 @@ impl Builder<'_> {
         modules.extend(self.hold_modules());
         // Both may need it.
         let needs_threefry = self.noisy_positions()
-            || self.model.coloured_noise.is_some() && self.model.generator == Generator::Threefry2x32;
+            || self.model.coloured_noise().is_some() && self.model.generator == Generator::Threefry2x32;
         if needs_threefry {
             modules.push("common/threefry");
         }
-        if self.noisy_positions() || self.model.coloured_noise.is_some() {
+        if self.noisy_positions() || self.model.coloured_noise().is_some() {
             modules.push("common/elementary");
             modules.extend(self.words());
         }
-        let anchors = if self.model.pair_force.is_some() { "common/anchors_on" } else { "common/anchors_off" };
+        let anchors = if self.model.pair_force().is_some() { "common/anchors_on" } else { "common/anchors_off" };
         let advance = self.kernel("move", &[&modules[..], &[anchors, "kernels/move"]].concat(), groups);
         self.plan.advance.push(advance);
-        let memory = self.model.position_bath.as_ref().is_some_and(|bath| bath.memory);
+        let memory = self.model.position_bath().is_some_and(|bath| bath.memory);
         let seen = if memory { "common/position_seen" } else { "common/position_unseen" };
         let forces = self.reported_forces(output);
         // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
         let optional =
-            [self.species.have_table(), memory, self.model.coloured_noise.is_some(), forces == "common/force_on"];
+            [self.species.have_table(), memory, self.model.coloured_noise().is_some(), forces == "common/force_on"];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
         let report = [&modules[..], &[seen, forces, "kernels/observe"]].concat();
         self.report_kernel("observe", &report, groups);
@@ -46,11 +46,11 @@ impl Builder<'_> {
     }
 
     fn noisy_positions(&self) -> bool {
-        self.model.position_bath.as_ref().is_some_and(|bath| bath.temperature > 0.0)
+        self.model.position_bath().is_some_and(|bath| bath.temperature > 0.0)
     }
 
     fn position_modules(&self) -> Vec<&'static str> {
-        let Some(bath) = &self.model.position_bath else {
+        let Some(bath) = self.model.position_bath() else {
             return vec!["common/position_off", "common/position_noise_off"];
         };
         let mut modules = vec![if bath.memory { "common/position_memory" } else { "common/position_white" }];
@@ -75,14 +75,14 @@ impl Builder<'_> {
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
     /// per square.
     pub(super) fn position_coefficients(&self, species: usize) -> [f64; 3] {
-        let Some(bath) = &self.model.position_bath else { return [0.0; 3] };
+        let Some(bath) = self.model.position_bath() else { return [0.0; 3] };
         let step = bath.steps[species];
         let energy = if bath.memory && step.continuous_coupling > 0.0 { 0.5 / step.continuous_coupling } else { 0.0 };
         [step.response(), step.noise(bath.temperature), energy / self.plan.quanta.pair_energy]
     }
 
     fn position_constants(&mut self) {
-        let Some(bath) = &self.model.position_bath else { return };
+        let Some(bath) = self.model.position_bath() else { return };
         let loss = bath.steps.first().map_or(1.0, |step| 1.0 - step.persistence);
         let memory = bath.memory;
         let key = noise::seed_key(self.model.seed, stream::PARTICLE);

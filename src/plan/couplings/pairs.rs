@@ -6,7 +6,7 @@ use crate::scene::{Bath, Integrator};
 
 impl Builder<'_> {
     pub(super) fn pairs(&mut self) {
-        if self.model.pair_force.is_none() {
+        if self.model.pair_force().is_none() {
             return;
         }
         self.pair_constants();
@@ -70,7 +70,7 @@ impl Builder<'_> {
 
     /// Whether some listed pairs are spared their repulsion.
     pub(super) fn spares(&self) -> bool {
-        self.model.bonds.as_ref().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
+        self.model.bonds().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
             && self.force.largest_repulsion() > 0.0
     }
 

@@ -4,7 +4,7 @@ use super::Builder;
 
 impl Builder<'_> {
     pub(super) fn tethers(&mut self) {
-        let Some(stiffness) = self.model.tether else { return };
+        let Some(stiffness) = self.model.tether() else { return };
         let groups = self.groups(self.particles);
         let quanta = self.plan.quanta;
         self.plan.constants.extend([

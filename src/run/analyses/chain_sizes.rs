@@ -23,8 +23,12 @@ impl ChainSizes {
     pub(super) fn new(setting: &Setting<'_>) -> Self {
         let model = setting.model;
         Self {
-            groups: model.chain_groups.clone(),
-            names: model.chain_groups.iter().map(|group| model.species[group.species as usize].name.clone()).collect(),
+            groups: model.chain_groups().to_vec(),
+            names: model
+                .chain_groups()
+                .iter()
+                .map(|group| model.species[group.species as usize].name.clone())
+                .collect(),
             time_step: model.time_step,
             scale: setting.plan.quanta.length_squared,
             rows: Vec::new(),

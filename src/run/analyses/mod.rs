@@ -190,7 +190,7 @@ fn analysis(scene: &Scene, setting: &Setting<'_>, index: usize) -> Option<Box<dy
         "diffusion" => Box::new(Diffusion::new(setting, output.diffusion.as_ref()?)),
         "viscosity" => Box::new(Viscosity::new(setting, output.viscosity.as_ref()?)),
         "chain_sizes" => Box::new(ChainSizes::new(setting)),
-        "tracers" => Box::new(Circulations::new(setting.model, setting.model.shallow_water.as_ref()?)),
+        "tracers" => Box::new(Circulations::new(setting.model, setting.model.shallow_water()?)),
         name => {
             let correlated = output.autocorrelations.iter().find(|asked| autocorrelation_name(asked.quantity) == name);
             let counted = output.histograms.iter().find(|asked| histogram_name(asked.quantity) == name);

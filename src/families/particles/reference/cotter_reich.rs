@@ -17,7 +17,7 @@ use super::{Reference, Report};
 /// Half kicks by all forces at the report point.
 pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let model = &reference.model;
-    let Some(force) = &model.pair_force else { return half_kicks(reference, found, |_, _| 0.0) };
+    let Some(force) = model.pair_force() else { return half_kicks(reference, found, |_, _| 0.0) };
     let drifts: Vec<[i64; 3]> = (0..reference.state.len()).map(|particle| reference.drift(particle)).collect();
     half_kicks(reference, found, |pair, forces| {
         let before = std::array::from_fn(|axis| {

@@ -126,7 +126,7 @@ impl Reference {
         let found = self.pairs();
         let report = self.report(&found);
         let configuration = if self.model.splits() {
-            let range = self.model.pair_force.as_ref().map_or(0.0, |force| force.cutoff);
+            let range = self.model.pair_force().map_or(0.0, |force| force.cutoff);
             pairs::find_pairs(&self.model.units, &self.state_between_forces()?.positions, range)
         } else {
             found
@@ -184,7 +184,7 @@ impl Reference {
     }
 
     fn pairs(&self) -> Vec<Pair> {
-        let Some(force) = &self.model.pair_force else { return Vec::new() };
+        let Some(force) = self.model.pair_force() else { return Vec::new() };
         pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
     }
 

@@ -36,7 +36,7 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
     }
     observables.momentum = total.map(|units| units as f64 * model.units.momentum);
 
-    let Some(force) = &model.pair_force else { return observables };
+    let Some(force) = model.pair_force() else { return observables };
     let mut gradients = vec![[0.0; 3]; state.len()];
     for pair in found {
         // V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.

@@ -145,7 +145,7 @@ pub(super) struct Forces {
 impl Forces {
     /// The forces between two particles within the cutoff; none at all without a pair force.
     pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
-        let Some(force) = &model.pair_force else {
+        let Some(force) = model.pair_force() else {
             return Self { conservative: 0.0, friction: 0.0, weight: 0.0 };
         };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];

@@ -49,9 +49,8 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// Whether a scene has more than pairs without memory in two or three dimensions, as [`Model::is_coupled`] tells once there
-/// is a model.
-pub(crate) fn scene_is_coupled(scene: &Scene) -> bool {
+/// Whether a scene has more than pairs without memory in two or three dimensions; of other families it has not.
+pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
         Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
@@ -166,7 +165,7 @@ fn half_box(scene: &Scene) -> f64 {
 }
 
 fn check_integrator(scene: &Scene, problems: &mut Problems) {
-    if !scene_is_coupled(scene) {
+    if !is_coupled(scene) {
         return;
     }
     match scene.integrator {

@@ -100,7 +100,7 @@ impl ShallowWaterReference {
     /// masses of the particles, and of a bath its variables and, beyond step 0, the masses of the nodes.
     #[must_use]
     pub fn new(model: Model, state: State) -> Option<Self> {
-        let water = model.shallow_water.clone()?;
+        let water = model.shallow_water().cloned()?;
         let nodes = water.nodes() as usize;
         let remembered = state.step == 0 || state.node_masses.len() == nodes;
         let fits = water.bath.is_none() || (state.node_bath.len() == nodes && remembered);

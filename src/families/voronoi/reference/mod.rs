@@ -83,7 +83,7 @@ impl VoronoiReference {
     /// masses, and total energies where cells keep account of them.
     #[must_use]
     pub fn new(model: Model, state: State) -> Option<Self> {
-        let cells = model.voronoi.clone()?;
+        let cells = model.voronoi().cloned()?;
         let energies = if cells.keeps_energy() { state.len() } else { 0 };
         if state.masses.len() != state.len() || state.energies.len() != energies || state.masses.contains(&0) {
             return None;

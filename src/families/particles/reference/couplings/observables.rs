@@ -87,7 +87,7 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
         laplacians: vec![0.0; count],
         dimension,
     };
-    if let Some(force) = &model.pair_force {
+    if let Some(force) = model.pair_force() {
         let excluded = pairs::excluded_pairs(model);
         for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
             if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
@@ -100,15 +100,15 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             sums.add(&pair, [0.5 * force.cutoff * magnitude * closeness, -magnitude, repulsion / force.cutoff]);
         }
     }
-    for bond in model.bonds.iter().flat_map(Bonds::iter) {
-        let kind = model.bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
+    for bond in model.bonds().into_iter().flat_map(Bonds::iter) {
+        let kind = model.bonds().map(|bonds| &bonds.kinds[bond.kind as usize]);
         let pair = bonds::span(model, &bond, &state.positions);
         let potential = kind.and_then(|kind| kind.potential.as_ref());
         if let Some(potential) = Potential::at(potential, pair.distance) {
             sums.add(&pair, [potential.energy, potential.slope, potential.curvature]);
         }
     }
-    if let Some(angles) = &model.angles {
+    if let Some(angles) = model.angles() {
         for angle in angles.iter() {
             let stiffness = angles.stiffness[angle.kind as usize];
             let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
@@ -124,7 +124,7 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             }
         }
     }
-    if let Some(stiffness) = model.tether {
+    if let Some(stiffness) = model.tether() {
         for particle in 0..count {
             let way = tethers::displacement(model, state, particle);
             for axis in 0..3 {
@@ -142,7 +142,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::families::Model;
+    use crate::families::{Family, Model};
     use crate::scene::Scene;
     use serde_json::json;
 
@@ -220,7 +220,9 @@ mod tests {
         for dimension in 1..=3 {
             let mut reference = crowd(dimension);
             // Tethers and what is held pull at points in space.
-            reference.model.tether = None;
+            if let Family::Particles(particles) = &mut reference.model.family {
+                particles.tether = None;
+            }
             let energy = |factor: f64| {
                 let mut stretched = reference.clone();
                 for length in &mut stretched.model.units.lengths[..dimension] {

@@ -85,7 +85,7 @@ fn phi(force: &PairForce, distance: f64) -> f64 {
 
 /// The pairs that are spared their repulsion, smaller number first, in order.
 pub(super) fn excluded_pairs(model: &Model) -> Vec<[u32; 2]> {
-    let Some(bonds) = &model.bonds else { return Vec::new() };
+    let Some(bonds) = model.bonds() else { return Vec::new() };
     let excluding = bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion);
     let mut excluded: Vec<_> =
         excluding.map(|bond| [bond.ends[0].min(bond.ends[1]), bond.ends[0].max(bond.ends[1])]).collect();

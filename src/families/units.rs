@@ -1,0 +1,71 @@
+//! The unit of integer momenta.
+
+use super::particles::model::forces;
+use super::{ChainTrios, PairForce, Species};
+use crate::scene::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
+
+/// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
+/// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.
+const RULED_BY_FORCES: f64 = 48.0;
+/// Part of the largest momentum that forces are expected to make which the unit then follows.
+const PART_OF_LARGEST: f64 = 0.125;
+/// Times that the momenta of the lightest particles may be smaller than the scale that the unit follows: of its 2²⁴ units they have
+/// 2¹² then.
+const RESOLVED: f64 = 4096.0;
+
+/// A power of two near 2 to the minus `bits` of the largest momentum a species has for a reason: thermal, that of its
+/// fastest listed particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a
+/// particle that has rolled down the repulsion. Where forces make momenta far beyond, as in a cold scene, it follows those.
+pub(super) fn momentum_unit(
+    scene: &Scene,
+    species: &[Species],
+    pair_force: Option<&PairForce>,
+    chains: Option<&ChainTrios>,
+    bits: f64,
+) -> f64 {
+    let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
+    let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
+    let hottest = baths.fold(scene.temperature, f64::max);
+    let mut scale = (heaviest * hottest).sqrt().max(chains.map_or(0.0, ChainTrios::momentum_scale));
+    for group in &scene.particles {
+        if let Velocities::Listed { velocities } = &group.velocities {
+            let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+            scale = scale.max(group.mass * fastest / 8.0);
+        }
+        if let Velocities::ShearWave { amplitude, .. } = group.velocities {
+            scale = scale.max(group.mass * amplitude.abs() / 8.0);
+        }
+    }
+    for interaction in &scene.interactions {
+        if let Interaction::ColouredNoise(noise) = interaction {
+            scale = scale.max(noise_momentum(noise, scene.time.step));
+        }
+    }
+    if scale == 0.0
+        && let Some(force) = pair_force
+    {
+        scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
+    }
+    let lightest = species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(heaviest);
+    let [mut forced, of_lightest] =
+        [f64::INFINITY, lightest].map(|heaviest| forces::momentum(scene, species, pair_force, heaviest));
+    // A unit for what forces make of a particle that is heavier by far could not resolve a light one.
+    if forced > of_lightest * RESOLVED / PART_OF_LARGEST {
+        forced = of_lightest;
+    }
+    if scale == 0.0 {
+        // The impulses of weak forces in one step would be lost in rounding.
+        scale = if forced > 0.0 && forced < 1.0 / 16.0 { forced } else { 1.0 };
+    }
+    if forced > RULED_BY_FORCES * scale.log2().ceil().exp2() {
+        scale = PART_OF_LARGEST * forced;
+    }
+    (scale.log2().ceil() - bits).exp2()
+}
+
+/// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
+/// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
+fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
+    let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
+    noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
+}
