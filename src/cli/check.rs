@@ -12,8 +12,7 @@ use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{
-    BathRate, BathScheme, CorrelatedQuantity, CountedQuantity, Integrator, Interaction, LaplacianSymbol, MeshBath,
-    Scene, SmoothingSolver, TrajectoryFormat, VoronoiForm,
+    BathRate, BathScheme, Integrator, Interaction, LaplacianSymbol, MeshBath, Scene, SmoothingSolver, VoronoiForm,
 };
 
 use super::table::{aligned, dimensions};
@@ -139,7 +138,7 @@ fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
         section(text, heading, plan, kernels, &shared, &mut described)?;
     }
     for sampler in &plan.samplers {
-        let heading = format!("{}: {}", sampler.name, interval(sampler.first, sampler.every));
+        let heading = format!("{}: {}", sampler.id.name(), interval(sampler.first, sampler.every));
         section(text, &heading, plan, &sampler.kernels, &shared, &mut described)?;
     }
     buffers(text, plan);
@@ -446,11 +445,7 @@ fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
             sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
         ),
     ];
-    if let Some(water) = model.shallow_water() {
-        if water.closed_loops().next().is_some() {
-            let when = format!("a row {}", interval(0, output.energies.every));
-            rows.push((files::CIRCULATION.to_owned(), sized(&when, sizes.circulation)));
-        }
+    if model.shallow_water().is_some() {
         let fields = output.fields.clone().unwrap_or_default();
         for quantity in fields.quantities {
             let stem = quantity.stem();
@@ -466,13 +461,10 @@ fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
         }
     }
     if let Some(trajectory) = &output.trajectory {
-        let name = match trajectory.format {
-            TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
-            TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
-        };
+        let name = files::trajectory(trajectory.format);
         rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
     }
-    rows.extend(analyses(scene));
+    rows.extend(analyses(scene, model));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
     format!("\nFiles\n{}", aligned(&rows, "  "))
 }
@@ -483,44 +475,12 @@ fn sized(when: &str, size: u64) -> String {
 }
 
 /// Files of the analyses, which are written at the end.
-fn analyses(scene: &Scene) -> Vec<(String, String)> {
-    let output = &scene.output;
-    let windows = |every: u64, window: u64| format!("windows of {} samples, {}", grouped(window), since(scene, every));
+fn analyses(scene: &Scene, model: &Model) -> Vec<(String, String)> {
     let mut rows = Vec::new();
-    if let Some(asked) = &output.radial_distribution {
-        rows.push(("radial_distribution", since(scene, asked.every)));
+    for asked in run::asked_analyses(scene, model) {
+        let sampled = format!("sampled {}", interval(asked.first, asked.every));
+        let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
+        rows.extend(asked.id.tables().iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
     }
-    if let Some(asked) = &output.neighbours {
-        rows.push(("neighbours", since(scene, asked.every)));
-    }
-    if let Some(asked) = &output.shear_wave {
-        rows.push(("shear_wave", since(scene, asked.every)));
-    }
-    if let Some(asked) = &output.diffusion {
-        rows.push(("diffusion", windows(asked.every, asked.window)));
-    }
-    if let Some(asked) = &output.viscosity {
-        rows.push(("viscosity", since(scene, asked.every)));
-    }
-    let sizes = output.chain_sizes.iter().map(|asked| ("chain_sizes.csv".to_owned(), since(scene, asked.every)));
-    for asked in &output.autocorrelations {
-        let name = match asked.quantity {
-            CorrelatedQuantity::Velocity => "velocity_autocorrelation",
-            CorrelatedQuantity::Force => "force_autocorrelation",
-        };
-        rows.push((name, windows(asked.every, asked.window)));
-    }
-    for asked in &output.histograms {
-        let name = match asked.quantity {
-            CountedQuantity::Velocity => "velocity_histogram",
-            CountedQuantity::Speed => "speed_histogram",
-            CountedQuantity::Acceleration => "acceleration_histogram",
-        };
-        rows.push((name, format!("{} bins, {}", grouped(asked.bins.into()), since(scene, asked.every))));
-    }
-    sizes.chain(rows.into_iter().map(|(stem, when)| (format!("{stem}.csv, {stem}.png"), when))).collect()
-}
-
-fn since(scene: &Scene, every: u64) -> String {
-    format!("sampled {}", interval(scene.time.equilibration, every))
+    rows
 }

@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use mesoscope::families::{self, Model};
 use mesoscope::gpu::AdapterChoice;
-use mesoscope::numbers::{grouped, prefixed, with_error};
+use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
-use mesoscope::run::{Event, Outcome, Progress, Simulation};
+use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{Interaction, Scene};
-use serde_json::Value;
 
 use super::table::{aligned, dimensions};
 use super::{Failure, SceneArguments, line, print};
@@ -188,54 +187,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         ]
     };
     for (column, label) in columns {
-        if let Some(value) = mean(&summary.means, column) {
+        if let Some(value) = summary.means.get(column).and_then(run::printed_mean) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
             rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }
     }
-    for (label, path) in [
-        ("g(r) peak", ["radial_distribution", "peak_height"]),
-        ("diffusion (Einstein)", ["diffusion", "diffusion_einstein"]),
-        ("diffusion (Green-Kubo)", ["diffusion", "diffusion_green_kubo"]),
-        ("shear viscosity", ["viscosity", "shear_viscosity"]),
-        ("shear viscosity (wave)", ["shear_wave", "shear_viscosity"]),
-    ] {
-        let Some(found) = summary.results.get(path[0]).and_then(|result| result.get(path[1])) else { continue };
-        let value = match (found.as_f64(), found["value"].as_f64()) {
-            (Some(height), _) => {
-                let distance = summary.results[path[0]]["peak_distance"].as_f64().unwrap_or(f64::NAN);
-                format!("{height:.3} at {distance:.3}")
-            }
-            (None, Some(value)) => with_error(value, found["standard_error"].as_f64()),
-            (None, None) => continue,
-        };
-        rows.push(vec![label.to_owned(), value]);
-    }
-    for (label, column) in [("neighbours of a cell", "mean"), ("their variance", "variance")] {
-        if let Some(value) = summary.results.get("neighbours").and_then(|found| mean(found.as_object()?, column)) {
-            rows.push(vec![label.to_owned(), value]);
-        }
-    }
-    for kind in summary.results.get("chain_sizes").and_then(Value::as_array).into_iter().flatten() {
-        let [species, beads] = [kind["species"].as_str().unwrap_or_default(), &kind["beads"].to_string()];
-        for (label, size) in
-            [("end-to-end distance²", "end_to_end_squared"), ("gyration radius²", "radius_of_gyration_squared")]
-        {
-            if let Some(value) = kind.as_object().and_then(|kind| mean(kind, size)) {
-                rows.push(vec![format!("{label} of `{species}` ({beads} beads)"), value]);
-            }
-        }
-    }
-    for (name, circulation) in summary.results.get("circulation").and_then(Value::as_object).into_iter().flatten() {
-        let Some(initial) = circulation["initial"].as_f64() else { continue };
-        let change = match [&circulation["largest_relative_change"], &circulation["largest_change"]].map(Value::as_f64)
-        {
-            [Some(relative), _] => format!(", changes by up to {relative:.1e} of it"),
-            [None, Some(change)] => format!(", changes by up to {change:.1e}"),
-            [None, None] => String::new(),
-        };
-        rows.push(vec![format!("circulation of `{name}`"), format!("{initial:.4}{change}")]);
-    }
+    rows.extend(run::printed_results(summary).into_iter().map(|(label, value)| vec![label, value]));
     if summary.particle_steps_per_second > 0.0 {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
@@ -261,15 +218,6 @@ fn results(outcome: &Outcome, directory: &str) -> String {
 fn momentum_note(not_conserved: &[String]) -> String {
     let reasons = not_conserved.iter().find_map(|entry| entry.strip_prefix("total momentum: "));
     reasons.map_or_else(String::new, |reasons| format!("  total momentum is not conserved: {reasons}\n"))
-}
-
-/// The mean of a column with its error.
-pub fn mean(means: &serde_json::Map<String, serde_json::Value>, column: &str) -> Option<String> {
-    let mean = means.get(column)?;
-    let text = with_error(mean["mean"].as_f64()?, mean["standard_error"].as_f64());
-    // An error that has not settled is a lower bound.
-    let unsettled = mean["converged"] == false && mean["standard_error"].is_number();
-    Some(if unsettled { format!("{text} *") } else { text })
 }
 
 /// A mean, with a mark if it includes the way to equilibrium.

@@ -8,10 +8,11 @@ use mesoscope::families;
 use mesoscope::numbers::prefixed;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
-use mesoscope::run::Progress;
+use mesoscope::run::{Progress, printed_mean};
 use mesoscope::sweep::{Sweep, SweepEvent, SweepOutcome, VariantState, VariantSummary};
+use serde_json::{Map, Value};
 
-use super::report::{duration, marked, mean};
+use super::report::{duration, marked};
 use super::table::aligned;
 use super::{line, print};
 
@@ -185,13 +186,17 @@ impl Reporter {
 /// The table at the end and the files written.
 pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
-    let columns: Vec<&str> =
-        SHOWN.into_iter().filter(|name| variants.iter().any(|v| mean(&v.means, name).is_some())).collect();
+    let columns: Vec<&str> = SHOWN
+        .into_iter()
+        .filter(|name| variants.iter().any(|v| v.means.get(*name).and_then(printed_mean).is_some()))
+        .collect();
     let mut header = vec!["VARIANT".to_owned()];
     header.extend(columns.iter().map(|name| name.replace('_', " ").to_uppercase()));
     header.push("TIME".to_owned());
     let mut rows = vec![header];
-    let shown = |means: &_, name: &str, spoilt| mean(means, name).map_or_else(String::new, |mean| marked(mean, spoilt));
+    let shown = |means: &Map<String, Value>, name: &str, spoilt| {
+        means.get(name).and_then(printed_mean).map_or_else(String::new, |mean| marked(mean, spoilt))
+    };
     for variant in variants {
         let mut row = vec![variant.name.clone()];
         if variant.state == VariantState::Finished {

@@ -6,6 +6,8 @@
 //! ffmpeg -framerate 25 -i snapshot-%06d.png -pix_fmt yuv420p movie.mp4
 //! ```
 
+pub use super::trajectory::trajectory;
+use crate::scene::{AnalysisId, TrajectoryFormat};
 use std::ffi::{OsStr, OsString};
 
 /// The lock of the directory, there as long as a process writes into it.
@@ -24,124 +26,11 @@ pub const SUMMARY: &str = "run.json";
 pub const TRAJECTORY_GSD: &str = "trajectory.gsd";
 /// The trajectory in Extended XYZ.
 pub const TRAJECTORY_XYZ: &str = "trajectory.xyz";
-/// The radial distribution function.
-pub const RADIAL_DISTRIBUTION: &str = "radial_distribution.csv";
-/// The plot of the radial distribution function.
-pub const RADIAL_DISTRIBUTION_PLOT: &str = "radial_distribution.png";
-/// Mean squared displacement and velocity autocorrelation.
-pub const DIFFUSION: &str = "diffusion.csv";
-/// The plot of mean squared displacement and velocity autocorrelation.
-pub const DIFFUSION_PLOT: &str = "diffusion.png";
-/// Sizes of chains.
-pub const CHAIN_SIZES: &str = "chain_sizes.csv";
-/// The plot of sizes of chains.
-pub const CHAIN_SIZES_PLOT: &str = "chain_sizes.png";
-/// The autocorrelation of transverse momentum waves.
-pub const VISCOSITY: &str = "viscosity.csv";
-/// The plot of the autocorrelation of transverse momentum waves.
-pub const VISCOSITY_PLOT: &str = "viscosity.png";
-/// The normalised velocity autocorrelation.
-pub const VELOCITY_AUTOCORRELATION: &str = "velocity_autocorrelation.csv";
-/// The plot of the normalised velocity autocorrelation.
-pub const VELOCITY_AUTOCORRELATION_PLOT: &str = "velocity_autocorrelation.png";
-/// The normalised force autocorrelation.
-pub const FORCE_AUTOCORRELATION: &str = "force_autocorrelation.csv";
-/// The plot of the normalised force autocorrelation.
-pub const FORCE_AUTOCORRELATION_PLOT: &str = "force_autocorrelation.png";
-/// The histogram of velocities.
-pub const VELOCITY_HISTOGRAM: &str = "velocity_histogram.csv";
-/// The plot of the histogram of velocities.
-pub const VELOCITY_HISTOGRAM_PLOT: &str = "velocity_histogram.png";
-/// The histogram of speeds.
-pub const SPEED_HISTOGRAM: &str = "speed_histogram.csv";
-/// The plot of the histogram of speeds.
-pub const SPEED_HISTOGRAM_PLOT: &str = "speed_histogram.png";
-/// The histogram of accelerations.
-pub const ACCELERATION_HISTOGRAM: &str = "acceleration_histogram.csv";
-/// The plot of the histogram of accelerations.
-pub const ACCELERATION_HISTOGRAM_PLOT: &str = "acceleration_histogram.png";
-
-/// The circulations of material loops.
-pub const CIRCULATION: &str = "circulation.csv";
-/// The plot of the circulations of material loops.
-pub const CIRCULATION_PLOT: &str = "circulation.png";
-
-/// The table of pulses of harmonic chains at a few times.
-pub const CHAIN_PROFILES: &str = "chain_profiles.csv";
-/// The plot of pulses of harmonic chains at a few times.
-pub const CHAIN_PROFILES_PLOT: &str = "chain_profiles.png";
-/// The table of peak, variance and energy of the pulses of harmonic chains.
-pub const CHAIN_PULSE: &str = "chain_pulse.csv";
-/// The plot of peak, variance and energy of the pulses of harmonic chains.
-pub const CHAIN_PULSE_PLOT: &str = "chain_pulse.png";
-/// The table of the momentum autocorrelation of the clusters of harmonic chains.
-pub const CHAIN_CORRELATION: &str = "chain_correlation.csv";
-/// The plot of the momentum autocorrelation of the clusters of harmonic chains.
-pub const CHAIN_CORRELATION_PLOT: &str = "chain_correlation.png";
-/// The table of the running integral of the exact memory of clusters of a harmonic chain.
-pub const CHAIN_MEMORY: &str = "chain_memory.csv";
-/// The plot of the running integral of the exact memory of clusters of a harmonic chain.
-pub const CHAIN_MEMORY_PLOT: &str = "chain_memory.png";
-/// The table of the variances of the clusters of harmonic chains in equilibrium.
-pub const CHAIN_EQUILIBRIUM: &str = "chain_equilibrium.csv";
-/// The plot of the variances of the clusters of harmonic chains in equilibrium.
-pub const CHAIN_EQUILIBRIUM_PLOT: &str = "chain_equilibrium.png";
-
-/// The table of the numbers of neighbours of Voronoi cells.
-pub const NEIGHBOURS: &str = "neighbours.csv";
-/// The plot of the numbers of neighbours of Voronoi cells.
-pub const NEIGHBOURS_PLOT: &str = "neighbours.png";
-/// The table of the decay of a shear wave.
-pub const SHEAR_WAVE: &str = "shear_wave.csv";
-/// The plot of the decay of a shear wave.
-pub const SHEAR_WAVE_PLOT: &str = "shear_wave.png";
-
 /// What the names of pictures and arrays of fields on the mesh begin with.
 pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
 
-/// Every fixed name that a run may write.
-pub const ALL: [&str; 49] = [
-    ENERGIES,
-    ENERGIES_PLOT,
-    SNAPSHOT,
-    CHECKPOINT,
-    SUMMARY,
-    TRAJECTORY_GSD,
-    TRAJECTORY_XYZ,
-    RADIAL_DISTRIBUTION,
-    RADIAL_DISTRIBUTION_PLOT,
-    DIFFUSION,
-    DIFFUSION_PLOT,
-    CHAIN_SIZES,
-    CHAIN_SIZES_PLOT,
-    VISCOSITY,
-    VISCOSITY_PLOT,
-    VELOCITY_AUTOCORRELATION,
-    VELOCITY_AUTOCORRELATION_PLOT,
-    FORCE_AUTOCORRELATION,
-    FORCE_AUTOCORRELATION_PLOT,
-    VELOCITY_HISTOGRAM,
-    VELOCITY_HISTOGRAM_PLOT,
-    SPEED_HISTOGRAM,
-    SPEED_HISTOGRAM_PLOT,
-    ACCELERATION_HISTOGRAM,
-    ACCELERATION_HISTOGRAM_PLOT,
-    CIRCULATION,
-    CIRCULATION_PLOT,
-    CHAIN_PROFILES,
-    CHAIN_PROFILES_PLOT,
-    CHAIN_PULSE,
-    CHAIN_PULSE_PLOT,
-    CHAIN_CORRELATION,
-    CHAIN_CORRELATION_PLOT,
-    CHAIN_MEMORY,
-    CHAIN_MEMORY_PLOT,
-    CHAIN_EQUILIBRIUM,
-    CHAIN_EQUILIBRIUM_PLOT,
-    NEIGHBOURS,
-    NEIGHBOURS_PLOT,
-    SHEAR_WAVE,
-    SHEAR_WAVE_PLOT,
+/// Pictures and arrays of fields at the end of a run.
+const FIELD_FILES: [&str; 8] = [
     "depth.png",
     "depth.npy",
     "potential_vorticity.png",
@@ -151,6 +40,21 @@ pub const ALL: [&str; 49] = [
     "speed.png",
     "speed.npy",
 ];
+
+/// Every fixed name that a run may write, in the order in which they are listed.
+///
+/// ```
+/// use mesoscope::output::files;
+/// use mesoscope::scene::AnalysisId;
+///
+/// assert!(files::all().any(|name| name == AnalysisId::Diffusion.table()));
+/// ```
+pub fn all() -> impl Iterator<Item = &'static str> {
+    let fixed = [ENERGIES, ENERGIES_PLOT, SNAPSHOT, CHECKPOINT, SUMMARY].into_iter();
+    let trajectories = TrajectoryFormat::ALL.into_iter().map(trajectory);
+    let tables = AnalysisId::ALL.into_iter().flat_map(AnalysisId::tables);
+    fixed.chain(trajectories).chain(tables.flat_map(|names| [names.file, names.plot])).chain(FIELD_FILES)
+}
 
 /// The name of a numbered snapshot; the first has number 1.
 ///
@@ -206,7 +110,7 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
 /// ```
 #[must_use]
 pub fn is_of_a_run(name: &str) -> bool {
-    ALL.contains(&name) || snapshot_number(name).is_some()
+    all().any(|known| known == name) || snapshot_number(name).is_some()
 }
 
 /// The name of a file that a process has not finished writing, before it becomes `name`.

@@ -33,4 +33,5 @@ pub(crate) use table::quoted;
 pub use table::{read_table, write_table};
 pub use temporary::write_atomically;
 pub use trajectory::TrajectoryWriter;
+pub(crate) use trajectory::bytes_per_particle;
 pub(crate) use watch::exists;

@@ -1,10 +1,11 @@
 //! Analyses of the particles that a report leaves in the order of their ids, for every path of integration.
 
 use super::recording::{SAMPLE_ROWS, record_histogram, record_sums};
-use super::{Kernel, Plan, Sampler, Table, Window};
+use super::{Kernel, Plan, Sampler, SamplerId, Table, Window};
 use crate::families::Model;
 use crate::scene::{
-    Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output, Viscosity,
+    AnalysisId, Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output,
+    Viscosity,
 };
 use std::f64::consts::PI;
 
@@ -71,23 +72,6 @@ pub(super) fn add(plan: &mut Plan, reported: &Reported<'_>, output: &Output) {
     }
     for asked in &output.histograms {
         builder.histogram(asked);
-    }
-}
-
-/// The sampler of an autocorrelation.
-pub(crate) fn autocorrelation_name(quantity: CorrelatedQuantity) -> &'static str {
-    match quantity {
-        CorrelatedQuantity::Velocity => "velocity_autocorrelation",
-        CorrelatedQuantity::Force => "force_autocorrelation",
-    }
-}
-
-/// The sampler of a histogram.
-pub(crate) fn histogram_name(quantity: CountedQuantity) -> &'static str {
-    match quantity {
-        CountedQuantity::Velocity => "velocity_histogram",
-        CountedQuantity::Speed => "speed_histogram",
-        CountedQuantity::Acceleration => "acceleration_histogram",
     }
 }
 
@@ -172,7 +156,7 @@ fn acceleration_scale(model: &Model) -> f64 {
 
 /// What distinguishes one sampler of sums from another.
 struct SumSampler {
-    name: &'static str,
+    id: AnalysisId,
     modules: Vec<&'static str>,
     constants: Vec<(&'static str, f64)>,
     renamed: Vec<(&'static str, &'static str)>,
@@ -229,7 +213,7 @@ impl Builder<'_> {
         let modules = [&["common/reduce"][..], &sampler.modules].concat();
         let renamed = [&[("partial_sums", sampler.sums), ("samples", sampler.samples)][..], &sampler.renamed].concat();
         let sums = self.plan.add_kernel(
-            Kernel::new(sampler.name, self.modules(&modules), groups)
+            Kernel::new(sampler.id.name(), self.modules(&modules), groups)
                 .with(sampler.constants)
                 .renamed(self.renamed(&renamed)),
         );
@@ -240,7 +224,7 @@ impl Builder<'_> {
         let row = 8 * (1 + sampler.quantities as u64);
         self.plan.add_buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
         self.plan.samplers.push(Sampler {
-            name: sampler.name,
+            id: SamplerId::Analysis(sampler.id),
             first: self.reported.equilibration,
             every: sampler.every,
             kernels: [&sampler.before[..], &[sums, record]].concat(),
@@ -257,7 +241,7 @@ impl Builder<'_> {
         let quanta = self.plan.quanta;
         self.plan.add_buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
         self.sums(SumSampler {
-            name: "diffusion",
+            id: AnalysisId::Diffusion,
             modules: vec!["common/crossings", "kernels/track"],
             constants: vec![
                 ("WINDOW", asked.window as f64),
@@ -277,7 +261,7 @@ impl Builder<'_> {
     fn viscosity(&mut self, asked: &Viscosity) {
         let dimension = self.reported.model.units.dimension;
         self.sums(SumSampler {
-            name: "viscosity",
+            id: AnalysisId::Viscosity,
             modules: vec!["common/elementary", "kernels/transverse_modes"],
             constants: Vec::new(),
             renamed: Vec::new(),
@@ -296,7 +280,7 @@ impl Builder<'_> {
         let quantities = 2 * groups.len();
         self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.to_vec()));
         self.sums(SumSampler {
-            name: "chain_sizes",
+            id: AnalysisId::ChainSizes,
             modules: vec!["common/turns_endless", "kernels/chain_sizes"],
             constants: vec![
                 ("CHAINS", chains as f64),
@@ -362,7 +346,7 @@ impl Builder<'_> {
         };
         self.plan.add_buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
         self.sums(SumSampler {
-            name: autocorrelation_name(asked.quantity),
+            id: AnalysisId::Autocorrelation(asked.quantity),
             modules: [&modules[..], &["common/sum64_signed", "kernels/correlate"]].concat(),
             constants: vec![("WINDOW", asked.window as f64), ("PRODUCT", unit * unit / quantum)],
             renamed: vec![("origins", origins)],
@@ -417,9 +401,9 @@ impl Builder<'_> {
             "common/counted_components"
         };
         let modules = [&modules[..], &[counted, "common/sum64_signed", "kernels/histogram"]].concat();
-        let name = histogram_name(asked.quantity);
+        let id = AnalysisId::Histogram(asked.quantity);
         let count = self.plan.add_kernel(
-            Kernel::new(name, self.modules(&modules), groups)
+            Kernel::new(id.name(), self.modules(&modules), groups)
                 .with(constants)
                 .renamed(self.renamed(&[("histogram", counts)])),
         );
@@ -431,7 +415,7 @@ impl Builder<'_> {
         self.plan.add_buffer(counts, "counts of each bin and sums of powers", 8 * entries);
         self.plan.add_buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
         self.plan.samplers.push(Sampler {
-            name,
+            id: SamplerId::Analysis(id),
             first: self.reported.equilibration,
             every: asked.every,
             kernels: [&before[..], &[count, record]].concat(),

@@ -30,7 +30,7 @@ pub use texture::Texture;
 
 use crate::families::Model;
 use crate::noise;
-use crate::scene::{Distribution, Output};
+use crate::scene::{AnalysisId, Distribution, Output};
 use crate::state::Units;
 
 /// Makes the plan of a model.
@@ -259,11 +259,31 @@ pub struct Buffer {
     pub contents: Contents,
 }
 
+/// What a sampler is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SamplerId {
+    /// The observables.
+    Observables,
+    /// An analysis.
+    Analysis(AnalysisId),
+}
+
+impl SamplerId {
+    /// Its name, for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Observables => "observables",
+            Self::Analysis(analysis) => analysis.name(),
+        }
+    }
+}
+
 /// Kernels that turn the particles of a report into one row of sums.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampler {
     /// What is sampled.
-    pub name: &'static str,
+    pub id: SamplerId,
     /// The first step sampled.
     pub first: u64,
     /// Steps between two samples.

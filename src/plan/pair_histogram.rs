@@ -2,8 +2,8 @@
 
 use super::recording::record_histogram;
 use super::serial_memory::TURNS;
-use super::{Grid, Kernel, Options, Plan, Sampler};
-use crate::scene::RadialDistribution;
+use super::{Grid, Kernel, Options, Plan, Sampler, SamplerId};
+use crate::scene::{AnalysisId, RadialDistribution};
 use crate::state::Units;
 
 /// Histograms kept on the device between two readbacks.
@@ -77,7 +77,7 @@ impl PairHistogram<'_> {
         plan.add_buffer("histogram", "pairs by distance", 8 * bins);
         plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + CAPACITY * (1 + bins)));
         plan.samplers.push(Sampler {
-            name: "radial_distribution",
+            id: SamplerId::Analysis(AnalysisId::RadialDistribution),
             first,
             every: self.asked.every,
             kernels,

@@ -1,6 +1,6 @@
 //! Kernels that put what others have summed up into rows of samples, where the host reads them.
 
-use super::{Kernel, Plan, Sampler};
+use super::{Kernel, Plan, Sampler, SamplerId};
 
 /// Rows of samples kept on the device between two readbacks.
 pub(super) const SAMPLE_ROWS: u64 = 1024;
@@ -22,7 +22,7 @@ impl Plan {
     pub(super) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
         let record = self.add_kernel(record_sums("record_observables", quantities, groups));
         self.samplers.push(Sampler {
-            name: "observables",
+            id: SamplerId::Observables,
             first: 0,
             every,
             kernels: vec![record],

@@ -7,11 +7,12 @@ use super::prefix_sum::PrefixSum;
 use super::recording::SAMPLE_ROWS;
 use super::smoothing::smoothing;
 use super::{
-    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, Storage, Texture, Traversal, noise_modules,
+    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture, Traversal,
+    noise_modules,
 };
 use crate::families::{Model, ShallowWater};
 use crate::noise;
-use crate::scene::{Distribution, Generator, Integrator, Output};
+use crate::scene::{AnalysisId, Distribution, Generator, Integrator, Output};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
@@ -452,7 +453,7 @@ impl Builder<'_> {
         self.plan.add_buffer("tracers", "particles without mass", WATER * tracers);
         self.plan.add_buffer("tracer_samples", "tracers at reports, waiting to be read", 8 + capacity * row);
         self.plan.samplers.push(Sampler {
-            name: "tracers",
+            id: SamplerId::Analysis(AnalysisId::Circulation),
             first: 0,
             every: output.energies.every,
             kernels: vec![record],

@@ -34,10 +34,6 @@
 //! ```
 
 mod analyses;
-mod analysis_charts;
-mod cells;
-mod chain;
-mod circulations;
 mod colour_ranges;
 mod conservation;
 mod energies;
@@ -55,6 +51,7 @@ mod shown_field;
 mod simulation;
 mod sizes;
 
+pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use interrupt::Interrupt;

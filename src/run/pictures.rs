@@ -1,7 +1,7 @@
 //! The pictures of a run, drawn from its tables and states.
 
 use super::RunError;
-use super::analysis_charts::{analysis_chart, mean};
+use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
 use super::shown_field::{ShownField, closed_loops};
 use super::simulation::{mesh_depth, open_adapter, plan_for};
@@ -16,7 +16,7 @@ use crate::plot::{
     Averages, CellPicture, Chart, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter, ShownValues,
     averages_note, energetic_cells_chart, energies_chart, missing_glyphs, shallow_water_chart,
 };
-use crate::scene::{self, FieldQuantity, Scene, Snapshot, SnapshotColor};
+use crate::scene::{self, AnalysisId, AnalysisTable, FieldQuantity, Scene, Snapshot, SnapshotColor};
 use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
@@ -54,9 +54,9 @@ pub fn redraw(
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, &model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
-    for (name, plot) in ANALYSES {
-        if directory.file(name).exists() && pictures.analysis(name, plot, &summary)? {
-            written.push(plot);
+    for (id, place, names) in analyses::tables() {
+        if directory.file(names.file).exists() && pictures.analysis(id, place, &summary)? {
+            written.push(names.plot);
         }
     }
     let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
@@ -65,7 +65,7 @@ pub fn redraw(
     if let Some(water) = model.shallow_water() {
         let depth = mesh_depth(&mut engine, water)?;
         let names = pictures.fields(None, &state, &depth, &model, water)?;
-        written.extend(files::ALL.into_iter().filter(|name| names.iter().any(|written| written == name)));
+        written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
     } else {
         pictures.snapshot(files::SNAPSHOT, &state, &model)?;
         if model.units.dimension > 1 {
@@ -74,27 +74,6 @@ pub fn redraw(
     }
     Ok(written)
 }
-
-/// Tables of analyses and their plots.
-const ANALYSES: [(&str, &str); 17] = [
-    (files::CHAIN_PROFILES, files::CHAIN_PROFILES_PLOT),
-    (files::CHAIN_PULSE, files::CHAIN_PULSE_PLOT),
-    (files::CHAIN_CORRELATION, files::CHAIN_CORRELATION_PLOT),
-    (files::CHAIN_MEMORY, files::CHAIN_MEMORY_PLOT),
-    (files::CHAIN_EQUILIBRIUM, files::CHAIN_EQUILIBRIUM_PLOT),
-    (files::CIRCULATION, files::CIRCULATION_PLOT),
-    (files::CHAIN_SIZES, files::CHAIN_SIZES_PLOT),
-    (files::RADIAL_DISTRIBUTION, files::RADIAL_DISTRIBUTION_PLOT),
-    (files::DIFFUSION, files::DIFFUSION_PLOT),
-    (files::VISCOSITY, files::VISCOSITY_PLOT),
-    (files::VELOCITY_AUTOCORRELATION, files::VELOCITY_AUTOCORRELATION_PLOT),
-    (files::FORCE_AUTOCORRELATION, files::FORCE_AUTOCORRELATION_PLOT),
-    (files::VELOCITY_HISTOGRAM, files::VELOCITY_HISTOGRAM_PLOT),
-    (files::SPEED_HISTOGRAM, files::SPEED_HISTOGRAM_PLOT),
-    (files::ACCELERATION_HISTOGRAM, files::ACCELERATION_HISTOGRAM_PLOT),
-    (files::NEIGHBOURS, files::NEIGHBOURS_PLOT),
-    (files::SHEAR_WAVE, files::SHEAR_WAVE_PLOT),
-];
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
 pub(super) struct Pictures<'a> {
@@ -168,29 +147,30 @@ impl<'a> Pictures<'a> {
         summary: &Summary,
         proceed: &dyn Fn() -> Result<(), RunError>,
     ) -> Result<(), RunError> {
-        for (name, plot) in ANALYSES {
+        for (id, place, names) in analyses::tables() {
             proceed()?;
-            if self.directory.file(name).exists() {
-                self.analysis(name, plot, summary)?;
+            if self.directory.file(names.file).exists() {
+                self.analysis(id, place, summary)?;
             }
         }
         Ok(())
     }
 
     /// Draws the plot of one table; returns false when there is nothing in it.
-    fn analysis(&mut self, name: &str, plot: &str, summary: &Summary) -> Result<bool, RunError> {
-        let table = read_table(&self.directory.file(name))?;
+    fn analysis(&mut self, id: AnalysisId, place: usize, summary: &Summary) -> Result<bool, RunError> {
+        let AnalysisTable { file, plot } = id.tables()[place];
+        let table = read_table(&self.directory.file(file))?;
         if table.rows.is_empty() {
             return Ok(false);
         }
-        let chart = analysis_chart(name, &table, self.scene, &summary.results);
+        let chart = analyses::chart(id, place, &table, self.scene, &summary.results);
         // Nothing, if its columns are not those that the run wrote.
         if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
             let problem = format!(
                 "found the columns `{}`, none of which the run wrote; restore the file, or run the scene again with --force",
                 table.columns.join(",")
             );
-            return Err(OutputError::Line { path: self.directory.file(name), line: 1, problem }.into());
+            return Err(OutputError::Line { path: self.directory.file(file), line: 1, problem }.into());
         }
         self.chart(plot, &chart)?;
         Ok(true)

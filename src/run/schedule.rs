@@ -1,6 +1,5 @@
 //! When a run has to stop for something.
 
-use super::cells::Due;
 use crate::scene::{Interaction, Scene};
 use std::time::Duration;
 
@@ -12,14 +11,13 @@ pub(super) struct Schedule {
     checkpoint_time: Duration,
     snapshot: Option<u64>,
     frame: Option<u64>,
-    chain: Option<u64>,
-    neighbours: Option<u64>,
-    shear_wave: Option<u64>,
-    equilibration: u64,
+    /// Of states that analyses take.
+    states: Vec<u64>,
 }
 
 impl Schedule {
-    pub(super) fn new(scene: &Scene) -> Self {
+    /// The schedule of a scene, with the steps between two states that its analyses take.
+    pub(super) fn new(scene: &Scene, states: Vec<u64>) -> Self {
         let output = &scene.output;
         let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
         // Shallow water shows fields, all others particles.
@@ -31,18 +29,15 @@ impl Schedule {
             checkpoint_time: Duration::from_mins(u64::from(output.checkpoint.minutes.max(1))),
             snapshot: (pictures > 0).then_some(pictures),
             frame: output.trajectory.as_ref().map(|trajectory| trajectory.every.max(1)),
-            chain: output.chain.as_ref().map(|chain| chain.every.max(1)),
-            neighbours: output.neighbours.as_ref().map(|neighbours| neighbours.every.max(1)),
-            shear_wave: output.shear_wave.as_ref().map(|wave| wave.every.max(1)),
-            equilibration: scene.time.equilibration,
+            states,
         }
     }
 
     /// The first event after a step.
     pub(super) fn next(&self, step: u64) -> u64 {
         let after = |every: u64| (step / every + 1).saturating_mul(every);
-        let events = [Some(self.checkpoint), self.snapshot, self.frame, self.chain, self.neighbours, self.shear_wave];
-        events.into_iter().flatten().map(after).fold(self.last, u64::min)
+        let events = [Some(self.checkpoint), self.snapshot, self.frame].into_iter().flatten();
+        events.chain(self.states.iter().copied()).map(after).fold(self.last, u64::min)
     }
 
     /// Whether to save a checkpoint; the start and the end always are.
@@ -65,18 +60,6 @@ impl Schedule {
         self.snapshot.map_or(0, |every| step.div_ceil(every))
     }
 
-    /// Whether to take a sample of harmonic chains.
-    pub(super) fn chain(&self, step: u64) -> bool {
-        self.chain.is_some_and(|every| step.is_multiple_of(every))
-    }
-
-    /// What to gather of Voronoi cells.
-    pub(super) fn cells(&self, step: u64) -> Due {
-        let due =
-            |every: Option<u64>| step >= self.equilibration && every.is_some_and(|every| step.is_multiple_of(every));
-        Due { neighbours: due(self.neighbours), shear_wave: due(self.shear_wave) }
-    }
-
     /// Whether to add a frame to the trajectory.
     pub(super) fn frame(&self, step: u64) -> bool {
         self.frame.is_some_and(|every| step.is_multiple_of(every))
@@ -93,20 +76,13 @@ mod tests {
         checkpoint_time: Duration::from_mins(10),
         snapshot: Some(30),
         frame: None,
-        chain: None,
-        neighbours: None,
-        shear_wave: None,
-        equilibration: 0,
+        states: Vec::new(),
     };
 
     #[test]
-    fn cells_are_sampled_after_equilibration() {
-        let schedule = Schedule { neighbours: Some(25), shear_wave: Some(10), equilibration: 40, ..SCHEDULE };
-        let due: Vec<u64> = (0..=100).filter(|step| schedule.cells(*step).neighbours).collect();
-        assert_eq!(due, [50, 75, 100]);
-        assert!(schedule.cells(40).shear_wave && !schedule.cells(40).neighbours && !schedule.cells(30).any());
-        assert_eq!(schedule.next(40), 50);
-        assert_eq!(schedule.next(70), 75);
+    fn states_that_analyses_take_are_events() {
+        let schedule = Schedule { states: vec![25, 10], ..SCHEDULE };
+        assert_eq!([40, 45, 70].map(|step| schedule.next(step)), [50, 50, 75]);
     }
 
     #[test]

@@ -1,8 +1,6 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
-use super::cells::Cells;
-use super::chain::{self, Chains};
 use super::conservation::{KeptQuantity, conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::exchange_tally::{self, ExchangeTally};
@@ -23,7 +21,7 @@ use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files,
 };
 use crate::plan::{self, Hardware, Options, Plan};
-use crate::scene::{self, Scene, TrajectoryFormat, Warning};
+use crate::scene::{self, Scene, Warning};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -353,8 +351,6 @@ struct Run<'a> {
     schedule: Schedule,
     energies: EnergyRecorder,
     analyses: Analyses,
-    chains: Option<Chains>,
-    cells: Cells,
     tally: ExchangeTally,
     kept_sums: KeptSums,
     trajectory: Option<TrajectoryWriter>,
@@ -377,11 +373,9 @@ impl<'a> Run<'a> {
         // What is wrong with the checkpoint is found before a file is touched.
         let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
         analyses.continue_windows(engine, &sections)?;
-        let chains = chains_of(scene, model, &sections)?;
-        let cells = Cells::new(scene, &sections)?;
         let tally = if model.voronoi().is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
         let kept_sums = KeptSums::new(model, &start.state, &sections)?;
-        let schedule = Schedule::new(scene);
+        let schedule = Schedule::new(scene, analyses.state_intervals());
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
             // At step 0 there is nothing yet.
             _ if step == 0 => Ok(None),
@@ -393,7 +387,7 @@ impl<'a> Run<'a> {
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
-                let name = trajectory_name(asked.format);
+                let name = files::trajectory(asked.format);
                 let path = directory.file(name);
                 Some(match written(name)? {
                     None => TrajectoryWriter::create(&path, asked.format, model)?,
@@ -411,8 +405,6 @@ impl<'a> Run<'a> {
             schedule,
             energies,
             analyses,
-            chains,
-            cells,
             tally,
             kept_sums,
             trajectory,
@@ -482,14 +474,9 @@ impl<'a> Run<'a> {
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
-        let sample = self.schedule.chain(step);
-        let due = self.schedule.cells(step);
-        if number.is_some() || frame || sample || due.any() || last {
+        if number.is_some() || frame || self.analyses.take_state(step) || last {
             let state = engine.reported()?;
-            if let (true, Some(chains)) = (sample, &mut self.chains) {
-                chains.add(&state);
-            }
-            self.cells.add(due, &state, self.model);
+            self.analyses.add_state(&state, self.model);
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
@@ -523,16 +510,13 @@ impl<'a> Run<'a> {
         if let Some(trajectory) = &mut self.trajectory {
             trajectory.flush()?;
         }
-        let mut sections = self.analyses.sections();
+        let mut sections = self.analyses.sections_of_samples();
         sections.extend(self.analyses.open_windows(engine)?);
         if !self.notices.is_empty() {
             sections.push((NOTICES.to_owned(), serde_json::json!(self.notices).to_string().into_bytes()));
         }
         sections.push((energies::SECTION.to_owned(), self.energies.section()));
-        if let Some(chains) = &self.chains {
-            sections.push((chain::SECTION.to_owned(), chains.section()));
-        }
-        sections.extend(self.cells.sections());
+        sections.extend(self.analyses.sections_of_states());
         sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
         sections.extend(self.pictures.sections());
         if self.model.voronoi().is_some() {
@@ -540,7 +524,7 @@ impl<'a> Run<'a> {
         }
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
-            written.push((trajectory_name(asked.format).to_owned(), trajectory.extent()));
+            written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
         }
         checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &written, &sections)?;
         self.saved_step = state.step;
@@ -597,20 +581,14 @@ impl<'a> Run<'a> {
         }
         summary.warnings = warnings;
         self.energies.summarise(&mut summary);
-        self.obey()?;
-        self.analyses.conclude(self.directory, &mut summary)?;
-        self.obey()?;
-        if let Some(chains) = &self.chains {
-            summary.results.insert(chain::SECTION.to_owned(), chains.conclude(self.directory)?);
-        }
-        self.cells.conclude(self.directory, self.model, &mut summary)?;
+        self.analyses.conclude(self.directory, &mut summary, &|| self.obey())?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
         summary.conserved_exactly = conserved(self.model, &lost);
         summary.not_conserved = not_conserved(self.model, &changed);
         let written = |name: &&str| self.directory.file(name).exists();
         let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
-        for name in files::ALL.into_iter().filter(is_table).filter(written) {
+        for name in files::all().filter(is_table).filter(written) {
             summary.tables.insert(name.to_owned(), Extent::of(&self.directory.file(name))?);
         }
         // Numbers first: they are worth more than pictures if the disk is full.
@@ -627,19 +605,11 @@ impl<'a> Run<'a> {
         }
         self.pictures.check()?;
         exists(&self.directory.file(files::CHECKPOINT))?;
-        let written: Vec<&str> = files::ALL.into_iter().filter(written).collect();
+        let written: Vec<&str> = files::all().filter(written).collect();
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
     }
-}
-
-/// The samples of harmonic chains, from the start or from a checkpoint.
-fn chains_of(scene: &Scene, model: &Model, sections: &Sections<'_>) -> Result<Option<Chains>, CheckpointError> {
-    let (Some(asked), Some(trios)) = (&scene.output.chain, model.chains()) else { return Ok(None) };
-    let mut chains = Chains::new(trios.clone(), model.units, model.time_step, asked.every);
-    chains.restore(sections)?;
-    Ok(Some(chains))
 }
 
 /// The smoothed depth on the nodes of the mesh, right after a report.
@@ -650,10 +620,3 @@ pub(super) fn mesh_depth(engine: &mut Engine<'_>, water: &ShallowWater) -> Resul
 
 /// Name of the section of a checkpoint that holds what was done to the scene before the run.
 const NOTICES: &str = "notices";
-
-fn trajectory_name(format: TrajectoryFormat) -> &'static str {
-    match format {
-        TrajectoryFormat::Gsd => files::TRAJECTORY_GSD,
-        TrajectoryFormat::ExtendedXyz => files::TRAJECTORY_XYZ,
-    }
-}

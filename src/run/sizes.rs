@@ -1,17 +1,14 @@
 //! How large the files of a run will be, before it begins.
 
-use super::chain::numbers_kept;
+use super::analyses::{AskedAnalysis, asked_analyses};
 use crate::families::{Bonds, Model};
+use crate::output::bytes_per_particle;
 use crate::plan::{Layout, Plan};
 use crate::plot::snapshot_size;
-use crate::scene::{Scene, TrajectoryFormat};
+use crate::scene::Scene;
 
 /// Bytes of a number in a table, with its comma: most have sixteen or seventeen digits.
 const NUMBER: u64 = 19;
-/// Bytes of a particle in a frame of extended XYZ: a species and six numbers.
-const XYZ_PARTICLE: u64 = 110;
-/// Bytes of a particle in a frame of GSD: position and velocity in single precision, and the image.
-const GSD_PARTICLE: u64 = 36;
 /// Bytes that a checkpoint keeps of a row of the table of energies: sums for the configurational temperature.
 const ROW_KEPT: u64 = 16;
 /// Bytes of a pixel in pictures, as they are compressed: measured, from .04 to .15 in plots, to .7 in crowds of discs.
@@ -23,8 +20,8 @@ const PICTURE_PIXEL: f64 = 0.5;
 pub struct Sizes {
     /// `energies.csv`.
     pub energies: u64,
-    /// `circulation.csv`; tables of other analyses are small.
-    pub circulation: u64,
+    /// Tables of analyses, as far as they are not small.
+    pub tables: u64,
     /// The checkpoint; while one is replaced there are two.
     pub checkpoint: u64,
     /// The trajectory.
@@ -61,19 +58,10 @@ impl Sizes {
         let times = |every: u64| scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
         let columns = super::quantities(model).len() as u64 + 2;
         let energies = times(output.energies.every).saturating_mul(NUMBER * columns);
-        let each = |format| match format {
-            TrajectoryFormat::Gsd => GSD_PARTICLE,
-            TrajectoryFormat::ExtendedXyz => XYZ_PARTICLE,
-        };
-        let loops = model.shallow_water().map_or(0, |water| water.closed_loops().count() as u64);
-        let circulation =
-            if loops == 0 { 0 } else { times(output.energies.every).saturating_mul(NUMBER * (loops + 2)) };
-        let of_chains = match (&output.chain, model.chains()) {
-            (Some(asked), Some(trios)) => numbers_kept(trios, times(asked.every)).saturating_mul(8),
-            _ => 0,
-        };
+        let analyses = asked_analyses(scene, model);
         let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
-            times(asked.every).saturating_mul(each(asked.format).saturating_mul(plan.particles).saturating_add(300))
+            times(asked.every)
+                .saturating_mul(bytes_per_particle(asked.format).saturating_mul(plan.particles).saturating_add(300))
         });
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
@@ -91,27 +79,16 @@ impl Sizes {
                 ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))
             }
         };
-        let analyses = [
-            output.radial_distribution.is_some(),
-            output.diffusion.is_some(),
-            output.viscosity.is_some(),
-            output.chain_sizes.is_some(),
-            output.chain.is_some(),
-            output.neighbours.is_some(),
-            output.shear_wave.is_some(),
-        ];
-        let plots = 1
-            + analyses.iter().filter(|asked| **asked).count()
-            + output.autocorrelations.len()
-            + output.histograms.len();
+        let plots = 1 + analyses.iter().map(|asked| asked.id.tables().len() as u64).sum::<u64>();
+        let sum = |bytes: &dyn Fn(&AskedAnalysis) -> u64| analyses.iter().map(bytes).fold(0, u64::saturating_add);
         Self {
             energies,
-            circulation,
-            checkpoint: [times(output.energies.every).saturating_mul(ROW_KEPT), of_chains]
+            tables: sum(&|asked| asked.numbers.saturating_mul(NUMBER)),
+            checkpoint: [times(output.energies.every).saturating_mul(ROW_KEPT), sum(&|asked| asked.kept_bytes)]
                 .into_iter()
                 .fold(checkpoint(model, plan), u64::saturating_add),
             trajectory,
-            pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots as u64)),
+            pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots)),
             numbered: picture.saturating_mul(numbered),
         }
     }
@@ -119,7 +96,7 @@ impl Sizes {
     /// Bytes of all files at the end.
     #[must_use]
     pub fn total(&self) -> u64 {
-        [self.energies, self.circulation, self.checkpoint, self.trajectory, self.pictures, self.numbered]
+        [self.energies, self.tables, self.checkpoint, self.trajectory, self.pictures, self.numbered]
             .into_iter()
             .fold(0, u64::saturating_add)
     }

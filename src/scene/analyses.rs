@@ -1,4 +1,4 @@
-//! What a run measures of particles.
+//! Analyses: what a scene can ask a run to measure besides the observables, with the id and the names of each.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,7 +90,7 @@ pub enum CorrelatedQuantity {
 impl CorrelatedQuantity {
     /// The name in a scene.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
             Self::Force => "force",
@@ -165,7 +165,7 @@ pub enum CountedQuantity {
 impl CountedQuantity {
     /// The name in a scene.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
             Self::Speed => "speed",
@@ -184,4 +184,121 @@ pub enum Axis {
     Y,
     /// The third.
     Z,
+}
+
+/// What a run can measure besides the observables, in the order in which their files are listed.
+///
+/// ```
+/// use mesoscope::scene::AnalysisId;
+///
+/// assert_eq!(AnalysisId::Diffusion.table(), "diffusion.csv");
+/// assert!(AnalysisId::ALL.contains(&AnalysisId::Chain) && AnalysisId::Chain.tables().len() == 5);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnalysisId {
+    /// The radial distribution function.
+    RadialDistribution,
+    /// Mean squared displacement and velocity autocorrelation.
+    Diffusion,
+    /// Sizes of chains.
+    ChainSizes,
+    /// The decay of transverse momentum waves.
+    Viscosity,
+    /// The normalised autocorrelation of a vector.
+    Autocorrelation(CorrelatedQuantity),
+    /// A histogram over particles and steps.
+    Histogram(CountedQuantity),
+    /// The circulations of material loops.
+    Circulation,
+    /// Pulses, correlations and variances of harmonic chains.
+    Chain,
+    /// Numbers of neighbours of Voronoi cells.
+    Neighbours,
+    /// The decay of a shear wave.
+    ShearWave,
+}
+
+/// A table that an analysis leaves, and the plot of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AnalysisTable {
+    /// Name of the table.
+    pub file: &'static str,
+    /// Name of the plot.
+    pub plot: &'static str,
+}
+
+/// The name of an analysis and the stems of its tables: its own name, unless others are given.
+macro_rules! names {
+    ($name:literal) => {
+        names!($name: $name)
+    };
+    ($name:literal: $($stem:literal),+) => {
+        ($name, &[$(AnalysisTable { file: concat!($stem, ".csv"), plot: concat!($stem, ".png") }),+])
+    };
+}
+
+impl AnalysisId {
+    /// All of them.
+    pub const ALL: [Self; 13] = [
+        Self::RadialDistribution,
+        Self::Diffusion,
+        Self::ChainSizes,
+        Self::Viscosity,
+        Self::Autocorrelation(CorrelatedQuantity::Velocity),
+        Self::Autocorrelation(CorrelatedQuantity::Force),
+        Self::Histogram(CountedQuantity::Velocity),
+        Self::Histogram(CountedQuantity::Speed),
+        Self::Histogram(CountedQuantity::Acceleration),
+        Self::Circulation,
+        Self::Chain,
+        Self::Neighbours,
+        Self::ShearWave,
+    ];
+
+    const fn names(self) -> (&'static str, &'static [AnalysisTable]) {
+        match self {
+            Self::RadialDistribution => names!("radial_distribution"),
+            Self::Diffusion => names!("diffusion"),
+            Self::ChainSizes => names!("chain_sizes"),
+            Self::Viscosity => names!("viscosity"),
+            Self::Autocorrelation(CorrelatedQuantity::Velocity) => names!("velocity_autocorrelation"),
+            Self::Autocorrelation(CorrelatedQuantity::Force) => names!("force_autocorrelation"),
+            Self::Histogram(CountedQuantity::Velocity) => names!("velocity_histogram"),
+            Self::Histogram(CountedQuantity::Speed) => names!("speed_histogram"),
+            Self::Histogram(CountedQuantity::Acceleration) => names!("acceleration_histogram"),
+            Self::Circulation => names!("circulation"),
+            Self::Chain => {
+                names!("chain": "chain_profiles", "chain_pulse", "chain_correlation", "chain_memory", "chain_equilibrium")
+            }
+            Self::Neighbours => names!("neighbours"),
+            Self::ShearWave => names!("shear_wave"),
+        }
+    }
+
+    /// The key of its result in `run.json`, and the name of its section in a checkpoint.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.names().0
+    }
+
+    /// The tables that it leaves.
+    #[must_use]
+    pub const fn tables(self) -> &'static [AnalysisTable] {
+        self.names().1
+    }
+
+    /// The name of its table; of several, the first.
+    #[must_use]
+    pub const fn table(self) -> &'static str {
+        self.tables()[0].file
+    }
+
+    /// The part of a scene that asks for it.
+    pub(crate) fn path(self) -> String {
+        match self {
+            Self::Autocorrelation(quantity) => format!("output.autocorrelations ({})", quantity.name()),
+            Self::Histogram(quantity) => format!("output.histograms ({})", quantity.name()),
+            other => format!("output.{}", other.name()),
+        }
+    }
 }

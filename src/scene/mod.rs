@@ -26,8 +26,8 @@ mod text;
 
 pub use crate::noise::Generator;
 pub use analyses::{
-    Autocorrelation, Axis, ChainSizes, CorrelatedQuantity, CountedQuantity, DecayFit, Diffusion, Frame, Histogram,
-    RadialDistribution, Viscosity,
+    AnalysisId, AnalysisTable, Autocorrelation, Axis, ChainSizes, CorrelatedQuantity, CountedQuantity, DecayFit,
+    Diffusion, Frame, Histogram, RadialDistribution, Viscosity,
 };
 pub use bath::{Bath, BathScheme};
 pub use builtin::{Builtin, builtin};

@@ -115,3 +115,8 @@ pub enum TrajectoryFormat {
     /// Extended XYZ text, `trajectory.xyz`.
     ExtendedXyz,
 }
+
+impl TrajectoryFormat {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Gsd, Self::ExtendedXyz];
+}

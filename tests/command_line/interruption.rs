@@ -6,6 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::scene::AnalysisId;
 use mesoscope::sweep::{SweepSummary, VariantState};
 use serde_json::json;
 
@@ -99,7 +100,8 @@ fn an_interrupted_run_goes_on_where_it_was() {
         let steps = (step + 35).to_string();
         succeeds(&["resume", &parts, "--steps", &steps, "--quiet"]);
         succeeds(&["run", &place.scene(), "--out", &place.argument("whole"), "--steps", &steps, "--quiet"]);
-        for name in [files::ENERGIES, files::CHECKPOINT, files::TRAJECTORY_GSD, files::RADIAL_DISTRIBUTION] {
+        for name in [files::ENERGIES, files::CHECKPOINT, files::TRAJECTORY_GSD, AnalysisId::RadialDistribution.table()]
+        {
             let [whole, parts] = ["whole", "parts"].map(|run| bytes(&place.path(run).join(name)));
             assert!(whole == parts, "{name} differs after step {step}");
         }
@@ -419,7 +421,7 @@ fn an_interrupt_while_finishing_is_obeyed() {
         }
         caught += 1;
         assert!(code == Some(130) && said.contains("interrupted at step 60"), "{code:?} {said}");
-        assert!(!path.join(files::RADIAL_DISTRIBUTION_PLOT).exists());
+        assert!(!path.join(AnalysisId::RadialDistribution.tables()[0].plot).exists());
         succeeds(&["resume", &out, "--quiet"]);
         assert_same(&path, &place.path("whole"));
         break;

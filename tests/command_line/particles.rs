@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
 use crate::support::program::{Place, bytes, colours, fails, mesoscope, picture, size, succeeds, text};
@@ -46,7 +47,9 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
-    for name in [files::ENERGIES_PLOT, files::RADIAL_DISTRIBUTION_PLOT, files::DIFFUSION_PLOT] {
+    for name in
+        [files::ENERGIES_PLOT, AnalysisId::RadialDistribution.tables()[0].plot, AnalysisId::Diffusion.tables()[0].plot]
+    {
         assert_eq!(size(&out.join(name)), (640, 480), "{name}");
         assert!(colours(&out.join(name)) > 10, "{name} is empty");
     }
@@ -81,7 +84,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     assert!((summary.means["temperature"]["mean"].as_f64().unwrap() - mean).abs() < 1e-12);
     assert_eq!(summary.means["temperature"]["samples"], 17);
     assert!((summary.means["configurational_temperature"]["mean"].as_f64().unwrap() - 1.0).abs() < 0.5);
-    let pairs = read_table(&out.join(files::RADIAL_DISTRIBUTION)).unwrap();
+    let pairs = read_table(&out.join(AnalysisId::RadialDistribution.table())).unwrap();
     let g = pairs.column("radial_distribution").unwrap();
     assert_eq!(g.len(), 40);
     // Far away, pairs are as frequent as in an ideal gas.
@@ -89,7 +92,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     assert!(g[0] < 0.9, "{g:?}");
     let results = &summary.results;
     assert_eq!(results["radial_distribution"]["samples"], 10.0);
-    let correlation = read_table(&out.join(files::DIFFUSION)).unwrap();
+    let correlation = read_table(&out.join(AnalysisId::Diffusion.table())).unwrap();
     assert_eq!(results["diffusion"]["windows"], 4);
     assert_eq!(correlation.rows.len(), 4);
     assert_eq!(correlation.column("mean_squared_displacement").unwrap()[0], 0.0);
@@ -139,7 +142,7 @@ fn half_a_run_resumed_is_a_whole_run() {
         for name in [
             files::ENERGIES,
             files::CHECKPOINT,
-            files::RADIAL_DISTRIBUTION,
+            AnalysisId::RadialDistribution.table(),
             files::TRAJECTORY_GSD,
             files::ENERGIES_PLOT,
             files::SNAPSHOT,
@@ -369,7 +372,7 @@ fn check_prints_the_plan() {
 fn plots_can_be_drawn_again() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     place.run("out", &["--quiet"]);
-    let names = [files::ENERGIES_PLOT, files::RADIAL_DISTRIBUTION_PLOT, files::SNAPSHOT];
+    let names = [files::ENERGIES_PLOT, AnalysisId::RadialDistribution.tables()[0].plot, files::SNAPSHOT];
     let before = names.map(|name| bytes(&place.path("out").join(name)));
     for name in names {
         fs::remove_file(place.path("out").join(name)).unwrap();
@@ -385,7 +388,7 @@ fn plots_can_be_drawn_again() {
     assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 100));
     fails(&["plot", &out, "--set", "seed=3"], 2, &["seed=3", "output.plot."]);
     fails(&["plot", &out, "--set", "output.plot.widht=3"], 2, &["out/run.json` has 1 mistake", "widht", "width"]);
-    fs::write(place.path("out").join(files::RADIAL_DISTRIBUTION), "a,b\n1,2\n").unwrap();
+    fs::write(place.path("out").join(AnalysisId::RadialDistribution.table()), "a,b\n1,2\n").unwrap();
     fails(&["plot", &out], 5, &["radial_distribution.csv` is not what the run wrote", "--force"]);
 }
 

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
 use crate::support::program::{Place, bytes, colours, fails, listing, mesoscope, size, succeeds, text};
@@ -134,7 +135,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for row in &energies.rows {
         assert_eq!((row[4], row[6]), (row[2] + row[3], row[2] + row[3] + row[5]));
     }
-    let circulation = read_table(&out.join(files::CIRCULATION)).unwrap();
+    let circulation = read_table(&out.join(AnalysisId::Circulation.table())).unwrap();
     assert_eq!(circulation.columns, ["time", "inner", "outer"]);
     assert_eq!(circulation.rows.len(), 11);
     // f₀ times the area, and the flow's share.

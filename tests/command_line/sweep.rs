@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::output::{Summary, files, read_table};
+use mesoscope::scene::AnalysisId;
 use mesoscope::sweep::{SweepSummary, VariantState};
 use serde_json::{Value, json};
 
@@ -295,7 +296,7 @@ fn an_interrupted_sweep_can_be_finished() {
         assert!(bytes(&whole.join(name)) == bytes(&parts.join(name)), "{name} differs");
     }
     for seed in [1, 2, 3] {
-        for name in [files::ENERGIES, files::CHECKPOINT, files::RADIAL_DISTRIBUTION] {
+        for name in [files::ENERGIES, files::CHECKPOINT, AnalysisId::RadialDistribution.table()] {
             let name = format!("seed={seed}/{name}");
             assert!(bytes(&whole.join(&name)) == bytes(&parts.join(&name)), "{name} differs");
         }

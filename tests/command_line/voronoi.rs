@@ -4,6 +4,7 @@ use std::fs;
 
 use mesoscope::families::Model;
 use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::scene::AnalysisId;
 use mesoscope::table::Table;
 use serde_json::{Value, json};
 
@@ -95,10 +96,10 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in ["internal_energy", "configurational_temperature", "pressure_conservative"] {
         assert_eq!(energies.column(name), None, "{name} does not apply");
     }
-    let neighbours = table(&place, "out", files::NEIGHBOURS);
+    let neighbours = table(&place, "out", AnalysisId::Neighbours.table());
     let sum: f64 = column(&neighbours, "fraction").iter().sum();
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
-    let decay = table(&place, "out", files::SHEAR_WAVE);
+    let decay = table(&place, "out", AnalysisId::ShearWave.table());
     assert_eq!(decay.rows.len(), 21);
     let amplitude = column(&decay, "amplitude")[0];
     // A thermal part with the deviation √(2kT/ΣM), and Σ sin² of a lattice with jitter.

@@ -6,10 +6,10 @@ use mesoscope::engine::{Engine, Sample};
 use mesoscope::families::Model;
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
-use mesoscope::output::{files, read_table};
+use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Scene, SceneError};
 use mesoscope::table::Table;
 use serde_json::Value;
 
@@ -108,7 +108,7 @@ fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
     // At the same temperature; 25 origins of 375 particles each.
     near(&[a, "mean_square", "value"], 3.0 * variance, number(&outcome, &[a, "mean_square", "standard_error"]));
     assert!(number(&outcome, &[a, "mean_square", "standard_error"]) < 2.0 * 6.0_f64.sqrt() / (25.0 * particles).sqrt());
-    let found = table(directory.path(), files::VELOCITY_AUTOCORRELATION);
+    let found = table(directory.path(), AnalysisId::Autocorrelation(CorrelatedQuantity::Velocity).table());
     let [normalised, errors, fit] =
         ["autocorrelation", "autocorrelation_error", "fit"].map(|name| found.column(name).unwrap());
     assert_eq!((normalised[0], errors[0], found.rows.len()), (1.0, 0.0, 20));
@@ -138,7 +138,7 @@ fn a_gas_without_forces_keeps_its_velocities() {
         ]);
         let directory = tempfile::tempdir().unwrap();
         let outcome = run(scene, directory.path());
-        let found = table(directory.path(), files::VELOCITY_AUTOCORRELATION);
+        let found = table(directory.path(), AnalysisId::Autocorrelation(CorrelatedQuantity::Velocity).table());
         assert!(found.column("autocorrelation").unwrap().iter().all(|value| *value == 1.0), "{found:?}");
         assert!(found.column("autocorrelation_error").unwrap().iter().all(|value| *value == 0.0));
         assert_eq!(found.rows.len(), 5);
@@ -150,7 +150,9 @@ fn a_gas_without_forces_keeps_its_velocities() {
         assert_eq!(outcome.summary.results["velocity_autocorrelation"]["fit"], Value::Null);
         assert!(outcome.summary.warnings.iter().any(|warning| warning.contains("does not decay")));
         // There are no forces: all in the middle bin, and nothing to correlate.
-        let counts = table(directory.path(), files::ACCELERATION_HISTOGRAM).column("count").unwrap();
+        let counts = table(directory.path(), AnalysisId::Histogram(CountedQuantity::Acceleration).table())
+            .column("count")
+            .unwrap();
         assert_eq!(counts, [0.0, 5.0 * 400.0 * dimension as f64, 0.0]);
         assert!(outcome.summary.results.get("force_autocorrelation").is_none());
         let warned = |text: &str| outcome.summary.warnings.iter().any(|warning| warning.contains(text));
@@ -386,7 +388,8 @@ fn particles_far_beyond_the_range_are_counted_apart() {
             "velocities": {"type": "listed", "velocities": [[0.5, -0.5], [1.0, -1.0], [-20, 0], [18.5, 1.5]]}}],
         "output": {"histograms": [{"quantity": "velocity", "every": 1, "bins": 2, "range": 1}]}}"#;
     let outcome = run(crate::support::scene(text), directory.path());
-    let counts = table(directory.path(), files::VELOCITY_HISTOGRAM).column("count").unwrap();
+    let counts =
+        table(directory.path(), AnalysisId::Histogram(CountedQuantity::Velocity).table()).column("count").unwrap();
     // 0.5 and 0 in the upper bin, -0.5 and -1 in the lower; 1, 18.5, 1.5 above, -20 below.
     assert_eq!(counts, [2.0, 2.0]);
     assert_eq!(number(&outcome, &["velocity_histogram", "below"]), 1.0);

@@ -366,7 +366,7 @@ fn analyses_know_the_masses_of_cells() {
     // Step 16 begins the third window.
     let plan = engine.plan();
     let sums = |name: &str| {
-        let sampler = plan.samplers.iter().position(|sampler| sampler.name == name).unwrap();
+        let sampler = plan.samplers.iter().position(|sampler| sampler.id.name() == name).unwrap();
         samples.iter().find(|sample| sample.sampler == sampler && sample.step == 16).unwrap().sums.clone()
     };
     for (name, index) in [("diffusion", 1), ("velocity_autocorrelation", 0)] {

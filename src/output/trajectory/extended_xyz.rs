@@ -10,44 +10,49 @@
 //!
 //! All are in the units of the scene. `Lattice` has three vectors in any dimension, and `pbc` says which are real.
 
-use super::{Description, elements};
+use super::{Description, Format, Frames, elements};
 use crate::output::records::RecordFile;
-use crate::output::{Extent, OutputError};
+use crate::output::{Extent, OutputError, files};
 use crate::state::State;
 use std::io::Write;
-use std::path::Path;
+
+pub(super) const FORMAT: Format = Format {
+    file: files::TRAJECTORY_XYZ,
+    // A species and a dozen numbers.
+    bytes_per_particle: 110,
+    create: |path| Ok(Box::new(ExtendedXyz::of(RecordFile::create(path)?))),
+    resume: |path, written| Ok(Box::new(ExtendedXyz::of(RecordFile::resume(path, written)?))),
+};
 
 #[derive(Debug)]
-pub(super) struct ExtendedXyz {
+struct ExtendedXyz {
     records: RecordFile,
     frame: Vec<u8>,
 }
 
 impl ExtendedXyz {
-    pub(super) fn create(path: &Path) -> Result<Self, OutputError> {
-        Ok(Self { records: RecordFile::create(path)?, frame: Vec::new() })
+    fn of(records: RecordFile) -> Self {
+        Self { records, frame: Vec::new() }
     }
+}
 
-    pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
-        Ok(Self { records: RecordFile::resume(path, written)?, frame: Vec::new() })
-    }
-
-    pub(super) fn extent(&self) -> Extent {
+impl Frames for ExtendedXyz {
+    fn extent(&self) -> Extent {
         self.records.extent()
     }
 
-    pub(super) fn check(&self) -> Result<(), OutputError> {
+    fn check(&self) -> Result<(), OutputError> {
         self.records.check()
     }
 
-    pub(super) fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
+    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
         description.check(self.records.path(), state)?;
         self.frame.clear();
         write_frame(&mut self.frame, description, state).map_err(OutputError::io("write", self.records.path()))?;
         self.records.append(&self.frame)
     }
 
-    pub(super) fn flush(&mut self) -> Result<(), OutputError> {
+    fn flush(&mut self) -> Result<(), OutputError> {
         self.records.sync()
     }
 }

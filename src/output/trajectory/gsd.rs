@@ -5,11 +5,11 @@
 //! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
 //! bonds) is written in the first frame, from which readers take it for all others.
 
-use super::Description;
+use super::{Description, Format, Frames};
 use crate::output::extent::Checksum;
 use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
-use crate::output::{Extent, OutputError};
+use crate::output::{Extent, OutputError, files};
 use crate::state::State;
 use bytemuck::NoUninit;
 use hoomd_gsd::file_layer::{
@@ -22,8 +22,16 @@ use std::path::{Path, PathBuf};
 /// Bytes for the name of a type, with at least one zero at the end.
 const NAME: usize = 64;
 
+pub(super) const FORMAT: Format = Format {
+    file: files::TRAJECTORY_GSD,
+    // Position and velocity in single precision, and the image.
+    bytes_per_particle: 36,
+    create: |path| Ok(Box::new(GsdTrajectory::create(path)?)),
+    resume: |path, written| Ok(Box::new(GsdTrajectory::resume(path, written)?)),
+};
+
 #[derive(Debug)]
-pub(super) struct GsdTrajectory {
+struct GsdTrajectory {
     path: PathBuf,
     /// None after a failed write: the file layer would write again when dropped, at positions that no longer hold.
     file: Option<GsdFile>,
@@ -45,12 +53,12 @@ const SCHEMA: &str = "hoomd";
 const SCHEMA_VERSION: (u16, u16) = (1, 4);
 
 impl GsdTrajectory {
-    pub(super) fn create(path: &Path) -> Result<Self, OutputError> {
+    fn create(path: &Path) -> Result<Self, OutputError> {
         let file = create_file(path)?;
         Self::of(path, file, Checksum::default())
     }
 
-    pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
+    fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
         check_index(path)?;
         let file = GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))?;
         let altered = || OutputError::Altered { path: path.to_path_buf() };
@@ -83,15 +91,34 @@ impl GsdTrajectory {
         Ok(Self { path, watch, length, frames, checksum, empty: frames == 0, file: Some(file) })
     }
 
-    pub(super) fn extent(&self) -> Extent {
+    fn attempt(&mut self, write: impl FnOnce(&mut GsdFile) -> Result<(), WriteError>) -> Result<(), OutputError> {
+        let Some(mut file) = self.file.take() else {
+            let problem = "an earlier write to it failed".to_owned();
+            return Err(OutputError::Trajectory { path: self.path.clone(), problem });
+        };
+        match write(&mut file) {
+            Ok(()) => {
+                self.file = Some(file);
+                Ok(())
+            }
+            Err(error) => {
+                std::mem::forget(file);
+                Err(write_error(&self.path, error))
+            }
+        }
+    }
+}
+
+impl Frames for GsdTrajectory {
+    fn extent(&self) -> Extent {
         self.checksum.extent(self.length)
     }
 
-    pub(super) fn check(&self) -> Result<(), OutputError> {
+    fn check(&self) -> Result<(), OutputError> {
         self.watch.check(self.length)
     }
 
-    pub(super) fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
+    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
         description.check(&self.path, state)?;
         let first = self.empty;
         self.attempt(|file| {
@@ -119,7 +146,7 @@ impl GsdTrajectory {
         Ok(())
     }
 
-    pub(super) fn flush(&mut self) -> Result<(), OutputError> {
+    fn flush(&mut self) -> Result<(), OutputError> {
         self.attempt(|file| file.sync_all().map_err(|error| WriteError::Sync("frame".to_owned(), 0, error)))?;
         if let Some(file) = &self.file {
             while self.frames < file.n_frames() {
@@ -130,23 +157,6 @@ impl GsdTrajectory {
             self.length = self.watch.length().unwrap_or(self.length);
         }
         Ok(())
-    }
-
-    fn attempt(&mut self, write: impl FnOnce(&mut GsdFile) -> Result<(), WriteError>) -> Result<(), OutputError> {
-        let Some(mut file) = self.file.take() else {
-            let problem = "an earlier write to it failed".to_owned();
-            return Err(OutputError::Trajectory { path: self.path.clone(), problem });
-        };
-        match write(&mut file) {
-            Ok(()) => {
-                self.file = Some(file);
-                Ok(())
-            }
-            Err(error) => {
-                std::mem::forget(file);
-                Err(write_error(&self.path, error))
-            }
-        }
     }
 }
 

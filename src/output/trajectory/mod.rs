@@ -8,6 +8,7 @@ use super::{Extent, OutputError};
 use crate::families::{Bonds, Model, Species, Voronoi};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
+use std::fmt::Debug;
 use std::path::Path;
 
 /// A trajectory, open for writing. Frames reach the disk at [`flush`](Self::flush), always whole.
@@ -31,13 +32,57 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct TrajectoryWriter {
     description: Description,
-    file: Format,
+    file: Box<dyn Frames>,
 }
 
-#[derive(Debug)]
-enum Format {
-    Gsd(Box<gsd::GsdTrajectory>),
-    ExtendedXyz(extended_xyz::ExtendedXyz),
+/// What is known of a format.
+struct Format {
+    /// Name of the file.
+    file: &'static str,
+    /// Bytes of a particle in a frame.
+    bytes_per_particle: u64,
+    create: fn(&Path) -> Opened,
+    resume: fn(&Path, Extent) -> Opened,
+}
+
+type Opened = Result<Box<dyn Frames>, OutputError>;
+
+/// The registry of formats.
+fn format_of(format: TrajectoryFormat) -> &'static Format {
+    match format {
+        TrajectoryFormat::Gsd => &gsd::FORMAT,
+        TrajectoryFormat::ExtendedXyz => &extended_xyz::FORMAT,
+    }
+}
+
+/// The name of a trajectory in this format.
+///
+/// ```
+/// use mesoscope::output::files;
+/// use mesoscope::scene::TrajectoryFormat;
+///
+/// assert_eq!(files::trajectory(TrajectoryFormat::Gsd), "trajectory.gsd");
+/// ```
+#[must_use]
+pub fn trajectory(format: TrajectoryFormat) -> &'static str {
+    format_of(format).file
+}
+
+/// Bytes of a particle in a frame of this format.
+pub(crate) fn bytes_per_particle(format: TrajectoryFormat) -> u64 {
+    format_of(format).bytes_per_particle
+}
+
+/// The file of a format, open for writing.
+trait Frames: Debug {
+    /// What has been written until the last flush.
+    fn extent(&self) -> Extent;
+    /// Looks whether the file under this name is still the one that was written.
+    fn check(&self) -> Result<(), OutputError>;
+    /// Adds a frame.
+    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError>;
+    /// Hands all frames to the disk.
+    fn flush(&mut self) -> Result<(), OutputError>;
 }
 
 /// What a frame needs to know beside the state.
@@ -107,11 +152,7 @@ impl TrajectoryWriter {
     /// # Errors
     /// [`OutputError::Io`] when the file cannot be created.
     pub fn create(path: &Path, format: TrajectoryFormat, model: &Model) -> Result<Self, OutputError> {
-        let file = match format {
-            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::create(path)?)),
-            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::create(path)?),
-        };
-        Ok(Self { description: Description::new(model), file })
+        Ok(Self { description: Description::new(model), file: (format_of(format).create)(path)? })
     }
 
     /// Continues the trajectory of an earlier run after what [`extent`](Self::extent) said was written of it; later frames
@@ -122,20 +163,13 @@ impl TrajectoryWriter {
     /// [`OutputError::Altered`] when its frames are not those that were written, [`OutputError::Trajectory`] when the file
     /// is no trajectory, [`OutputError::Io`] when it cannot be read or written.
     pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, written: Extent) -> Result<Self, OutputError> {
-        let file = match format {
-            TrajectoryFormat::Gsd => Format::Gsd(Box::new(gsd::GsdTrajectory::resume(path, written)?)),
-            TrajectoryFormat::ExtendedXyz => Format::ExtendedXyz(extended_xyz::ExtendedXyz::resume(path, written)?),
-        };
-        Ok(Self { description: Description::new(model), file })
+        Ok(Self { description: Description::new(model), file: (format_of(format).resume)(path, written)? })
     }
 
     /// What has been written of the trajectory: all frames until the last [`flush`](Self::flush).
     #[must_use]
     pub fn extent(&self) -> Extent {
-        match &self.file {
-            Format::Gsd(file) => file.extent(),
-            Format::ExtendedXyz(file) => file.extent(),
-        }
+        self.file.extent()
     }
 
     /// Looks whether the trajectory under this name is still the one that was written.
@@ -143,10 +177,7 @@ impl TrajectoryWriter {
     /// # Errors
     /// [`OutputError::Lost`] says what became of it.
     pub fn check(&self) -> Result<(), OutputError> {
-        match &self.file {
-            Format::Gsd(file) => file.check(),
-            Format::ExtendedXyz(file) => file.check(),
-        }
+        self.file.check()
     }
 
     /// Adds a frame.
@@ -155,10 +186,7 @@ impl TrajectoryWriter {
     /// [`OutputError::State`] when the state does not fit the model; [`OutputError::Io`] when a full buffer cannot be
     /// written.
     pub fn append(&mut self, state: &State) -> Result<(), OutputError> {
-        match &mut self.file {
-            Format::Gsd(file) => file.append(&self.description, state),
-            Format::ExtendedXyz(file) => file.append(&self.description, state),
-        }
+        self.file.append(&self.description, state)
     }
 
     /// Hands all frames to the disk: call it at the end of a batch, and before a checkpoint that counts on them.
@@ -167,10 +195,7 @@ impl TrajectoryWriter {
     /// [`OutputError::Io`] when they cannot be written; the file then ends with the frames of the last flush that
     /// worked.
     pub fn flush(&mut self) -> Result<(), OutputError> {
-        match &mut self.file {
-            Format::Gsd(file) => file.flush(),
-            Format::ExtendedXyz(file) => file.flush(),
-        }
+        self.file.flush()
     }
 }
 

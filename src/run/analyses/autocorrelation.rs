@@ -1,17 +1,48 @@
 //! Normalised autocorrelations of velocities and forces, and the curves fitted to them.
 
-use super::{Analysis, Conclusion, Setting, bytes, windows_missing};
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, windows_missing,
+};
 use crate::engine::Sample;
+use crate::families::Model;
 use crate::measure::correlation::{Coefficient, WindowedAverage};
 use crate::measure::fit::FittedDecay;
-use crate::output::files;
-use crate::plan::analyses::{autocorrelation_name, correlation_quantum};
-use crate::scene::{self, CorrelatedQuantity, DecayFit};
+use crate::numbers::with_error;
+use crate::plan::analyses::correlation_quantum;
+use crate::plot::{Chart, autocorrelation_chart};
+use crate::scene::{self, CorrelatedQuantity, DecayFit, Scene};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
+/// The autocorrelation of a quantity.
+pub(super) struct Autocorrelation(pub CorrelatedQuantity);
+
+impl Autocorrelation {
+    fn of<'a>(&self, scene: &'a Scene) -> Option<&'a scene::Autocorrelation> {
+        scene.output.autocorrelations.iter().find(|asked| asked.quantity == self.0)
+    }
+}
+
+impl Descriptor for Autocorrelation {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        let asked = self.of(scene)?;
+        Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Correlation::new(setting, self.of(setting.scene)?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let [lags, values, errors, fit] =
+            ["time", "autocorrelation", "autocorrelation_error", "fit"].map(|name| drawn.column(name));
+        let fitted = (formula(&drawn.result["fit"]), fit);
+        autocorrelation_chart(drawn.title(), self.0.name(), (&lags, &values, &errors), (&fitted.0, &fitted.1))
+    }
+}
+
 /// Means over particles of products with the beginning of the window, sample by sample.
-pub(super) struct Autocorrelation {
+struct Correlation {
     asked: scene::Autocorrelation,
     particles: f64,
     interval: f64,
@@ -19,8 +50,8 @@ pub(super) struct Autocorrelation {
     products: Vec<f64>,
 }
 
-impl Autocorrelation {
-    pub(super) fn new(setting: &Setting<'_>, asked: &scene::Autocorrelation) -> Self {
+impl Correlation {
+    fn new(setting: &Setting<'_>, asked: &scene::Autocorrelation) -> Self {
         Self {
             asked: asked.clone(),
             particles: setting.plan.particles as f64,
@@ -57,16 +88,14 @@ impl Autocorrelation {
     }
 }
 
-impl Analysis for Autocorrelation {
-    fn name(&self) -> &'static str {
-        autocorrelation_name(self.asked.quantity)
-    }
-
+impl OfSamples for Correlation {
     fn add(&mut self, sample: &Sample) {
         let sum = sample.sums.first().map_or(f64::NAN, |sum| *sum as f64);
         self.products.push(sum * self.scale / self.particles);
     }
+}
 
+impl Analysis for Correlation {
     fn section(&self) -> Vec<u8> {
         bytes(self.products.iter().copied())
     }
@@ -75,12 +104,8 @@ impl Analysis for Autocorrelation {
         samples
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         self.products = numbers.to_vec();
-    }
-
-    fn path(&self) -> String {
-        format!("output.autocorrelations ({})", self.asked.quantity.name())
     }
 
     fn conclude(&self) -> Conclusion {
@@ -104,7 +129,7 @@ impl Analysis for Autocorrelation {
             row.extend(fit.as_ref().map(|fit| fit.at(time)));
             row
         });
-        let table = Table { columns: columns.into_iter().map(str::to_owned).collect(), rows: rows.collect() };
+        let table = Table::new(columns, rows.collect());
         let result = match (missing, first) {
             (None, Some(first)) => {
                 let mean_square = Coefficient { value: first.mean, standard_error: first.standard_error };
@@ -116,10 +141,35 @@ impl Analysis for Autocorrelation {
             }
             (missing, _) => Err(missing.unwrap_or_default()),
         };
-        let file = match self.asked.quantity {
-            CorrelatedQuantity::Velocity => files::VELOCITY_AUTOCORRELATION,
-            CorrelatedQuantity::Force => files::FORCE_AUTOCORRELATION,
-        };
-        Conclusion { warnings, ..Conclusion::new(file, table, result) }
+        Conclusion { warnings, ..Conclusion::new(table, result) }
+    }
+}
+
+/// The curve that was fitted to an autocorrelation, with its parameters.
+fn formula(fit: &Value) -> String {
+    let parameter =
+        |name: &str, key: &str| found(&fit[key]).map(|(value, error)| format!("{name} = {}", with_error(value, error)));
+    let (curve, parameters) = match fit["curve"].as_str() {
+        Some("exponential") => ("a exp(−bt)", vec![("a", "a"), ("b", "b")]),
+        Some("stretched-exponential") => ("a exp(−(bt)^{c})", vec![("a", "a"), ("b", "b"), ("c", "c")]),
+        Some("damped-oscillation") => ("damped oscillation", vec![("a", "a"), ("Ω²", "frequency_squared")]),
+        _ => return "fit".to_owned(),
+    };
+    let parameters: Vec<String> = parameters.into_iter().filter_map(|(name, key)| parameter(name, key)).collect();
+    format!("fit {curve}: {}", parameters.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fits_have_their_numbers_and_errors() {
+        let fit = json!({
+            "curve": "exponential", "a": { "value": 1.0, "standard_error": null },
+            "b": { "value": 4.51234, "standard_error": 0.0312 }, "deviation": 0.1,
+        });
+        assert_eq!(formula(&fit), "fit a exp(−bt): a = 1, b = 4.512 ± 0.031");
+        assert_eq!(formula(&Value::Null), "fit");
     }
 }

@@ -1,15 +1,59 @@
 //! Sizes of chains: mean squared distance of the ends and radius of gyration.
 
-use super::{Analysis, Conclusion, Setting, bytes};
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes, mean,
+    printed_mean,
+};
 use crate::engine::Sample;
-use crate::families::ChainGroup;
+use crate::families::{ChainGroup, Model};
 use crate::measure::statistics::estimate;
-use crate::output::files;
+use crate::plot::{ChainKind, Chart, chain_sizes_chart};
+use crate::scene::Scene;
 use crate::table::Table;
 use serde_json::{Value, json};
 
+const END_TO_END: &str = "end_to_end_squared";
+const GYRATION: &str = "radius_of_gyration_squared";
+
+/// Sizes of chains.
+pub(super) struct ChainSizes;
+
+impl Descriptor for ChainSizes {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        Some(Sampling::after_equilibration(scene, scene.output.chain_sizes.as_ref()?.every))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Sizes::new(setting))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let kinds = drawn.result.as_array().map(Vec::as_slice).unwrap_or_default();
+        chain_sizes_chart(drawn.title(), drawn.table, &kinds.iter().map(chain_kind).collect::<Vec<_>>())
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let sizes = |kind: &Value| {
+            let [species, beads] = [kind["species"].as_str().unwrap_or_default(), &kind["beads"].to_string()];
+            [("end-to-end distance²", END_TO_END), ("gyration radius²", GYRATION)].map(|(label, size)| {
+                Some((format!("{label} of `{species}` ({beads} beads)"), printed_mean(&kind[size])?))
+            })
+        };
+        result.as_array().into_iter().flatten().flat_map(sizes).flatten().collect()
+    }
+}
+
+fn chain_kind(result: &Value) -> ChainKind {
+    ChainKind {
+        species: result["species"].as_str().unwrap_or_default().to_owned(),
+        beads: result["beads"].as_u64().unwrap_or_default(),
+        end_to_end: mean(&result[END_TO_END]),
+        gyration: mean(&result[GYRATION]),
+    }
+}
+
 /// Mean sizes of the chains of each group, sample by sample.
-pub(super) struct ChainSizes {
+struct Sizes {
     groups: Vec<ChainGroup>,
     /// Name of each group's species.
     names: Vec<String>,
@@ -19,8 +63,8 @@ pub(super) struct ChainSizes {
     rows: Vec<Vec<f64>>,
 }
 
-impl ChainSizes {
-    pub(super) fn new(setting: &Setting<'_>) -> Self {
+impl Sizes {
+    fn new(setting: &Setting<'_>) -> Self {
         let model = setting.model;
         Self {
             groups: model.chain_groups().to_vec(),
@@ -46,17 +90,13 @@ impl ChainSizes {
             "chains": group.chains,
             "beads": group.beads,
             // The last bead of a ring is next to its first, and their distance that of a bond.
-            "end_to_end_squared": if group.closed { Value::Null } else { column(0) },
-            "radius_of_gyration_squared": column(1),
+            END_TO_END: if group.closed { Value::Null } else { column(0) },
+            GYRATION: column(1),
         })
     }
 }
 
-impl Analysis for ChainSizes {
-    fn name(&self) -> &'static str {
-        "chain_sizes"
-    }
-
+impl OfSamples for Sizes {
     fn add(&mut self, sample: &Sample) {
         let means = sample.sums.iter().enumerate().map(|(index, sum)| {
             let chains = self.groups.get(index / 2).map_or(1, |group| group.chains.max(1));
@@ -64,7 +104,9 @@ impl Analysis for ChainSizes {
         });
         self.rows.push(std::iter::once(sample.step as f64).chain(means).collect());
     }
+}
 
+impl Analysis for Sizes {
     fn section(&self) -> Vec<u8> {
         bytes(self.rows.iter().flatten().copied())
     }
@@ -73,24 +115,21 @@ impl Analysis for ChainSizes {
         samples.saturating_mul(1 + 2 * self.groups.len() as u64)
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         self.rows = numbers.chunks_exact(1 + 2 * self.groups.len()).map(<[f64]>::to_vec).collect();
     }
 
     fn conclude(&self) -> Conclusion {
-        let columns = (0..self.groups.len()).flat_map(|number| {
-            ["end_to_end_squared", "radius_of_gyration_squared"].map(|quantity| format!("{quantity}_{number}"))
-        });
+        let columns = (0..self.groups.len())
+            .flat_map(|number| [END_TO_END, GYRATION].map(|quantity| format!("{quantity}_{number}")));
         let timed = |row: &Vec<f64>| [&[row[0] * self.time_step], &row[1..]].concat();
-        let table = Table {
-            columns: std::iter::once("time".to_owned()).chain(columns).collect(),
-            rows: self.rows.iter().map(timed).collect(),
-        };
+        let columns = std::iter::once("time".to_owned()).chain(columns);
+        let table = Table::new(columns, self.rows.iter().map(timed).collect());
         let result = if self.rows.is_empty() {
-            Err("no sample was taken after equilibration".to_owned())
+            Err(NO_SAMPLE.to_owned())
         } else {
             Ok((0..self.groups.len()).map(|number| self.result(number)).collect())
         };
-        Conclusion::new(files::CHAIN_SIZES, table, result)
+        Conclusion::new(table, result)
     }
 }

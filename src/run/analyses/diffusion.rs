@@ -1,15 +1,50 @@
 //! Mean squared displacement and velocity autocorrelation, and the diffusion coefficients they give.
 
-use super::{Analysis, Conclusion, Setting, bytes, windows_missing};
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, printed,
+    windows_missing,
+};
 use crate::engine::Sample;
+use crate::families::Model;
 use crate::measure::correlation::{WindowedAverage, diffusion_from_displacement, diffusion_from_velocity};
-use crate::output::files;
-use crate::scene;
+use crate::plot::{Chart, diffusion_chart};
+use crate::scene::{self, Scene};
 use crate::table::Table;
-use serde_json::json;
+use serde_json::{Value, json};
+
+/// Names of the coefficients in the result.
+const EINSTEIN: &str = "diffusion_einstein";
+const GREEN_KUBO: &str = "diffusion_green_kubo";
+
+/// Mean squared displacement and velocity autocorrelation.
+pub(super) struct Diffusion;
+
+impl Descriptor for Diffusion {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        let asked = scene.output.diffusion.as_ref()?;
+        Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Averages::new(setting, setting.scene.output.diffusion.as_ref()?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let [einstein, green_kubo] = [EINSTEIN, GREEN_KUBO].map(|key| found(&drawn.result[key]));
+        let dimension = drawn.scene.space.lengths.len();
+        diffusion_chart(drawn.title(), drawn.table, dimension, einstein, green_kubo)
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        [("diffusion (Einstein)", EINSTEIN), ("diffusion (Green-Kubo)", GREEN_KUBO)]
+            .into_iter()
+            .filter_map(|(label, key)| printed(label, &result[key]))
+            .collect()
+    }
+}
 
 /// Means over particles, sample by sample.
-pub(super) struct Diffusion {
+struct Averages {
     particles: f64,
     dimension: usize,
     interval: f64,
@@ -19,8 +54,8 @@ pub(super) struct Diffusion {
     velocity: Vec<f64>,
 }
 
-impl Diffusion {
-    pub(super) fn new(setting: &Setting<'_>, asked: &scene::Diffusion) -> Self {
+impl Averages {
+    fn new(setting: &Setting<'_>, asked: &scene::Diffusion) -> Self {
         let quanta = setting.plan.quanta;
         Self {
             particles: setting.plan.particles as f64,
@@ -34,18 +69,16 @@ impl Diffusion {
     }
 }
 
-impl Analysis for Diffusion {
-    fn name(&self) -> &'static str {
-        "diffusion"
-    }
-
+impl OfSamples for Averages {
     fn add(&mut self, sample: &Sample) {
         let [displacement, velocity] = &mut [&mut self.displacement, &mut self.velocity];
         for ((series, sum), scale) in [displacement, velocity].into_iter().zip(&sample.sums).zip(self.scales) {
             series.push(*sum as f64 * scale / self.particles);
         }
     }
+}
 
+impl Analysis for Averages {
     fn section(&self) -> Vec<u8> {
         bytes(self.displacement.iter().chain(&self.velocity).copied())
     }
@@ -54,7 +87,7 @@ impl Analysis for Diffusion {
         samples.saturating_mul(2)
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         let (first, second) = numbers.split_at(numbers.len() / 2);
         self.displacement = first.to_vec();
         self.velocity = second.to_vec();
@@ -75,17 +108,17 @@ impl Analysis for Diffusion {
             "velocity_autocorrelation",
             "velocity_autocorrelation_error",
         ];
-        let table = Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() };
+        let table = Table::new(columns, rows.collect());
         let result = windows_missing(&displacement, self.particles).map_or_else(
             || {
                 Ok(json!({
                     "windows": displacement.windows().len(),
-                    "diffusion_einstein": diffusion_from_displacement(&displacement, self.interval, self.dimension),
-                    "diffusion_green_kubo": diffusion_from_velocity(&velocity, self.interval, self.dimension),
+                    EINSTEIN: diffusion_from_displacement(&displacement, self.interval, self.dimension),
+                    GREEN_KUBO: diffusion_from_velocity(&velocity, self.interval, self.dimension),
                 }))
             },
             Err,
         );
-        Conclusion::new(files::DIFFUSION, table, result)
+        Conclusion::new(table, result)
     }
 }

@@ -1,24 +1,78 @@
 //! Histograms of velocities, speeds and accelerations.
 
-use super::{Analysis, Conclusion, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes};
 use crate::engine::Sample;
-use crate::measure::histogram::{Histogram, PowerMeans, gaussian_mean, maxwell_mean};
-use crate::output::files;
-use crate::plan::analyses::{
-    HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_name, histogram_range, moment_quantum,
-};
-use crate::scene::{self, CountedQuantity};
+use crate::families::Model;
+use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
+use crate::numbers::grouped;
+use crate::plan::analyses::{HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_range, moment_quantum};
+use crate::plot::{Chart, histogram_chart};
+use crate::scene::{self, CountedQuantity, Scene};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
+/// Columns of the densities to compare with.
+const MAXWELL: &str = "maxwell";
+const GAUSSIAN: &str = "gaussian";
+
+/// The histogram of a quantity.
+pub(super) struct Histogram(pub CountedQuantity);
+
+impl Histogram {
+    fn of<'a>(&self, scene: &'a Scene) -> Option<&'a scene::Histogram> {
+        scene.output.histograms.iter().find(|asked| asked.quantity == self.0)
+    }
+}
+
+impl Descriptor for Histogram {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        let asked = self.of(scene)?;
+        let detail = Some(format!("{} bins", grouped(asked.bins.into())));
+        Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Counts::new(setting, self.of(setting.scene)?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        density_chart(drawn.title(), drawn.table)
+    }
+}
+
+/// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
+fn density_chart(title: &str, table: &Table) -> Chart {
+    let name = |index: usize| table.columns.get(index).map_or("", String::as_str);
+    let centres: Vec<f64> = table.column_at(0).collect();
+    // A single bin does not tell its width, but its density does, unless nothing was counted.
+    let width = match centres.as_slice() {
+        [first, .., last] => (last - first) / (centres.len() - 1) as f64,
+        _ => 1.0 / table.column_at(1).sum::<f64>(),
+    };
+    let first = centres.first().map_or(0.0, |first| first - 0.5 * width);
+    let edges: Vec<f64> = if width.is_finite() && width > 0.0 {
+        (0..=centres.len()).map(|edge| first + edge as f64 * width).collect()
+    } else {
+        Vec::new()
+    };
+    let compared: Vec<[f64; 2]> =
+        centres.iter().zip(table.column_at(3)).map(|(centre, density)| [*centre, density]).collect();
+    let densities: Vec<f64> = table.column_at(1).collect();
+    let label = match name(3) {
+        MAXWELL => "Maxwell's density",
+        _ => "Gaussian of the same variance",
+    };
+    histogram_chart(title, name(0), &edges, &densities, (label, &compared))
+}
+
 /// Counts and sums of powers over all samples.
-pub(super) struct Counts {
+struct Counts {
     asked: scene::Histogram,
     particles: f64,
     dimension: usize,
     range: f64,
     samples: f64,
-    histogram: Histogram,
+    histogram: histogram::Histogram,
     /// Particles so far beyond the range that they are not in the powers.
     far: f64,
     /// Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over particles, x and the magnitude r in units of the range.
@@ -26,7 +80,7 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    pub(super) fn new(setting: &Setting<'_>, asked: &scene::Histogram) -> Self {
+    fn new(setting: &Setting<'_>, asked: &scene::Histogram) -> Self {
         let range = histogram_range(setting.model, asked);
         let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
         Self {
@@ -35,7 +89,7 @@ impl Counts {
             dimension: setting.model.units.dimension,
             range,
             samples: 0.0,
-            histogram: Histogram::new([low, range], asked.bins as usize),
+            histogram: histogram::Histogram::new([low, range], asked.bins as usize),
             far: 0.0,
             powers: [0.0; HISTOGRAM_MOMENTS],
         }
@@ -68,15 +122,7 @@ impl Counts {
     }
 }
 
-impl Analysis for Counts {
-    fn name(&self) -> &'static str {
-        histogram_name(self.asked.quantity)
-    }
-
-    fn path(&self) -> String {
-        format!("output.histograms ({})", self.asked.quantity.name())
-    }
-
+impl OfSamples for Counts {
     fn add(&mut self, sample: &Sample) {
         let bins = self.histogram.counts.len();
         if sample.sums.len() != bins + HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS {
@@ -94,7 +140,9 @@ impl Analysis for Counts {
         }
         self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * quantum);
     }
+}
 
+impl Analysis for Counts {
     fn section(&self) -> Vec<u8> {
         let histogram = &self.histogram;
         let single = [self.samples, histogram.below, histogram.above, self.far].into_iter();
@@ -105,13 +153,13 @@ impl Analysis for Counts {
         (4 + HISTOGRAM_MOMENTS + self.histogram.counts.len()) as u64
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         if let Some(([samples, below, above, far], rest)) = numbers.split_first_chunk()
             && let Some((powers, counts)) = rest.split_first_chunk()
         {
             (self.samples, self.far, self.powers) = (*samples, *far, *powers);
             let range = self.histogram.range;
-            self.histogram = Histogram { range, counts: counts.to_vec(), below: *below, above: *above };
+            self.histogram = histogram::Histogram { range, counts: counts.to_vec(), below: *below, above: *above };
         }
     }
 
@@ -129,9 +177,8 @@ impl Analysis for Counts {
             };
             vec![histogram.centre(bin), densities[bin], *count, compared]
         });
-        let compared = if speed { "maxwell" } else { "gaussian" };
-        let columns = [name, "density", "count", compared].map(str::to_owned).to_vec();
-        let table = Table { columns, rows: rows.collect() };
+        let compared = if speed { MAXWELL } else { GAUSSIAN };
+        let table = Table::new([name, "density", "count", compared], rows.collect());
         let total = histogram.total();
         let outside = (histogram.below + histogram.above) / total;
         let mut warnings = Vec::new();
@@ -151,7 +198,7 @@ impl Analysis for Counts {
             ));
         }
         let result = if self.samples == 0.0 {
-            Err("no sample was taken after equilibration".to_owned())
+            Err(NO_SAMPLE.to_owned())
         } else if total == 0.0 {
             Err("there are no particles".to_owned())
         } else {
@@ -174,11 +221,6 @@ impl Analysis for Counts {
             put("variance_of_square", magnitude.variance_of_square());
             Ok(Value::Object(result))
         };
-        let file = match self.asked.quantity {
-            CountedQuantity::Velocity => files::VELOCITY_HISTOGRAM,
-            CountedQuantity::Speed => files::SPEED_HISTOGRAM,
-            CountedQuantity::Acceleration => files::ACCELERATION_HISTOGRAM,
-        };
-        Conclusion { warnings, ..Conclusion::new(file, table, result) }
+        Conclusion { warnings, ..Conclusion::new(table, result) }
     }
 }

@@ -1,16 +1,47 @@
 //! The radial distribution function.
 
-use super::{Analysis, Conclusion, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes};
 use crate::engine::Sample;
-use crate::output::files;
+use crate::families::Model;
 use crate::plan::Sampler;
-use crate::scene;
+use crate::plot::{Chart, radial_distribution_chart};
+use crate::scene::{self, Scene};
 use crate::table::Table;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::f64::consts::PI;
 
+/// Columns of the table, and names in the result.
+const DISTANCE: &str = "distance";
+const VALUE: &str = "radial_distribution";
+const PEAK_DISTANCE: &str = "peak_distance";
+const PEAK_HEIGHT: &str = "peak_height";
+
+/// The radial distribution function.
+pub(super) struct RadialDistribution;
+
+impl Descriptor for RadialDistribution {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        Some(Sampling::after_equilibration(scene, scene.output.radial_distribution.as_ref()?.every))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        let asked = setting.scene.output.radial_distribution.as_ref()?;
+        Some(Gathering::Samples(Box::new(Pairs::new(setting, asked, setting.sampler?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        radial_distribution_chart(drawn.title(), &drawn.column(DISTANCE), &drawn.column(VALUE))
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let Some(height) = result[PEAK_HEIGHT].as_f64() else { return Vec::new() };
+        let distance = result[PEAK_DISTANCE].as_f64().unwrap_or(f64::NAN);
+        vec![("g(r) peak".to_owned(), format!("{height:.3} at {distance:.3}"))]
+    }
+}
+
 /// Pairs by distance, counted over all samples.
-pub(super) struct RadialDistribution {
+struct Pairs {
     particles: f64,
     volume: f64,
     dimension: usize,
@@ -19,8 +50,8 @@ pub(super) struct RadialDistribution {
     counts: Vec<f64>,
 }
 
-impl RadialDistribution {
-    pub(super) fn new(setting: &Setting<'_>, asked: &scene::RadialDistribution, sampler: &Sampler) -> Self {
+impl Pairs {
+    fn new(setting: &Setting<'_>, asked: &scene::RadialDistribution, sampler: &Sampler) -> Self {
         Self {
             particles: setting.plan.particles as f64,
             volume: setting.model.units.volume(),
@@ -32,16 +63,14 @@ impl RadialDistribution {
     }
 }
 
-impl Analysis for RadialDistribution {
-    fn name(&self) -> &'static str {
-        "radial_distribution"
-    }
-
+impl OfSamples for Pairs {
     fn add(&mut self, sample: &Sample) {
         self.samples += 1.0;
         self.counts.iter_mut().zip(&sample.sums).for_each(|(count, found)| *count += *found as f64);
     }
+}
 
+impl Analysis for Pairs {
     fn section(&self) -> Vec<u8> {
         bytes(std::iter::once(self.samples).chain(self.counts.iter().copied()))
     }
@@ -50,7 +79,7 @@ impl Analysis for RadialDistribution {
         1 + self.counts.len() as u64
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         if let Some((first, rest)) = numbers.split_first() {
             self.samples = *first;
             self.counts = rest.to_vec();
@@ -70,15 +99,12 @@ impl Analysis for RadialDistribution {
         }
         let samples = self.samples;
         let result = match peak(&rows) {
-            _ if samples == 0.0 => Err("no sample was taken after equilibration".to_owned()),
+            _ if samples == 0.0 => Err(NO_SAMPLE.to_owned()),
             _ if pairs <= 0.0 => Err("there are no pairs of particles".to_owned()),
-            Some([distance, height]) => {
-                Ok(json!({ "samples": samples, "peak_distance": distance, "peak_height": height }))
-            }
-            None => Ok(json!({ "samples": samples, "peak_distance": null, "peak_height": null })),
+            Some([distance, height]) => Ok(json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height })),
+            None => Ok(json!({ "samples": samples, PEAK_DISTANCE: null, PEAK_HEIGHT: null })),
         };
-        let columns = ["distance", "radial_distribution"].map(str::to_owned).to_vec();
-        Conclusion::new(files::RADIAL_DISTRIBUTION, Table { columns, rows }, result)
+        Conclusion::new(Table::new([DISTANCE, VALUE], rows), result)
     }
 }
 

@@ -1,17 +1,45 @@
 //! The decay of transverse momentum waves and the viscosity it gives.
 
-use super::{Analysis, Conclusion, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, printed};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::correlation::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
-use crate::output::files;
-use crate::scene;
+use crate::plot::{Chart, Found, viscosity_chart};
+use crate::scene::{self, Scene};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
+/// Names in the result.
+const SHEAR_VISCOSITY: &str = "shear_viscosity";
+const WAVES: &str = "waves";
+const OF_WAVE: &str = "viscosity";
+
+/// The decay of transverse momentum waves.
+pub(super) struct Viscosity;
+
+impl Descriptor for Viscosity {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        Some(Sampling::after_equilibration(scene, scene.output.viscosity.as_ref()?.every))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Amplitudes::new(setting, setting.scene.output.viscosity.as_ref()?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let waves = drawn.result[WAVES].as_array().map(Vec::as_slice).unwrap_or_default();
+        let waves: Vec<Found> = waves.iter().filter_map(|wave| found(&wave[OF_WAVE])).collect();
+        viscosity_chart(drawn.title(), drawn.table, &waves, found(&drawn.result[SHEAR_VISCOSITY]))
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        printed("shear viscosity", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    }
+}
+
 /// The amplitudes of all modes, sample by sample.
-pub(super) struct Viscosity {
+struct Amplitudes {
     density: f64,
     interval: f64,
     window: usize,
@@ -19,8 +47,8 @@ pub(super) struct Viscosity {
     modes: Vec<TransverseMode>,
 }
 
-impl Viscosity {
-    pub(super) fn new(setting: &Setting<'_>, asked: &scene::Viscosity) -> Self {
+impl Amplitudes {
+    fn new(setting: &Setting<'_>, asked: &scene::Viscosity) -> Self {
         let mass: f64 = setting.model.species.iter().map(|species| species.mass * species.count as f64).sum();
         Self {
             density: mass / setting.model.units.volume(),
@@ -50,11 +78,7 @@ fn autocorrelations(found: &ShearViscosity, interval: f64) -> Vec<Vec<f64>> {
     found.waves.iter().flat_map(wave).collect()
 }
 
-impl Analysis for Viscosity {
-    fn name(&self) -> &'static str {
-        "viscosity"
-    }
-
+impl OfSamples for Amplitudes {
     fn add(&mut self, sample: &Sample) {
         let sums: Vec<f64> = sample.sums.iter().map(|sum| *sum as f64 * self.unit).collect();
         for (mode, pair) in self.modes.iter_mut().zip(sums.chunks_exact(2)) {
@@ -62,7 +86,9 @@ impl Analysis for Viscosity {
             mode.amplitudes.push([pair[0], -pair[1]]);
         }
     }
+}
 
+impl Analysis for Amplitudes {
     fn section(&self) -> Vec<u8> {
         bytes(self.modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied())
     }
@@ -71,7 +97,7 @@ impl Analysis for Viscosity {
         samples.saturating_mul(2 * self.modes.len() as u64)
     }
 
-    fn restore(&mut self, numbers: &[f64]) {
+    fn restore(&mut self, numbers: &[f64], _: u64) {
         let length = numbers.len() / self.modes.len().max(1);
         for (mode, part) in self.modes.iter_mut().zip(numbers.chunks_exact(length.max(1))) {
             mode.amplitudes = part.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
@@ -81,16 +107,17 @@ impl Analysis for Viscosity {
     fn conclude(&self) -> Conclusion {
         let found = shear_viscosity(&self.modes, self.density, self.interval, self.window);
         let found = found.map_err(|error| error.to_string());
-        let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
         let rows = found.iter().flat_map(|found| autocorrelations(found, self.interval)).collect();
         let result = found.map(|found| {
-            let wave = |wave: &WaveViscosity| json!({ "wave_number": wave.wave_number, "modes": wave.modes, "viscosity": wave.viscosity });
+            let wave = |wave: &WaveViscosity| {
+                json!({ "wave_number": wave.wave_number, "modes": wave.modes, OF_WAVE: wave.viscosity })
+            };
             json!({
-                "shear_viscosity": found.viscosity,
+                SHEAR_VISCOSITY: found.viscosity,
                 "kinematic_viscosity": found.kinematic_viscosity,
-                "waves": found.waves.iter().map(wave).collect::<Vec<Value>>(),
+                WAVES: found.waves.iter().map(wave).collect::<Vec<Value>>(),
             })
         });
-        Conclusion::new(files::VISCOSITY, Table { columns, rows }, result)
+        Conclusion::new(Table::new(["wave_number", "time", "autocorrelation", "fit"], rows), result)
     }
 }

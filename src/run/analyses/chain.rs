@@ -1,18 +1,62 @@
 //! What a run of harmonic chains measures and writes.
 
-use super::sections::{Sections, bytes, samples};
-use crate::families::{ChainTrios, Likeness, Strand};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfStates, Sampling, Setting, bytes};
+use crate::families::{ChainTrios, Likeness, Model, Strand};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
-use crate::output::checkpoint::CheckpointError;
-use crate::output::{OutputError, RunDirectory, files, write_table};
+use crate::plot::{
+    Chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
+};
 use crate::scene::{Interaction, Scene};
 use crate::state::{State, Units};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
-/// Name of the section of a checkpoint, and of the results.
-pub(super) const SECTION: &str = "chain";
+/// The tables, in the order in which their names are listed.
+const TABLES: [Kind; 5] = [Kind::Profiles, Kind::Pulse, Kind::Correlation, Kind::Memory, Kind::Equilibrium];
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Profiles,
+    Pulse,
+    Correlation,
+    Memory,
+    Equilibrium,
+}
+
+/// Pulses, correlations and variances of harmonic chains.
+pub(super) struct Chain;
+
+impl Descriptor for Chain {
+    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
+        let every = scene.output.chain.as_ref().filter(|_| model.chains().is_some())?.every;
+        Some(Sampling { every, ..Sampling::default() })
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        let (asked, model) = (setting.scene.output.chain.as_ref()?, setting.model);
+        let chains = Chains::new(model.chains()?.clone(), model.units, model.time_step, asked.every);
+        Some(Gathering::States(Box::new(chains)))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let kind = TABLES[drawn.place.min(TABLES.len() - 1)];
+        let chart = match kind {
+            Kind::Profiles => chain_profile_chart,
+            Kind::Pulse => chain_pulse_chart,
+            Kind::Correlation => chain_correlation_chart,
+            Kind::Memory => chain_memory_chart,
+            Kind::Equilibrium => chain_equilibrium_chart,
+        };
+        chart(drawn.title(), &subtitle(kind, drawn.scene), drawn.table)
+    }
+
+    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
+        let (Some(asked), Some(trios)) = (&scene.output.chain, model.chains()) else { return 0 };
+        let samples = scene.time.steps.checked_div(asked.every).map_or(0, |times| times.saturating_add(1));
+        numbers_kept(trios, samples).saturating_mul(8)
+    }
+}
 
 /// Columns of each chain begin with these, in the order of [`Likeness::ALL`].
 const NAMES: [&str; 3] = ["micro", "dpd", "frictionless"];
@@ -38,7 +82,7 @@ struct PulseSample {
 
 /// Gathers samples of all chains.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Chains {
+struct Chains {
     trios: ChainTrios,
     units: Units,
     time_step: f64,
@@ -49,96 +93,14 @@ pub(super) struct Chains {
 
 impl Chains {
     /// Begins, with a sample every so many steps.
-    pub(super) fn new(trios: ChainTrios, units: Units, time_step: f64, every: u64) -> Self {
+    fn new(trios: ChainTrios, units: Units, time_step: f64, every: u64) -> Self {
         let thermal = std::array::from_fn(|_| ThermalSeries::new(trios.thermal.clusters));
         Self { trios, units, time_step, every, pulses: Vec::new(), thermal }
-    }
-
-    /// Adds the particles of a step, with full-step momenta. A step that was added already, before a run went back, is
-    /// left out.
-    pub(super) fn add(&mut self, state: &State) {
-        let step = state.step as f64;
-        if self.pulses.last().is_some_and(|last| last.step >= step) {
-            return;
-        }
-        let [pulse, thermal] = self.trios.strands();
-        let clusters = |number: usize, strand: &Strand| {
-            let (displacements, momenta) = strand.motion(state, &self.units);
-            match Likeness::ALL[number] {
-                Likeness::Micro => self.trios.pulse.coarse_grained(&displacements, &momenta),
-                _ => (displacements, momenta),
-            }
-        };
-        let resolved = self.trios.pulse.frictionless();
-        let samples = [0, 1, 2].map(|number| clusters(number, &pulse[number]));
-        let energies = [0, 1, 2].map(|number| resolved.energy(&samples[number].0, &samples[number].1));
-        let equilibrium = [0, 1, 2].map(|number| clusters(number, &thermal[number]));
-        self.pulses.push(PulseSample { step, displacements: samples.map(|sample| sample.0), energies });
-        for (series, (displacements, momenta)) in self.thermal.iter_mut().zip(&equilibrium) {
-            series.push(displacements, momenta);
-        }
-    }
-
-    /// What a checkpoint has to keep.
-    pub(super) fn section(&self) -> Vec<u8> {
-        let pulse = |sample: &PulseSample| {
-            let mut numbers = vec![sample.step];
-            numbers.extend(sample.energies);
-            numbers.extend(sample.displacements.iter().flatten());
-            numbers
-        };
-        let mut numbers = vec![self.pulses.len() as f64];
-        numbers.extend(self.pulses.iter().flat_map(pulse));
-        for series in &self.thermal {
-            numbers.extend(series.numbers());
-        }
-        bytes(numbers.into_iter())
-    }
-
-    /// Goes on from what a checkpoint kept.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Malformed`] where it is not as much as was sampled before the step.
-    pub(super) fn restore(&mut self, sections: &Sections<'_>) -> Result<(), CheckpointError> {
-        let taken = samples(self.every, 0, sections.step);
-        let clusters = self.trios.pulse.clusters;
-        let width = pulse_width(&self.trios);
-        let Some(numbers) = sections.numbers(SECTION, numbers_kept(&self.trios, taken))? else { return Ok(()) };
-        let (pulses, rest) = numbers[1..].split_at(width * taken as usize);
-        let sample = |words: &[f64]| PulseSample {
-            step: words[0],
-            energies: [words[1], words[2], words[3]],
-            displacements: [0, 1, 2].map(|number| words[4 + number * clusters..4 + (number + 1) * clusters].to_vec()),
-        };
-        self.pulses = pulses.chunks_exact(width).map(sample).collect();
-        let mut parts = rest.chunks_exact(rest.len().div_ceil(3).max(1));
-        for series in &mut self.thermal {
-            *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
-        }
-        Ok(())
     }
 
     /// τ = ω₀t/n of a step.
     fn reduced_time(&self, step: f64) -> f64 {
         step * self.time_step / self.trios.pulse.cluster_time()
-    }
-
-    /// Writes all tables and returns the results for the summary.
-    pub(super) fn conclude(&self, directory: &RunDirectory) -> Result<Value, OutputError> {
-        let kernels = self.kernels();
-        let pulse = self.pulse();
-        let correlation = self.correlation();
-        let tables = [
-            (files::CHAIN_PROFILES, self.profiles()),
-            (files::CHAIN_PULSE, pulse.clone()),
-            (files::CHAIN_CORRELATION, correlation),
-            (files::CHAIN_MEMORY, memory(&kernels)),
-            (files::CHAIN_EQUILIBRIUM, self.equilibrium()),
-        ];
-        for (name, table) in &tables {
-            write_table(&directory.file(name), table)?;
-        }
-        Ok(self.results(&pulse, &kernels))
     }
 
     /// Displacements of clusters at a few times, in units of the height of the pulse.
@@ -155,7 +117,7 @@ impl Chains {
             }
         }
         let names = ["tau", "cluster"].into_iter().chain(NAMES);
-        Table { columns: names.map(str::to_owned).collect(), rows }
+        Table::new(names, rows)
     }
 
     /// Peak, variance and energy of the pulses, the mean of both halves, with what is exact at the same times.
@@ -191,7 +153,7 @@ impl Chains {
         let every = self.pulses.len().div_ceil(LARGEST_PULSE_TABLE).max(1);
         let last = self.pulses.len().saturating_sub(1);
         let shown = self.pulses.iter().enumerate().filter(|(index, _)| index.is_multiple_of(every) || *index == last);
-        Table { columns, rows: shown.map(|(_, sample)| row(sample)).collect() }
+        Table::new(columns, shown.map(|(_, sample)| row(sample)).collect())
     }
 
     /// ⟨P(0)P(t)⟩/nmkT of each chain, with what is exact, and the limit max(0, 1 - τ) of large clusters of beads.
@@ -241,7 +203,7 @@ impl Chains {
             }
             row
         };
-        Table { columns, rows: self.pulses.iter().enumerate().map(row).collect() }
+        Table::new(columns, self.pulses.iter().enumerate().map(row).collect())
     }
 
     /// nmkT and nkT/κ.
@@ -299,6 +261,82 @@ impl Chains {
     }
 }
 
+impl OfStates for Chains {
+    fn add(&mut self, state: &State, _: &Model) {
+        let step = state.step as f64;
+        if self.pulses.last().is_some_and(|last| last.step >= step) {
+            return;
+        }
+        let [pulse, thermal] = self.trios.strands();
+        let clusters = |number: usize, strand: &Strand| {
+            let (displacements, momenta) = strand.motion(state, &self.units);
+            match Likeness::ALL[number] {
+                Likeness::Micro => self.trios.pulse.coarse_grained(&displacements, &momenta),
+                _ => (displacements, momenta),
+            }
+        };
+        let resolved = self.trios.pulse.frictionless();
+        let samples = [0, 1, 2].map(|number| clusters(number, &pulse[number]));
+        let energies = [0, 1, 2].map(|number| resolved.energy(&samples[number].0, &samples[number].1));
+        let equilibrium = [0, 1, 2].map(|number| clusters(number, &thermal[number]));
+        self.pulses.push(PulseSample { step, displacements: samples.map(|sample| sample.0), energies });
+        for (series, (displacements, momenta)) in self.thermal.iter_mut().zip(&equilibrium) {
+            series.push(displacements, momenta);
+        }
+    }
+}
+
+impl Analysis for Chains {
+    fn section(&self) -> Vec<u8> {
+        let pulse = |sample: &PulseSample| {
+            let mut numbers = vec![sample.step];
+            numbers.extend(sample.energies);
+            numbers.extend(sample.displacements.iter().flatten());
+            numbers
+        };
+        let mut numbers = vec![self.pulses.len() as f64];
+        numbers.extend(self.pulses.iter().flat_map(pulse));
+        for series in &self.thermal {
+            numbers.extend(series.numbers());
+        }
+        bytes(numbers.into_iter())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        numbers_kept(&self.trios, samples)
+    }
+
+    fn restore(&mut self, numbers: &[f64], samples: u64) {
+        let clusters = self.trios.pulse.clusters;
+        let width = pulse_width(&self.trios);
+        let (pulses, rest) = numbers[1..].split_at(width * samples as usize);
+        let sample = |words: &[f64]| PulseSample {
+            step: words[0],
+            energies: [words[1], words[2], words[3]],
+            displacements: [0, 1, 2].map(|number| words[4 + number * clusters..4 + (number + 1) * clusters].to_vec()),
+        };
+        self.pulses = pulses.chunks_exact(width).map(sample).collect();
+        let mut parts = rest.chunks_exact(rest.len().div_ceil(3).max(1));
+        for series in &mut self.thermal {
+            *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
+        }
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let kernels = self.kernels();
+        let pulse = self.pulse();
+        let result = self.results(&pulse, &kernels);
+        let table = |kind: Kind| match kind {
+            Kind::Profiles => self.profiles(),
+            Kind::Pulse => pulse.clone(),
+            Kind::Correlation => self.correlation(),
+            Kind::Memory => memory(&kernels),
+            Kind::Equilibrium => self.equilibrium(),
+        };
+        Conclusion { tables: TABLES.map(table).to_vec(), result: Ok(result), warnings: Vec::new() }
+    }
+}
+
 /// The table of a pulse has about this many rows at most.
 const LARGEST_PULSE_TABLE: usize = 80;
 
@@ -339,7 +377,7 @@ fn pulse_width(trios: &ChainTrios) -> usize {
 }
 
 /// Numbers that a checkpoint keeps after so many samples.
-pub(super) fn numbers_kept(trios: &ChainTrios, samples: u64) -> u64 {
+fn numbers_kept(trios: &ChainTrios, samples: u64) -> u64 {
     let series = ThermalSeries::numbers_after(trios.thermal.clusters, samples);
     (pulse_width(trios) as u64).saturating_mul(samples).saturating_add(1).saturating_add(series.saturating_mul(3))
 }
@@ -366,11 +404,11 @@ fn memory(kernels: &[MemoryKernel]) -> Table {
         }
         row
     };
-    Table { columns, rows: times.map(row).collect() }
+    Table::new(columns, times.map(row).collect())
 }
 
 /// The conditions under which the numbers of a table were found, for its plot.
-pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
+fn subtitle(table: Kind, scene: &Scene) -> String {
     let Some(chain) = scene.interactions.iter().find_map(|interaction| match interaction {
         Interaction::HarmonicChain(chain) => Some(chain),
         _ => None,
@@ -379,14 +417,16 @@ pub(super) fn subtitle(table: &str, scene: &Scene) -> String {
     };
     let [size, friction, temperature] = [f64::from(chain.cluster_size), chain.friction, scene.temperature];
     match table {
-        files::CHAIN_PROFILES | files::CHAIN_PULSE => format!(
+        Kind::Profiles | Kind::Pulse => format!(
             "{} clusters of {size} beads, Gaussian pulse of width {} clusters at rest, kT = 0, γ* = {friction}",
             chain.pulse.clusters, chain.pulse.width
         ),
-        files::CHAIN_MEMORY => {
+        Kind::Memory => {
             "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
                 .to_owned()
         }
-        _ => format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
+        Kind::Correlation | Kind::Equilibrium => {
+            format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters)
+        }
     }
 }

@@ -1,0 +1,245 @@
+//! The decay of a shear wave of Voronoi cells.
+
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfStates, Sampling, Setting, bytes, found, printed};
+use crate::families::{Model, NETWORK_VISCOSITY};
+use crate::measure::shear_wave::WaveDecay;
+use crate::numbers::with_error;
+use crate::plot::{Chart, shear_wave_chart};
+use crate::scene::{Scene, shear_waves};
+use crate::state::State;
+use crate::table::Table;
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+
+/// Names in the result.
+const DECAY_RATE: &str = "decay_rate";
+const KINEMATIC_VISCOSITY: &str = "kinematic_viscosity";
+const SHEAR_VISCOSITY: &str = "shear_viscosity";
+
+/// The decay of a shear wave.
+pub(super) struct ShearWave;
+
+impl Descriptor for ShearWave {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        Some(Sampling::after_equilibration(scene, scene.output.shear_wave.as_ref()?.every))
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        let (_, _, periods) = shear_waves(setting.scene).next()?;
+        Some(Gathering::States(Box::new(Decay::new(setting.model, periods))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let text = |key: &str| found(&drawn.result[key]).map(|(value, error)| with_error(value, error));
+        let viscosity = text(KINEMATIC_VISCOSITY).map(|text| format!("; kinematic viscosity {text}"));
+        let subtitle =
+            format!("velocity along x, projected on the wave that it started with{}", viscosity.unwrap_or_default());
+        let fit = text(DECAY_RATE).map(|text| format!("exponential decay, rate {text}"));
+        shear_wave_chart(drawn.title(), &subtitle, fit.as_deref().unwrap_or("exponential decay"), drawn.table)
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        printed("shear viscosity (wave)", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    }
+}
+
+/// Amplitudes of the wave, sample by sample.
+#[derive(Debug, Clone, PartialEq)]
+struct Decay {
+    periods: f64,
+    wave_number: f64,
+    density: f64,
+    time_step: f64,
+    /// Viscosity of the friction at faces.
+    viscosity: Option<f64>,
+    /// Steps and amplitudes.
+    samples: Vec<[f64; 2]>,
+}
+
+impl OfStates for Decay {
+    fn add(&mut self, state: &State, model: &Model) {
+        if self.samples.last().is_none_or(|[last, _]| *last < state.step as f64) {
+            self.samples.push([state.step as f64, amplitude(state, model, self.periods)]);
+        }
+    }
+}
+
+impl Analysis for Decay {
+    fn section(&self) -> Vec<u8> {
+        bytes(self.samples.as_flattened().iter().copied())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(2)
+    }
+
+    fn restore(&mut self, numbers: &[f64], _: u64) {
+        self.samples = numbers.as_chunks().0.to_vec();
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let decay = self.decay();
+        let result = decay.as_ref().map(|decay| self.result(decay));
+        let missing = || "its samples are too few, or the wave does not decay".to_owned();
+        Conclusion::new(self.table(decay.as_ref()), result.ok_or_else(missing))
+    }
+}
+
+/// The amplitude of the wave of the velocity along x, 2 Σ P sin(2πny/L) / ΣM.
+fn amplitude(state: &State, model: &Model, periods: f64) -> f64 {
+    let each = state.momenta.iter().zip(&state.positions).map(|(momentum, position)| {
+        let turns = f64::from(position[1]) / 4_294_967_296.0 * periods;
+        f64::from(momentum[0]) * (TAU * turns).sin()
+    });
+    2.0 * each.sum::<f64>() * model.units.momentum / mass(model)
+}
+
+fn mass(model: &Model) -> f64 {
+    model.species.iter().map(|species| species.mass * species.count as f64).sum()
+}
+
+impl Decay {
+    fn new(model: &Model, periods: u32) -> Self {
+        Self {
+            periods: f64::from(periods),
+            wave_number: TAU * f64::from(periods) / model.units.lengths[1],
+            density: mass(model) / model.units.volume(),
+            time_step: model.time_step,
+            viscosity: model.voronoi().map(|cells| cells.viscosity),
+            samples: Vec::new(),
+        }
+    }
+
+    /// Unit of time of a sample, and of the first.
+    fn times(&self) -> [f64; 2] {
+        match self.samples[..] {
+            [[first, _], [second, _], ..] => [second - first, first],
+            _ => [f64::NAN; 2],
+        }
+        .map(|steps| steps * self.time_step)
+    }
+
+    fn decay(&self) -> Option<WaveDecay> {
+        let amplitudes: Vec<f64> = self.samples.iter().map(|[_, amplitude]| *amplitude).collect();
+        WaveDecay::of(&amplitudes, self.times()[0])
+    }
+
+    /// Viscosities from the rate νk² of the decay, beside that of the network of cells alone.
+    fn result(&self, decay: &WaveDecay) -> Value {
+        let (wave_number, density) = (self.wave_number, self.density);
+        let scaled = |factor: f64| {
+            let error = decay.rate.standard_error.map(|error| error * factor);
+            json!({ "value": decay.rate.value * factor, "standard_error": error })
+        };
+        let mut result = json!({
+            "samples": self.samples.len(),
+            "wave_number": wave_number,
+            "initial_amplitude": decay.amplitude,
+            DECAY_RATE: scaled(1.0),
+            KINEMATIC_VISCOSITY: scaled(wave_number.powi(-2)),
+            SHEAR_VISCOSITY: scaled(density * wave_number.powi(-2)),
+        });
+        if let Some(viscosity) = self.viscosity {
+            result["viscosity_of_friction"] = json!(viscosity);
+            result["viscosity_of_the_network"] = json!(NETWORK_VISCOSITY * viscosity);
+        }
+        result
+    }
+
+    fn table(&self, decay: Option<&WaveDecay>) -> Table {
+        let [_, first] = self.times();
+        let row = |[step, amplitude]: &[f64; 2]| {
+            let time = step * self.time_step;
+            vec![time, *amplitude, decay.map_or(f64::NAN, |decay| decay.at(time - first))]
+        };
+        Table::new(["time", "amplitude", "fit"], self.samples.iter().map(row).collect())
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::Analyses;
+    use super::super::Sections;
+    use super::*;
+    use crate::families::initial_state;
+    use crate::plan::{Hardware, Options, plan};
+    use std::path::Path;
+
+    pub(in super::super) fn scene() -> Scene {
+        let text = r#"{"title": "t", "space": {"box": [20, 10]}, "time": {"step": 0.5, "steps": 100}, "temperature": 1e-9,
+            "particles": [{"species": "A", "count": 200, "mass": 3, "placement": {"type": "lattice", "jitter": 0.4},
+                "velocities": {"type": "shear-wave", "amplitude": 0.25, "periods": 2}}],
+            "interactions": [{"type": "voronoi"}],
+            "output": {"neighbours": {"every": 10}, "shear_wave": {"every": 5}}}"#;
+        crate::scene::parse("t", text, &[]).unwrap()
+    }
+
+    #[test]
+    fn states_survive_a_checkpoint_and_come_once() {
+        let scene = scene();
+        let model = Model::new(&scene);
+        let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+        let mut state = initial_state(&scene, &model);
+        let at = |step: u64, sections: &[(String, Vec<u8>)]| {
+            Analyses::new(&scene, &model, &plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
+        };
+        let mut analyses = at(0, &[]).unwrap();
+        assert_eq!(analyses.state_intervals(), [10, 5]);
+        for step in [0, 5, 7, 10, 10, 5] {
+            state.step = step;
+            analyses.add_state(&state, &model);
+        }
+        let sections = analyses.sections_of_states();
+        assert_eq!(sections[1].1.len(), 3 * 16);
+        assert_eq!(at(11, &sections).unwrap().sections_of_states(), sections);
+        assert_ne!(at(0, &[]).unwrap().sections_of_states(), sections);
+        for step in [10, 16] {
+            let refused = at(step, &sections).err().unwrap().to_string();
+            assert!(refused.contains("is no valid checkpoint"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn states_are_taken_after_equilibration() {
+        let mut scene = scene();
+        scene.time.equilibration = 40;
+        let model = Model::new(&scene);
+        let plan = plan(&model, 40, &scene.output, Hardware::default(), Options::default());
+        let sections = Sections::new(Path::new("checkpoint.bin"), 0, &[]);
+        let analyses = Analyses::new(&scene, &model, &plan, &sections).unwrap();
+        let due: Vec<u64> = (0..=60).filter(|step| analyses.take_state(*step)).collect();
+        assert_eq!(due, [40, 45, 50, 55, 60]);
+    }
+
+    #[test]
+    fn the_amplitude_is_that_of_the_start() {
+        let scene = scene();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        // On a lattice the squares of sines add up to a half, which jitter changes to 0.4 √(1/8N) · 2 or so.
+        let found = amplitude(&state, &model, 2.0);
+        assert!((found - 0.25).abs() < 0.03, "{found}");
+        assert!(amplitude(&state, &model, 1.0).abs() < 0.03);
+    }
+
+    #[test]
+    fn viscosity_follows_from_the_rate() {
+        let scene = scene();
+        let model = Model::new(&scene);
+        let samples = (0..60).map(|sample| {
+            let step = 5.0 * f64::from(sample);
+            [step, 0.25 * (-0.01 * step * 0.5).exp()]
+        });
+        let wave = Decay { samples: samples.collect(), ..Decay::new(&model, 2) };
+        let decay = wave.decay().unwrap();
+        let result = wave.result(&decay);
+        // k = 2π · 2/10, density 3: η = 0.01 · 3/k².
+        let viscosity = result["shear_viscosity"]["value"].as_f64().unwrap();
+        assert!((viscosity - 0.03 / (0.4 * std::f64::consts::PI).powi(2)).abs() < 1e-9, "{viscosity}");
+        assert_eq!(result["viscosity_of_the_network"], json!(NETWORK_VISCOSITY));
+        let table = wave.table(Some(&decay));
+        assert!(table.rows.iter().all(|row| (row[1] - row[2]).abs() < 1e-9), "{table:?}");
+        assert_eq!(table.rows[1][0], 2.5);
+    }
+}
