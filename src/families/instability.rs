@@ -41,35 +41,12 @@ impl Instability {
             }),
         ];
         let words = all.iter().find(|(kind, _)| failure.is(*kind)).map(|(_, words)| words());
-        let quantity = words.unwrap_or_else(|| momentum(plan, model));
+        let quantity = words.unwrap_or_else(|| model.physics().momentum_out_of_range(plan));
         // Where masses lie at the start is no matter of the step.
         let from_the_start = (failure.is(FailureKind::Crowding) || failure.is(FailureKind::Depth)) && failure.step == 0;
         let suggested_step = (!from_the_start).then(|| round_down(plan.suggested_step));
         Self { step: failure.step, quantity, suggested_step }
     }
-}
-
-/// Units of the largest velocity of shallow water, with one bit to spare.
-const VELOCITY_RANGE: f64 = 1_073_741_824.0;
-
-/// What a momentum out of its range is.
-fn momentum(plan: &Plan, model: &Model) -> String {
-    if model.shallow_water().is_some() {
-        let limit = plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
-        let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
-        let reason = if limit < VELOCITY_RANGE {
-            "which may go half round the box in one step"
-        } else {
-            "more than twice the largest expected in this scene"
-        };
-        return format!("a velocity is above {}, {reason}", crate::scene::brief(limit * plan.units.momentum));
-    }
-    if model.voronoi().is_some() {
-        return "a momentum is more than 1024 times its natural scale".to_owned();
-    }
-    "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much closer together \
-     than their temperature lets them come"
-        .to_owned()
 }
 
 /// A node of the mesh, in words.

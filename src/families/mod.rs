@@ -5,6 +5,8 @@
 
 mod bath;
 mod checks;
+pub(crate) mod column;
+pub(crate) mod conservation;
 mod instability;
 mod model;
 mod observables;
@@ -20,6 +22,8 @@ mod warnings;
 pub use bath::BathStep;
 pub(crate) use checks::check;
 pub use checks::check_start;
+pub use column::Column;
+pub use conservation::{KeptQuantity, KeptSum};
 pub use instability::Instability;
 pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables};
@@ -36,19 +40,102 @@ pub use start::initial_state;
 pub use voronoi::model::{NETWORK_VISCOSITY, Voronoi};
 pub use warnings::warnings;
 
-use crate::scene::Scene;
+use crate::plan::Plan;
+use crate::scene::{ParticleGroup, Problems, Scene, Warning};
+use crate::state::State;
+use std::ops::Range;
 
 /// What the program asks of the physics of a family.
-pub trait Physics {
+pub(crate) trait Physics {
     /// Value of one unit of integer momentum; a power of two.
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64;
+
+    /// Value of one unit of integer mass, where particles have masses of their own.
+    fn mass_unit(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether momenta are per unit of mass.
+    fn has_specific_momenta(&self) -> bool {
+        false
+    }
+
+    /// Whether masses change.
+    fn changes_masses(&self) -> bool {
+        false
+    }
 
     /// Whether any force derives from a potential.
     fn has_potential(&self) -> bool;
 
     /// Whether any bath has a memory.
-    fn has_memory(&self) -> bool;
+    fn has_memory(&self) -> bool {
+        false
+    }
 
     /// Whether nothing but a random force couples particles that can move to what is fixed in space.
     fn is_free(&self) -> bool;
+
+    /// Whether means of a run are those of an equilibrium at the temperature of the scene, as far as its length allows.
+    fn reaches_equilibrium(&self) -> bool {
+        false
+    }
+
+    /// Warnings about a scene without mistakes.
+    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;
+
+    /// Gives the particles of a group momenta, and masses where they have their own. The state has their places.
+    fn set_in_motion(&self, state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
+        start::set_in_motion(state, group, ids, model);
+    }
+
+    /// Completes a state at step 0 whose particles are placed and move; `thermal` are those of thermal velocities.
+    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]);
+
+    /// Whether some starts are refused.
+    fn may_refuse_starts(&self) -> bool {
+        false
+    }
+
+    /// Refuses a start that integers or forces cannot hold.
+    fn check_start(&self, _: &Scene, _: &Model, _: &State, _: &mut Problems) {}
+
+    /// Refuses a time step that is certainly unstable.
+    fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
+
+    /// The observables of a step from the sums of its report, those of the first sampler of a plan.
+    fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables;
+
+    /// The columns of the table of energies after `step`; those without meaning for the model are left out.
+    fn columns(&self, model: &Model) -> Vec<Column>;
+
+    /// The integer sums that never change, with what they are in a state.
+    fn kept(&self, model: &Model, state: &State) -> Vec<KeptSum>;
+
+    /// What is conserved because nothing changes it.
+    fn never_changes(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// What is conserved to rounding.
+    fn kept_to_rounding(&self, _: &Model) -> Option<&'static str> {
+        None
+    }
+
+    /// What becomes of the total energy, where that is not kept.
+    fn fate_of_energy(&self, model: &Model) -> String;
+
+    /// What changes the total momentum, if anything.
+    fn fate_of_momentum(&self, _: &Model) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// What a momentum out of its range is, in words.
+    fn momentum_out_of_range(&self, plan: &Plan) -> String;
+
+    /// What crowds where arrays of the plan are too small.
+    fn crowd(&self) -> &'static str;
+
+    /// The float64 reference from a state; none for a state without what the model needs.
+    fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn reference::Stepper>>;
 }

@@ -1,10 +1,10 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, PositionBath, ShallowWater,
-    Voronoi,
+    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PositionBath,
+    ShallowWater, Voronoi,
 };
-use crate::scene::{Distribution, Generator, Integrator, Scene};
+use crate::scene::{Distribution, Generator, Integrator, Scene, Warning};
 use crate::state::Units;
 
 /// A species of particles.
@@ -106,13 +106,13 @@ impl Model {
     /// Whether any force derives from a potential.
     #[must_use]
     pub fn has_potential(&self) -> bool {
-        self.family.physics().has_potential()
+        self.physics().has_potential()
     }
 
     /// Whether any bath has a memory.
     #[must_use]
     pub fn has_memory(&self) -> bool {
-        self.family.physics().has_memory()
+        self.physics().has_memory()
     }
 
     /// Whether some particles are held where they start.
@@ -145,13 +145,25 @@ impl Model {
     /// nothing but a random force.
     #[must_use]
     pub fn measures_about_centre_of_mass(&self) -> bool {
-        self.family.physics().is_free() && !self.has_fixed_particles()
+        self.physics().is_free() && !self.has_fixed_particles()
     }
 
     /// Number of particles.
     #[must_use]
     pub fn particle_count(&self) -> u64 {
         self.species.iter().fold(0, |sum, species| sum.saturating_add(species.count))
+    }
+
+    /// The physics of its family.
+    #[must_use]
+    pub(crate) fn physics(&self) -> &dyn Physics {
+        self.family.physics()
+    }
+
+    /// Warnings about its scene.
+    #[must_use]
+    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
+        self.physics().warnings(scene, self)
     }
 
     /// What belongs to particles, in a model of them.

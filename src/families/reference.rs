@@ -10,9 +10,39 @@
 //! and the drift of the same step follow. At step 0 the momenta given are those of the report point, and nothing is
 //! closed.
 
+use crate::state::State;
+
 pub use super::particles::reference::{CouplingsReference, Reference, Relaxation};
 pub use super::shallow_water::reference::ShallowWaterReference;
 pub use super::voronoi::reference::VoronoiReference;
+
+/// The reference of any family.
+pub trait Stepper {
+    /// The state between steps, as the GPU keeps it.
+    fn state(&self) -> &State;
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// [`Unstable`] when a number does not fit the integer state, which is then left as it was.
+    fn step(&mut self) -> Result<(), Unstable>;
+}
+
+macro_rules! stepper {
+    ($($reference:ident),*) => {
+        $(impl Stepper for $reference {
+            fn state(&self) -> &State {
+                self.state()
+            }
+
+            fn step(&mut self) -> Result<(), Unstable> {
+                self.step()
+            }
+        })*
+    };
+}
+
+stepper!(CouplingsReference, Reference, ShallowWaterReference, VoronoiReference);
 
 /// A step that the integer state cannot hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

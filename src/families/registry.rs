@@ -29,7 +29,7 @@ impl Family {
 
     /// Its physics.
     #[must_use]
-    pub fn physics(&self) -> &dyn Physics {
+    pub(crate) fn physics(&self) -> &dyn Physics {
         match self {
             Self::Particles(particles) => particles.as_ref(),
             Self::ShallowWater(water) => water,

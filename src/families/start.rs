@@ -1,11 +1,11 @@
 //! Where the particles of a scene start, and how fast.
 
 use super::particles::chains;
-use super::voronoi::start as voronoi_start;
-use crate::families::{Model, ShallowWater};
+use crate::families::Model;
 use crate::noise::{self, stream};
 use crate::scene::{Generator, ParticleGroup, Placement, Scene, Velocities};
 use crate::state::{State, crossings};
+use std::ops::Range;
 
 /// The state at step 0 of a scene: particles numbered group by group, each group in its own order.
 ///
@@ -15,7 +15,7 @@ use crate::state::{State, crossings};
 ///
 /// ```
 /// use mesoscope::families::Model;
-/// use mesoscope::scene::{self, placement::initial_state};
+/// use mesoscope::{families::initial_state, scene};
 ///
 /// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
@@ -35,38 +35,15 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         let count = group.resolved_count(scene.space.volume()) as usize;
         place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
-        if let Some(water) = model.shallow_water() {
-            fill(&mut state, group, first, model, water);
-        }
-        set_in_motion(&mut state, group, count, model);
+        let ids = first..first + count;
+        model.physics().set_in_motion(&mut state, group, ids, model);
         let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
         state.species.resize(first + count, species as u32);
         if group.velocities == Velocities::Thermal && !group.fixed {
             thermal.extend(first..first + count);
         }
     }
-    if let Some(chains) = model.chains() {
-        chains.fill(&mut state, &model.units, model.seed);
-    } else if let Some(water) = model.shallow_water() {
-        set_mean_depth(&mut state.masses[..water.carriers as usize], water);
-        draw_thermal_velocities(&mut state, &thermal, model, water);
-        draw_bath(&mut state, model, water);
-    } else if let Some(cells) = model.voronoi() {
-        voronoi_start::fill(&mut state, scene, model, cells);
-    } else {
-        if model.conserves_momentum() {
-            let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
-            bring_to_rest(&mut state, &thermal, model.units.dimension, |id| masses[id]);
-        }
-        draw_position_baths(&mut state, model);
-        draw_bond_baths(&mut state, model);
-        if let Some(noise) = model.coloured_noise() {
-            state.holds = noise.first_holds(model, state.len());
-        }
-        if model.tether().is_some() {
-            state.tethers.clone_from(&state.positions);
-        }
-    }
+    model.physics().complete_start(&mut state, scene, model, &thermal);
     if scene.output.trajectory.is_some() {
         state.images = images(&state, model);
     }
@@ -100,92 +77,6 @@ fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
         }
     }
     images
-}
-
-/// Draws the bath variables of all coordinates from their law at rest.
-fn draw_position_baths(state: &mut State, model: &Model) {
-    let Some(bath) = model.position_bath().filter(|bath| bath.memory) else { return };
-    let key = noise::step_key(model.seed, stream::PARTICLE, 0);
-    let draw = |id: usize, axis: usize| {
-        let width = bath.steps[state.species[id] as usize].deviation(bath.temperature);
-        let words = noise::words(model.generator, key, [id as u32, axis as u32]);
-        if axis < model.units.dimension { (width * noise::gaussian(words)) as f32 } else { 0.0 }
-    };
-    let all = (0..state.len()).map(|id| std::array::from_fn(|axis| draw(id, axis).to_bits()));
-    state.position_baths = all.collect();
-}
-
-/// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
-fn draw_bond_baths(state: &mut State, model: &Model) {
-    let Some(bonds) = model.bonds().filter(|bonds| bonds.have_memory()) else { return };
-    let key = noise::step_key(model.seed, stream::BOND, 0);
-    let all = bonds.iter().enumerate().map(|(index, bond)| {
-        let kind = &bonds.kinds[bond.kind as usize];
-        let width =
-            kind.bath.filter(crate::families::BathStep::remembers).map_or(0.0, |step| step.deviation(kind.temperature));
-        let words = noise::words(model.generator, key, [index as u32, 1]);
-        ((width * noise::gaussian(words)) as f32).to_bits()
-    });
-    state.bond_baths = all.collect();
-}
-
-/// Gives the particles of a group masses in proportion to the depth where they are; tracers have none.
-fn fill(state: &mut State, group: &ParticleGroup, first: usize, model: &Model, water: &ShallowWater) {
-    let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
-    let mean = water.nodes() as f64 / water.carriers.max(1) as f64 / water.mass_unit;
-    let masses = state.positions[first..].iter().map(|position| {
-        if group.tracer {
-            return 0;
-        }
-        let [x, y, _] = model.units.position(*position);
-        let depth = surface.unsmoothed([x, y], water.smoothing.length, water.smoothing.power);
-        (mean * depth).round_ties_even() as u32
-    });
-    state.masses.extend(masses);
-}
-
-/// Scales the masses so that they add up to 1 a node, to the last unit.
-fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
-    let wanted = water.total_mass();
-    let sum: u64 = masses.iter().map(|mass| u64::from(*mass)).sum();
-    if sum == 0 {
-        return;
-    }
-    let scale = wanted as f64 / sum as f64;
-    let mut left = wanted as i64;
-    for mass in masses.iter_mut() {
-        *mass = (f64::from(*mass) * scale).round_ties_even() as u32;
-        left -= i64::from(*mass);
-    }
-    // What rounding has left over is at most half a unit a particle.
-    let heavy = masses.iter_mut().filter(|mass| **mass > 0);
-    for mass in heavy.take(left.unsigned_abs() as usize) {
-        *mass = mass.saturating_add_signed(left.signum() as i32);
-    }
-}
-
-/// Maxwell's distribution of velocities for particles of different masses. The mesh takes momentum anyway, so that the
-/// centre of mass need not be at rest.
-fn draw_thermal_velocities(state: &mut State, thermal: &[usize], model: &Model, water: &ShallowWater) {
-    let key = noise::step_key(model.seed, stream::VELOCITY, 0);
-    for &particle in thermal.iter().filter(|&&particle| state.masses[particle] > 0) {
-        let width = (model.temperature / (f64::from(state.masses[particle]) * water.mass_unit)).sqrt();
-        for axis in 0..2 {
-            let words = noise::words(Generator::Threefry2x32, key, [particle as u32, axis as u32]);
-            let velocity = width * noise::gaussian(words);
-            state.momenta[particle][axis] = (velocity / model.units.momentum).round_ties_even() as i32;
-        }
-    }
-}
-
-/// Draws the bath variables of all nodes from their law at rest.
-fn draw_bath(state: &mut State, model: &Model, water: &ShallowWater) {
-    let Some(bath) = &water.bath else { return };
-    let key = noise::step_key(model.seed, stream::MESH, 0);
-    let width = bath.deviation(model.temperature) / water.wave_speed;
-    let nodes = 0..water.nodes() as u32;
-    let draw = |node| (width * noise::gaussian(noise::words(model.generator, key, [0, node]))) as f32;
-    state.node_bath = nodes.map(|node| draw(node).to_bits()).collect();
 }
 
 /// Appends the positions of a group; `shift` moves a lattice by this fraction of its spacing, so that the lattices of
@@ -263,15 +154,12 @@ pub(crate) fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
 }
 
 /// Appends the momenta of a group, rounded to integer units.
-fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: &Model) {
+pub(super) fn set_in_motion(state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
     let dimension = model.units.dimension;
-    let first = state.momenta.len();
+    let (first, count) = (ids.start, ids.len());
     let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
     match &group.velocities {
         _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
-        // Masses differ from particle to particle there, and are known only once all are.
-        _ if model.voronoi().is_some() => state.momenta.resize(first + count, [0; 3]),
-        Velocities::Thermal if model.shallow_water().is_some() => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
             let width = (group.mass * model.temperature).sqrt();
@@ -285,18 +173,9 @@ fn set_in_motion(state: &mut State, group: &ParticleGroup, count: usize, model: 
                 })
             }));
         }
-        Velocities::Geostrophic => {
-            let Some(water) = model.shallow_water() else { return state.momenta.resize(first + count, [0; 3]) };
-            let surface = water.surface([model.units.lengths[0], model.units.lengths[1]]);
-            let factor = water.wave_speed * water.wave_speed / water.rotation;
-            let balanced = state.positions[first..].iter().map(|position| {
-                let [x, y, _] = model.units.position(*position);
-                let [slope_x, slope_y] = surface.slope([x, y]);
-                [to_units(-factor * slope_y), to_units(factor * slope_x), 0]
-            });
-            state.momenta.extend(balanced);
+        Velocities::Rest | Velocities::Geostrophic | Velocities::ShearWave { .. } => {
+            state.momenta.resize(first + count, [0; 3]);
         }
-        Velocities::Rest | Velocities::ShearWave { .. } => state.momenta.resize(first + count, [0; 3]),
         Velocities::Listed { velocities } => {
             state.momenta.extend(velocities.iter().take(count).map(|velocity| {
                 std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))

@@ -3,78 +3,18 @@
 use super::RunError;
 use super::sections::{Sections, bytes, samples};
 use super::settling;
-use crate::families::{Model, Voronoi};
+use crate::families::{Column, Model, column};
+use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
-use crate::measure::{CellObservables, Observables};
 use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, read_table};
-use crate::scene::{Integrator, Scene};
+use crate::scene::Scene;
 use crate::table::Table;
 use std::path::Path;
 
-type Cell = fn(&Observables, f64) -> f64;
-
-/// The columns of a model after `step`; those without meaning for it are left out.
-fn columns(model: &Model) -> Vec<(&'static str, Cell)> {
-    let potential = model.has_potential();
-    let dimension = model.units.dimension;
-    let water = model.shallow_water();
-    let cells = model.voronoi();
-    let memory = model.has_memory();
-    // Curvature is summed over all particles, and the force on those that are held is not one of heat.
-    let configurational =
-        potential && water.is_none() && cells.is_none() && !model.has_fixed_particles() && model.angles().is_none();
-    // What is tied to places in space presses on nothing.
-    let pressure = water.is_none() && model.tether().is_none() && !model.has_fixed_particles();
-    // Harmonic chains are at temperature zero and at that of the scene side by side.
-    let one_temperature = model.chains().is_none();
-    let kept = cells.is_some_and(Voronoi::keeps_energy);
-    let limited = cells.is_some_and(|cells| cells.has_limits(model.temperature));
-    let solved = cells.is_some_and(|cells| cells.viscosity > 0.0) && model.integrator == Integrator::Splitting {};
-    let all: [(&'static str, bool, Cell); 26] = [
-        ("time", true, |row, step| row.step as f64 * step),
-        ("kinetic_energy", true, |row, _| row.kinetic_energy),
-        ("potential_energy", potential, |row, _| row.potential_energy),
-        ("internal_energy", kept, |row, _| of_cells(row, |cells| cells.internal_energy)),
-        // The free energy of cells that exchange mass derives no force.
-        ("total_energy", potential || cells.is_none(), |row, _| row.total_energy()),
-        ("total_energy", kept, |row, _| row.kinetic_energy + of_cells(row, |cells| cells.internal_energy)),
-        ("bath_energy", memory, |row, _| row.bath_energy),
-        ("extended_energy", memory, |row, _| row.total_energy() + row.bath_energy),
-        ("bath_square", memory || water.is_some_and(|water| water.bath.is_some()), |row, _| row.bath_square),
-        ("temperature", one_temperature, |row, _| row.kinetic_temperature()),
-        ("internal_temperature", kept, |row, _| of_cells(row, |cells| cells.internal_temperature)),
-        (CONFIGURATIONAL, configurational, |row, _| row.configurational_temperature()),
-        ("pressure", pressure, |row, _| row.pressure()),
-        ("pressure_conservative", pressure && potential && cells.is_none(), |row, _| row.conservative_pressure()),
-        ("momentum_x", true, |row, _| row.momentum[0]),
-        ("momentum_y", dimension >= 2, |row, _| row.momentum[1]),
-        ("momentum_z", dimension == 3, |row, _| row.momentum[2]),
-        ("center_of_mass_velocity_x", true, |row, _| row.centre_of_mass_velocity()[0]),
-        ("center_of_mass_velocity_y", dimension >= 2, |row, _| row.centre_of_mass_velocity()[1]),
-        ("center_of_mass_velocity_z", dimension == 3, |row, _| row.centre_of_mass_velocity()[2]),
-        ("mass", cells.is_some(), |row, _| row.mass),
-        ("volume_error", cells.is_some(), |row, _| of_cells(row, |cells| cells.volume / row.volume - 1.0)),
-        ("mean_neighbours", cells.is_some(), |row, _| {
-            of_cells(row, |cells| 2.0 * cells.faces as f64 / row.particles as f64)
-        }),
-        ("limited_exchanges", limited, |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)),
-        ("solver_iterations", solved, |row, _| of_cells(row, |cells| cells.iterations as f64)),
-        ("solver_residual", solved, |row, _| of_cells(row, |cells| cells.residual)),
-    ];
-    all.into_iter().filter(|(_, applies, _)| *applies).map(|(name, _, cell)| (name, cell)).collect()
-}
-
-/// A quantity of Voronoi cells.
-fn of_cells(row: &Observables, quantity: impl Fn(&CellObservables) -> f64) -> f64 {
-    row.cells.as_ref().map_or(f64::NAN, quantity)
-}
-
 /// Names of the quantities that the table of energies of a model holds.
 pub(crate) fn quantities(model: &Model) -> Vec<&'static str> {
-    columns(model).into_iter().map(|(name, _)| name).filter(|name| *name != "time").collect()
+    model.physics().columns(model).into_iter().map(|column| column.name).filter(|name| *name != "time").collect()
 }
-
-const CONFIGURATIONAL: &str = "configurational_temperature";
 
 /// Name of the section of a checkpoint that holds the sums behind the configurational temperature.
 pub(super) const SECTION: &str = "configuration";
@@ -82,7 +22,7 @@ pub(super) const SECTION: &str = "configuration";
 /// The rows so far, on disk and in memory.
 pub(super) struct EnergyRecorder {
     file: EnergiesFile,
-    columns: Vec<(&'static str, Cell)>,
+    columns: Vec<Column>,
     rows: Vec<Vec<f64>>,
     /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
     configuration: Vec<[f64; 2]>,
@@ -96,7 +36,8 @@ pub(super) struct EnergyRecorder {
 pub(crate) fn read(path: &Path, scene: &Scene, step: u64) -> Result<Table, OutputError> {
     let model = &Model::new(scene);
     let table = read_table(path)?;
-    let expected: Vec<&str> = std::iter::once("step").chain(columns(model).into_iter().map(|(name, _)| name)).collect();
+    let expected: Vec<&str> =
+        std::iter::once("step").chain(model.physics().columns(model).into_iter().map(|column| column.name)).collect();
     if table.columns != expected {
         let (expected, found) = (expected.join(","), table.columns.join(","));
         return Err(OutputError::Columns { path: path.to_path_buf(), expected, found });
@@ -131,8 +72,8 @@ impl EnergyRecorder {
         let kept = samples(scene.output.energies.every, equilibration, step);
         let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
         let configuration = configuration.as_chunks().0.to_vec();
-        let columns = columns(model);
-        let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+        let columns = model.physics().columns(model);
+        let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
         let (file, rows) = match written {
             None => (EnergiesFile::create(path, &names)?, Vec::new()),
             Some(written) => match EnergiesFile::resume(path, &names, written) {
@@ -156,7 +97,7 @@ impl EnergyRecorder {
     }
 
     pub(super) fn add(&mut self, observables: &Observables) -> Result<(), RunError> {
-        let cells: Vec<f64> = self.columns.iter().map(|(_, cell)| cell(observables, self.time_step)).collect();
+        let cells: Vec<f64> = self.columns.iter().map(|column| (column.value)(observables, self.time_step)).collect();
         self.file.append(observables.step, &cells)?;
         self.rows.push(std::iter::once(observables.step as f64).chain(cells).collect());
         if observables.step >= self.equilibration {
@@ -185,14 +126,15 @@ impl EnergyRecorder {
 
     /// Kinetic temperature of the last row.
     pub(super) fn temperature(&self) -> Option<f64> {
-        let column = 1 + self.columns.iter().position(|(name, _)| *name == "temperature")?;
+        let column = 1 + self.columns.iter().position(|column| column.name == "temperature")?;
         self.rows.last().map(|row| row[column]).filter(|temperature| temperature.is_finite())
     }
 
     /// Adds the means after equilibration to a summary.
     pub(super) fn summarise(&self, summary: &mut Summary) {
-        for (index, (name, _)) in self.columns.iter().enumerate().filter(|(_, (name, _))| *name != "time") {
-            let mean = if *name == CONFIGURATIONAL {
+        for (index, Column { name, .. }) in self.columns.iter().enumerate().filter(|(_, column)| column.name != "time")
+        {
+            let mean = if *name == column::CONFIGURATIONAL_TEMPERATURE.name {
                 ratio_of_means(&self.configuration)
             } else {
                 let rows = self.rows.iter().filter(|row| row[0] >= self.equilibration as f64);
@@ -212,7 +154,7 @@ impl EnergyRecorder {
 
     /// The table for a plot.
     pub(super) fn table(&self) -> Table {
-        let names = std::iter::once("step").chain(self.columns.iter().map(|(name, _)| *name));
+        let names = std::iter::once("step").chain(self.columns.iter().map(|column| column.name));
         Table { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
     }
 }

@@ -1,10 +1,9 @@
 //! Whether what a model keeps to the last bit is kept on this adapter: the sums of every report are compared with those of
 //! the start.
 
-use super::conservation::KeptQuantity;
 use super::sections::Sections;
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::{KeptQuantity, KeptSum, Model};
 use crate::output::checkpoint::CheckpointError;
 use crate::state::State;
 
@@ -14,20 +13,13 @@ pub(super) const SECTION: &str = "kept_sums";
 /// The integer sums that a model keeps, as they were at the start, and the changes that were seen since.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct KeptSums {
-    sums: Vec<KeptSum>,
+    sums: Vec<Watched>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct KeptSum {
-    quantity: KeptQuantity,
-    /// The direction of a component: ` along x`.
-    direction: &'static str,
-    /// Its place among the sums of the first sampler.
-    place: usize,
-    /// Value of one unit.
-    unit: f64,
-    /// At the first step.
-    start: i64,
+struct Watched {
+    /// The sum, as it was at the first step.
+    sum: KeptSum,
     change: Option<Change>,
 }
 
@@ -51,11 +43,11 @@ impl KeptSums {
     /// # Errors
     /// [`CheckpointError::Malformed`] where that is of another length.
     pub(super) fn new(model: &Model, state: &State, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
-        let mut sums: Vec<KeptSum> =
-            super::conservation::kept(model).into_iter().flat_map(|quantity| sums_of(quantity, model, state)).collect();
+        let kept = model.physics().kept(model, state).into_iter();
+        let mut sums: Vec<Watched> = kept.map(|sum| Watched { sum, change: None }).collect();
         if let Some(kept) = sections.integers(SECTION, (NUMBERS * sums.len()) as u64)? {
             for (sum, [start, step, first, largest]) in sums.iter_mut().zip(kept.as_chunks().0) {
-                sum.start = *start;
+                sum.sum.total = *start;
                 let change = Change { step: *step as u64, first: *first, largest: *largest };
                 sum.change = (*first != 0).then_some(change);
             }
@@ -65,9 +57,9 @@ impl KeptSums {
 
     /// What a checkpoint has to keep.
     pub(super) fn section(&self) -> Vec<u8> {
-        let numbers = |sum: &KeptSum| {
+        let numbers = |sum: &Watched| {
             let change = sum.change.unwrap_or(Change { step: 0, first: 0, largest: 0 });
-            [sum.start, change.step as i64, change.first, change.largest]
+            [sum.sum.total, change.step as i64, change.first, change.largest]
         };
         self.sums.iter().flat_map(numbers).flat_map(i64::to_le_bytes).collect()
     }
@@ -75,8 +67,8 @@ impl KeptSums {
     /// Compares a sample of the observables with the start.
     pub(super) fn compare(&mut self, sample: &Sample) {
         for sum in &mut self.sums {
-            let Some(found) = sample.sums.get(sum.place) else { continue };
-            let difference = found.wrapping_sub(sum.start);
+            let Some(found) = sample.sums.get(sum.sum.place) else { continue };
+            let difference = found.wrapping_sub(sum.sum.total);
             if difference == 0 {
                 continue;
             }
@@ -91,7 +83,7 @@ impl KeptSums {
     pub(super) fn lost(&self) -> Vec<(KeptQuantity, String)> {
         let mut lost: Vec<(KeptQuantity, String)> = Vec::new();
         for (sum, change) in self.changed() {
-            let size = format!("{}{}", sum.size(change.largest), sum.direction);
+            let size = format!("{}{}", size(sum, change.largest), sum.direction);
             match lost.iter_mut().find(|(quantity, _)| *quantity == sum.quantity) {
                 Some((_, text)) => *text = format!("{text}, {size}"),
                 None => lost.push((sum.quantity, format!("on this driver changed by {size}"))),
@@ -109,42 +101,19 @@ impl KeptSums {
             sum.quantity.name(),
             sum.direction,
             change.step,
-            sum.size(change.first),
+            size(sum, change.first),
         ))
     }
 
     fn changed(&self) -> impl Iterator<Item = (&KeptSum, Change)> {
-        self.sums.iter().filter_map(|sum| Some((sum, sum.change?)))
+        self.sums.iter().filter_map(|sum| Some((&sum.sum, sum.change?)))
     }
 }
 
-impl KeptSum {
-    /// A change with its number of units.
-    fn size(&self, change: i64) -> String {
-        let units = if change.unsigned_abs() == 1 { "unit" } else { "units" };
-        format!("{:.3e} ({} {units})", change as f64 * self.unit, change.unsigned_abs())
-    }
-}
-
-/// The sums of a quantity, as the kernels of the report and [`crate::measure::observables_of`] order them.
-fn sums_of(quantity: KeptQuantity, model: &Model, state: &State) -> Vec<KeptSum> {
-    let sum = |direction, place, unit, start| KeptSum { quantity, direction, place, unit, start, change: None };
-    let mass = || state.masses.iter().map(|mass| i64::from(*mass)).sum::<i64>();
-    match (quantity, model.voronoi(), model.shallow_water()) {
-        (KeptQuantity::Momentum, cells, _) => {
-            let first = if cells.is_some() { 1 } else { 2 };
-            let total = state.total_momentum();
-            let axes = [" along x", " along y", " along z"].into_iter().zip(total).enumerate();
-            let component = |(axis, (direction, total))| sum(direction, first + axis, model.units.momentum, total);
-            axes.take(model.units.dimension).map(component).collect()
-        }
-        (KeptQuantity::Mass, Some(cells), _) => vec![sum("", 3, cells.mass_unit, mass())],
-        (KeptQuantity::Energy, Some(cells), _) => {
-            vec![sum("", 7, cells.energy_unit, state.energies.iter().map(|energy| i64::from(*energy)).sum())]
-        }
-        (KeptQuantity::MeshMass, _, Some(water)) => vec![sum("", 5, water.mass_unit, mass())],
-        _ => Vec::new(),
-    }
+/// A change with its number of units.
+fn size(sum: &KeptSum, change: i64) -> String {
+    let units = if change.unsigned_abs() == 1 { "unit" } else { "units" };
+    format!("{:.3e} ({} {units})", change as f64 * sum.unit, change.unsigned_abs())
 }
 
 #[cfg(test)]
@@ -152,7 +121,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::families::initial_state;
-    use crate::run::conservation::{conserved, kept, not_conserved};
+    use crate::run::conservation::{conserved, not_conserved};
     use crate::scene;
     use std::path::Path;
 
@@ -166,8 +135,8 @@ mod tests {
         let model = Model::new(&scene);
         let state = initial_state(&scene, &model);
         let mut sums = vec![0; 12];
-        for sum in kept(&model).into_iter().flat_map(|quantity| sums_of(quantity, &model, &state)) {
-            sums[sum.place] = sum.start;
+        for sum in model.physics().kept(&model, &state) {
+            sums[sum.place] = sum.total;
         }
         (model, state, Sample { sampler: 0, step: 0, sums })
     }

@@ -22,7 +22,7 @@ const QUANTITIES: [&str; 8] = [
 /// Whether the means of a scene are meant to be those of equilibrium: where it says how long to wait for that, and for
 /// thermal particles anyway. Flows of water, cells that warm up or slow down and chains with a pulse are about the way.
 pub(super) fn is_about_equilibrium(scene: &Scene, model: &Model) -> bool {
-    let particles = model.shallow_water().is_none() && model.voronoi().is_none() && model.chains().is_none();
+    let particles = model.physics().reaches_equilibrium();
     scene.time.equilibration > 0 || particles && model.temperature > 0.0
 }
 

@@ -1,7 +1,7 @@
 //! One run from its first step to its summary.
 
 use super::analyses::Analyses;
-use super::conservation::{KeptQuantity, conserved, not_conserved};
+use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::exchange_tally::{self, ExchangeTally};
 use super::interrupt::Interrupt;
@@ -12,7 +12,7 @@ use super::schedule::Schedule;
 use super::sections::Sections;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, EngineError, Sample};
-use crate::families::{self, Instability, Model, ShallowWater};
+use crate::families::{self, Instability, KeptQuantity, Model, ShallowWater};
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::measure::observables_of;
 use crate::output::checkpoint::CheckpointError;
@@ -196,15 +196,7 @@ impl Simulation {
                     // Too rare for every run to pay for it in memory or time.
                     options = options.with_room(task.model.particle_count());
                     start = task.last_checkpoint(start)?;
-                    let reason = if task.model.shallow_water().is_some() {
-                        "the particles crowd in one cell of the mesh"
-                    } else if task.model.voronoi().is_some() {
-                        "a cell has more corners than there is room for"
-                    } else if task.model.is_coupled() {
-                        "a particle has more neighbours than the list has room for"
-                    } else {
-                        "the particles crowd at the ends of the box"
-                    };
+                    let reason = task.model.physics().crowd();
                     observer(Event::Repeating { from: start.state.step, reason });
                     gpu = open_adapter(&task.scene, &task.model, choice, options)?;
                 }
@@ -263,7 +255,7 @@ impl Task {
         }
         observer(Event::Finishing);
         let mut warnings = self.notices.clone();
-        warnings.extend(families::warnings(&self.scene).iter().map(ToString::to_string));
+        warnings.extend(self.model.warnings(&self.scene).iter().map(ToString::to_string));
         warnings.extend(run.kept_sums.warning());
         warnings.extend(pictures::lettering(&self.scene));
         let saved_step = run.saved_step;

@@ -2,7 +2,6 @@
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
-use crate::families::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
 use crate::families::{self, Model};
 use crate::gpu::Gpu;
 use crate::plan::{Hardware, Options, plan};
@@ -144,24 +143,9 @@ impl Case {
 fn reference_step(model: &Model, start: &State) -> Result<State, String> {
     let words = |error: crate::families::reference::Unstable| format!("the reference: {error}");
     let missing = || "the reference does not know this scene".to_owned();
-    let (model, start) = (model.clone(), start.clone());
-    if model.shallow_water().is_some() {
-        let mut reference = ShallowWaterReference::new(model, start).ok_or_else(missing)?;
-        reference.step().map_err(words)?;
-        Ok(reference.state().clone())
-    } else if model.voronoi().is_some() {
-        let mut reference = VoronoiReference::new(model, start).ok_or_else(missing)?;
-        reference.step().map_err(words)?;
-        Ok(reference.state().clone())
-    } else if model.is_coupled() {
-        let mut reference = CouplingsReference::new(model, start);
-        reference.step().map_err(words)?;
-        Ok(reference.state().clone())
-    } else {
-        let mut reference = Reference::new(model, start);
-        reference.step().map_err(words)?;
-        Ok(reference.state().clone())
-    }
+    let mut reference = model.physics().reference(model, start).ok_or_else(missing)?;
+    reference.step().map_err(words)?;
+    Ok(reference.state().clone())
 }
 
 /// Everything of a state that a step changes, by name, in integer units.

@@ -1,14 +1,25 @@
 //! Particles with forces between them: dissipative particle dynamics, couplings with baths, bonds and chains.
 
 pub(crate) mod chains;
+mod conservation;
 pub(crate) mod model;
+mod observables;
 pub mod reference;
 pub(crate) mod scene;
 pub(crate) mod stability;
+mod start;
+mod warnings;
 
-use super::{Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, PairForce, Physics, PositionBath, Species, units};
-use crate::scene::{Interaction, Scene};
+use super::reference::Stepper;
+use super::{
+    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Model, Observables, PairForce, Physics,
+    PositionBath, Species, units,
+};
+use crate::plan::Plan;
+use crate::scene::{BondPotential, Interaction, Problems, Scene, Warning};
+use crate::state::State;
 use model::topology;
+use reference::{CouplingsReference, Reference};
 
 /// What acts on particles.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,6 +109,84 @@ impl Physics for Particles {
 
     fn is_free(&self) -> bool {
         self.position_bath.is_none() && self.tether.is_none()
+    }
+
+    fn reaches_equilibrium(&self) -> bool {
+        self.chains.is_none()
+    }
+
+    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
+        warnings::warnings(self, scene, model)
+    }
+
+    fn complete_start(&self, state: &mut State, _: &Scene, model: &Model, thermal: &[usize]) {
+        start::complete(self, state, model, thermal);
+    }
+
+    fn may_refuse_starts(&self) -> bool {
+        let kinds = self.bonds.iter().flat_map(|bonds| &bonds.kinds);
+        kinds.into_iter().any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. })))
+    }
+
+    fn check_start(&self, scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
+        start::check_extents(scene, model, state, problems);
+    }
+
+    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
+        if self.are_coupled {
+            stability::check(scene, model, problems);
+        }
+    }
+
+    fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
+        observables::observables(step, sums, plan, model)
+    }
+
+    fn columns(&self, model: &Model) -> Vec<Column> {
+        observables::columns(self, model)
+    }
+
+    fn kept(&self, model: &Model, state: &State) -> Vec<KeptSum> {
+        if model.conserves_momentum() {
+            super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum)
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn never_changes(&self) -> &'static [&'static str] {
+        &["mass"]
+    }
+
+    fn fate_of_energy(&self, model: &Model) -> String {
+        conservation::fate_of_energy(model)
+    }
+
+    fn fate_of_momentum(&self, model: &Model) -> Vec<&'static str> {
+        conservation::fate_of_momentum(model)
+    }
+
+    fn momentum_out_of_range(&self, _: &Plan) -> String {
+        "a momentum is more than 64 times its natural scale, √(m kT), as it also becomes where particles start much closer \
+         together than their temperature lets them come"
+            .to_owned()
+    }
+
+    fn crowd(&self) -> &'static str {
+        if self.are_coupled {
+            "a particle has more neighbours than the list has room for"
+        } else {
+            "the particles crowd at the ends of the box"
+        }
+    }
+
+    fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
+        let (model, state) = (model.clone(), state.clone());
+        Some(if self.are_coupled {
+            Box::new(CouplingsReference::new(model, state))
+        } else {
+            Box::new(Reference::new(model, state))
+        })
     }
 }
 

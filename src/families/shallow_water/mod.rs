@@ -1,12 +1,23 @@
 //! Rotating shallow water by the Hamiltonian particle-mesh method.
 
 pub(crate) mod model;
+mod observables;
 pub mod reference;
 pub(crate) mod scene;
+mod start;
 pub mod surface;
+mod warnings;
 
-use super::{Physics, ShallowWater, Species};
-use crate::scene::{Scene, Velocities};
+use super::reference::Stepper;
+use super::{Column, KeptQuantity, KeptSum, Model, Observables, Physics, ShallowWater, Species, conservation};
+use crate::plan::Plan;
+use crate::scene::{Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
+use crate::state::State;
+use reference::ShallowWaterReference;
+use std::ops::Range;
+
+/// Units of the largest velocity, with one bit to spare.
+const VELOCITY_RANGE: f64 = 1_073_741_824.0;
 
 impl Physics for ShallowWater {
     fn momentum_unit(&self, scene: &Scene, _: &[Species]) -> f64 {
@@ -23,6 +34,73 @@ impl Physics for ShallowWater {
 
     fn is_free(&self) -> bool {
         false
+    }
+
+    fn mass_unit(&self) -> Option<f64> {
+        Some(self.mass_unit)
+    }
+
+    fn has_specific_momenta(&self) -> bool {
+        true
+    }
+
+    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
+        warnings::warnings(self, scene, model)
+    }
+
+    fn set_in_motion(&self, state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
+        start::set_in_motion(self, state, group, ids, model);
+    }
+
+    fn complete_start(&self, state: &mut State, _: &Scene, model: &Model, thermal: &[usize]) {
+        start::complete(self, state, model, thermal);
+    }
+
+    fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
+        observables::observables(step, sums, plan, model, self)
+    }
+
+    fn columns(&self, model: &Model) -> Vec<Column> {
+        observables::columns(self, model)
+    }
+
+    fn kept(&self, _: &Model, state: &State) -> Vec<KeptSum> {
+        vec![conservation::mass(state, KeptQuantity::MeshMass, 5, self.mass_unit)]
+    }
+
+    fn kept_to_rounding(&self, model: &Model) -> Option<&'static str> {
+        let loops = self.closed_loops().next().is_some();
+        (loops && model.integrator == (Integrator::Gyro {})).then_some("the circulation of material loops")
+    }
+
+    fn fate_of_energy(&self, _: &Model) -> String {
+        match self.bath {
+            Some(_) => "exchanged with the bath on the mesh, which also slows a uniform flow down".to_owned(),
+            None => conservation::INTEGRATED.to_owned(),
+        }
+    }
+
+    fn fate_of_momentum(&self, _: &Model) -> Vec<&'static str> {
+        vec!["the mesh is fixed in space, and a rotation turns it"]
+    }
+
+    fn momentum_out_of_range(&self, plan: &Plan) -> String {
+        let limit = plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
+        let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
+        let reason = if limit < VELOCITY_RANGE {
+            "which may go half round the box in one step"
+        } else {
+            "more than twice the largest expected in this scene"
+        };
+        format!("a velocity is above {}, {reason}", brief(limit * plan.units.momentum))
+    }
+
+    fn crowd(&self) -> &'static str {
+        "the particles crowd in one cell of the mesh"
+    }
+
+    fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
+        Some(Box::new(ShallowWaterReference::new(model.clone(), state.clone())?))
     }
 }
 

@@ -1,12 +1,19 @@
 //! Voronoi DPD: particles that are the cells of a tessellation.
 
 pub(crate) mod model;
+mod observables;
 pub mod reference;
 pub(crate) mod scene;
-pub(crate) mod start;
+mod start;
+mod warnings;
 
-use super::{Physics, Species, Voronoi, units};
-use crate::scene::Scene;
+use super::reference::Stepper;
+use super::{Column, KeptQuantity, KeptSum, Model, Observables, Physics, Species, Voronoi, conservation, units};
+use crate::plan::Plan;
+use crate::scene::{InitialMasses, ParticleGroup, Problems, Scene, Warning};
+use crate::state::State;
+use reference::VoronoiReference;
+use std::ops::Range;
 
 impl Physics for Voronoi {
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
@@ -19,11 +26,77 @@ impl Physics for Voronoi {
         !self.exchanges_mass() && !self.keeps_energy()
     }
 
-    fn has_memory(&self) -> bool {
-        false
-    }
-
     fn is_free(&self) -> bool {
         true
+    }
+
+    fn mass_unit(&self) -> Option<f64> {
+        Some(self.mass_unit)
+    }
+
+    fn changes_masses(&self) -> bool {
+        self.exchanges_mass()
+    }
+
+    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
+        warnings::warnings(self, scene, model)
+    }
+
+    fn set_in_motion(&self, state: &mut State, _: &ParticleGroup, ids: Range<usize>, _: &Model) {
+        // Masses differ from cell to cell, and are known only once all are.
+        state.momenta.resize(ids.end, [0; 3]);
+    }
+
+    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, _: &[usize]) {
+        start::fill(state, scene, model, self);
+    }
+
+    fn may_refuse_starts(&self) -> bool {
+        self.initial_masses != InitialMasses::Equal
+    }
+
+    fn check_start(&self, scene: &Scene, _: &Model, state: &State, problems: &mut Problems) {
+        start::check_masses(scene, self, &state.masses, problems);
+    }
+
+    fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
+        observables::observables(step, sums, plan, model, self)
+    }
+
+    fn columns(&self, model: &Model) -> Vec<Column> {
+        observables::columns(self, model)
+    }
+
+    fn kept(&self, model: &Model, state: &State) -> Vec<KeptSum> {
+        let mut kept = vec![conservation::mass(state, KeptQuantity::Mass, 3, self.mass_unit)];
+        kept.extend(conservation::momentum(state, 1, model.units.dimension, model.units.momentum));
+        if self.keeps_energy() {
+            let total = state.energies.iter().map(|energy| i64::from(*energy)).sum();
+            let (quantity, unit) = (KeptQuantity::Energy, self.energy_unit);
+            kept.push(KeptSum { quantity, direction: "", place: 7, unit, total });
+        }
+        kept
+    }
+
+    fn fate_of_energy(&self, model: &Model) -> String {
+        let fate = match (self.viscosity > 0.0, model.temperature > 0.0) {
+            (true, true) => "exchanged with the fluid inside the cells, which is at the temperature of the scene",
+            (true, false) => "taken away by friction",
+            (false, _) if self.exchanges_mass() => "exchanging mass is no motion in a potential",
+            (false, _) => conservation::INTEGRATED,
+        };
+        fate.to_owned()
+    }
+
+    fn momentum_out_of_range(&self, _: &Plan) -> String {
+        "a momentum is more than 1024 times its natural scale".to_owned()
+    }
+
+    fn crowd(&self) -> &'static str {
+        "a cell has more corners than there is room for"
+    }
+
+    fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
+        Some(Box::new(VoronoiReference::new(model.clone(), state.clone())?))
     }
 }

@@ -1,10 +1,10 @@
 //! How Voronoi cells start: masses, momenta and energies, once their places are known.
 
-use super::scene::voronoi;
+use super::scene::{LIGHTEST, voronoi};
 use crate::families::start::bring_to_rest;
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
-use crate::scene::{Generator, InitialMasses, Scene, Velocities};
+use crate::scene::{Generator, InitialMasses, Interaction, Problem, Problems, Scene, Velocities};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use std::f64::consts::TAU;
@@ -103,4 +103,25 @@ fn masses(state: &State, scene: &Scene, model: &Model, cells: &Voronoi) -> Vec<f
         *mass += left.signum();
     }
     masses
+}
+
+/// Masses that follow from the volumes of cells have to be such as the integers can hold.
+pub(super) fn check_masses(scene: &Scene, cells: &Voronoi, masses: &[u32], problems: &mut Problems) {
+    let Some(voronoi) = voronoi(scene).filter(|voronoi| voronoi.initial_masses != InitialMasses::Equal) else { return };
+    let [low, high] = [LIGHTEST * 2_f64.powi(24), f64::from(u32::MAX)];
+    // What is beyond the range of integers is at its end.
+    let fits = |mass: u32| f64::from(mass) >= low && mass < u32::MAX;
+    let Some(cell) = masses.iter().position(|mass| !fits(*mass)) else { return };
+    let name = if voronoi.initial_masses == InitialMasses::UniformDensity { "density" } else { "pressure" };
+    let mass = f64::from(masses[cell]) * cells.mass_unit;
+    let most = if masses[cell] == u32::MAX { " or more" } else { "" };
+    let found =
+        format!("found `uniform-{name}`, with a mass of {mass:.3e}{most} by the volume of the cell of particle {cell}");
+    let accepted = format!(
+        "masses between {:.1e} and {:.1e}: a more even placement, as a lattice, or `equal` masses",
+        low * cells.mass_unit,
+        high * cells.mass_unit
+    );
+    let path = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
+    problems.push(Problem::new(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted));
 }

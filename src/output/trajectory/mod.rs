@@ -5,7 +5,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, OutputError};
-use crate::families::{Bonds, Model, Species, Voronoi};
+use crate::families::{Bonds, Model, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::fmt::Debug;
@@ -107,12 +107,9 @@ impl Description {
             units: model.units,
             time_step: model.time_step,
             species: model.species.clone(),
-            mass_unit: match (model.shallow_water(), model.voronoi()) {
-                (Some(water), _) => Some(water.mass_unit),
-                (None, cells) => cells.map(|cells| cells.mass_unit),
-            },
-            specific_momenta: model.shallow_water().is_some(),
-            changing_masses: model.voronoi().is_some_and(Voronoi::exchanges_mass),
+            mass_unit: model.physics().mass_unit(),
+            specific_momenta: model.physics().has_specific_momenta(),
+            changing_masses: model.physics().changes_masses(),
             bonds: model.bonds().into_iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
         }
     }

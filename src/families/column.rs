@@ -1,0 +1,60 @@
+//! The columns that tables of energies of several families have.
+
+use super::Observables;
+
+/// A column of the table of energies.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value in a row, given the time step.
+    pub value: fn(&Observables, f64) -> f64,
+}
+
+/// A column.
+pub(crate) const fn column(name: &'static str, value: fn(&Observables, f64) -> f64) -> Column {
+    Column { name, value }
+}
+
+/// Time.
+pub(crate) const TIME: Column = column("time", |row, step| row.step as f64 * step);
+/// Kinetic energy.
+pub(crate) const KINETIC_ENERGY: Column = column("kinetic_energy", |row, _| row.kinetic_energy);
+/// Potential energy.
+pub(crate) const POTENTIAL_ENERGY: Column = column("potential_energy", |row, _| row.potential_energy);
+/// Kinetic and potential energy.
+pub(crate) const TOTAL_ENERGY: Column = column("total_energy", |row, _| row.total_energy());
+/// Energy of baths with memory, and that of all together.
+pub(crate) const BATH_ENERGIES: [Column; 2] = [
+    column("bath_energy", |row, _| row.bath_energy),
+    column("extended_energy", |row, _| row.total_energy() + row.bath_energy),
+];
+/// Mean square of the variables of baths.
+pub(crate) const BATH_SQUARE: Column = column("bath_square", |row, _| row.bath_square);
+/// Kinetic temperature.
+pub(crate) const TEMPERATURE: Column = column("temperature", |row, _| row.kinetic_temperature());
+/// Configurational temperature.
+pub(crate) const CONFIGURATIONAL_TEMPERATURE: Column =
+    column("configurational_temperature", |row, _| row.configurational_temperature());
+/// Pressure.
+pub(crate) const PRESSURE: Column = column("pressure", |row, _| row.pressure());
+/// Pressure of conservative forces.
+pub(crate) const CONSERVATIVE_PRESSURE: Column = column("pressure_conservative", |row, _| row.conservative_pressure());
+
+/// Components of the total momentum.
+const MOMENTUM: [Column; 3] = [
+    column("momentum_x", |row, _| row.momentum[0]),
+    column("momentum_y", |row, _| row.momentum[1]),
+    column("momentum_z", |row, _| row.momentum[2]),
+];
+/// Components of the velocity of the centre of mass.
+const CENTRE_OF_MASS: [Column; 3] = [
+    column("center_of_mass_velocity_x", |row, _| row.centre_of_mass_velocity()[0]),
+    column("center_of_mass_velocity_y", |row, _| row.centre_of_mass_velocity()[1]),
+    column("center_of_mass_velocity_z", |row, _| row.centre_of_mass_velocity()[2]),
+];
+
+/// Total momentum and velocity of the centre of mass.
+pub(crate) fn motion(dimension: usize) -> impl Iterator<Item = Column> {
+    MOMENTUM.into_iter().take(dimension).chain(CENTRE_OF_MASS.into_iter().take(dimension))
+}

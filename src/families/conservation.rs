@@ -1,0 +1,66 @@
+//! What models conserve exactly.
+
+use crate::state::State;
+
+/// What some models keep to the last bit: sums of integers, which every report has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeptQuantity {
+    /// Of what exchanges it, or might.
+    Mass,
+    /// On the nodes of a mesh.
+    MeshMass,
+    /// Of all particles.
+    Momentum,
+    /// Kinetic and internal energy together.
+    Energy,
+}
+
+impl KeptQuantity {
+    /// Its name in a summary.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::MeshMass => "mass on the mesh",
+            Self::Momentum => "total momentum",
+            Self::Energy => "total energy",
+        }
+    }
+}
+
+/// One of the integer sums that a model keeps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KeptSum {
+    /// What it is of.
+    pub quantity: KeptQuantity,
+    /// The direction of a component: ` along x`.
+    pub direction: &'static str,
+    /// Its place among the sums of the first sampler.
+    pub place: usize,
+    /// Value of one unit.
+    pub unit: f64,
+    /// In a state.
+    pub total: i64,
+}
+
+/// The components of the total momentum, of which the first has a place.
+pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64) -> Vec<KeptSum> {
+    let directions = [" along x", " along y", " along z"].into_iter().zip(state.total_momentum()).enumerate();
+    let component = |(axis, (direction, total))| KeptSum {
+        quantity: KeptQuantity::Momentum,
+        direction,
+        place: first + axis,
+        unit,
+        total,
+    };
+    directions.take(dimension).map(component).collect()
+}
+
+/// The sum of all masses.
+pub(super) fn mass(state: &State, quantity: KeptQuantity, place: usize, unit: f64) -> KeptSum {
+    let total = state.masses.iter().map(|mass| i64::from(*mass)).sum();
+    KeptSum { quantity, direction: "", place, unit, total }
+}
+
+/// Why the energy of forces is not kept exactly.
+pub(crate) const INTEGRATED: &str = "only as well as the time step integrates the forces";

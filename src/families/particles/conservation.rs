@@ -1,0 +1,76 @@
+//! What becomes of energy and momentum of particles that are not conserved.
+
+use crate::families::conservation::INTEGRATED;
+use crate::families::{BathStep, Model};
+use crate::scene::NoiseProcess;
+
+/// What changes the total energy.
+pub(super) fn fate_of_energy(model: &Model) -> String {
+    let baths = baths(model);
+    let dissipates = |step: &BathStep| step.coupling > 0.0 && step.persistence.abs() < 1.0;
+    let thermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature > 0.0);
+    let athermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature == 0.0);
+    let lent = baths.iter().any(|(step, _)| step.coupling > 0.0 && step.remembers());
+    let mut ways = Vec::new();
+    if model.coloured_noise().is_some_and(|noise| noise.strength > 0.0) {
+        ways.push("put in by the coloured noise");
+    }
+    if thermal {
+        ways.push("exchanged with the heat bath");
+    }
+    if athermal {
+        ways.push("taken away by friction");
+    }
+    if ways.is_empty() {
+        return if lent {
+            format!("lent to the variables of baths that never forget; together with theirs {INTEGRATED}")
+        } else {
+            INTEGRATED.to_owned()
+        };
+    }
+    ways.join(", ")
+}
+
+/// The steps of all baths of particles, pairs and bonds, with their temperatures.
+fn baths(model: &Model) -> Vec<(BathStep, f64)> {
+    let mut baths = Vec::new();
+    let species = model.species.len();
+    if let Some(force) = model.pair_force() {
+        let steps = (0..species * species).map(|pair| force.bath_step(pair / species, pair % species, model.time_step));
+        baths.extend(steps.map(|step| (step, force.temperature)));
+    }
+    if let Some(bath) = model.position_bath() {
+        baths.extend(bath.steps.iter().map(|step| (*step, bath.temperature)));
+    }
+    if let Some(bonds) = model.bonds() {
+        baths.extend(bonds.kinds.iter().filter_map(|kind| Some((kind.bath?, kind.temperature))));
+    }
+    baths
+}
+
+/// What changes the total momentum, if anything.
+pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
+    let mut reasons = Vec::new();
+    match model.coloured_noise().map(|noise| noise.process) {
+        None => {}
+        Some(NoiseProcess::Literal) => reasons.push(
+            "the coloured noise pushes every particle by itself, with a mean force that is not zero, so that the centre \
+             of mass is driven",
+        ),
+        Some(_) => reasons
+            .push("the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders"),
+    }
+    if model.position_bath().is_some() {
+        reasons.push("friction and noise act on every particle by itself");
+    }
+    if model.tether().is_some() {
+        reasons.push("every particle is tied to a point fixed in space");
+    }
+    if model.has_fixed_particles() {
+        reasons.push("fixed particles take up what others give them");
+    }
+    if model.coloured_noise().is_some() && model.measures_about_centre_of_mass() {
+        reasons.push("temperatures are about the velocity of the centre of mass");
+    }
+    reasons
+}

@@ -1,0 +1,56 @@
+//! From the integer sums of a report to observables of particles.
+
+use crate::families::{Column, Model, Observables, Particles, column};
+use crate::plan::Plan;
+
+/// The observables of a step from the sums of its report.
+pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
+    let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
+    let quanta = plan.quanta;
+    // Energy, square and number of the baths come last, where there are any that remember.
+    let remembering = sums.len() > 9;
+    Observables {
+        step,
+        particles: plan.particles,
+        mobile: model.mobile_particles(),
+        dimension: model.units.dimension,
+        volume: model.units.volume(),
+        mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
+        kinetic_energy: sum(0) * quanta.energy,
+        total_virial: sum(1) * quanta.pair_energy,
+        momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),
+        potential_energy: sum(5) * quanta.pair_energy,
+        conservative_virial: sum(6) * quanta.pair_energy,
+        gradient_squared: sum(7) * quanta.force_squared,
+        laplacian: sum(8) * quanta.curvature,
+        about_centre_of_mass: model.measures_about_centre_of_mass(),
+        bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
+        bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        cells: None,
+    }
+}
+
+/// The columns of the table of energies.
+pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
+    let potential = model.has_potential();
+    let mut columns = vec![column::TIME, column::KINETIC_ENERGY];
+    columns.extend(potential.then_some(column::POTENTIAL_ENERGY));
+    columns.push(column::TOTAL_ENERGY);
+    if model.has_memory() {
+        columns.extend(column::BATH_ENERGIES);
+        columns.push(column::BATH_SQUARE);
+    }
+    // Harmonic chains are at temperature zero and at that of the scene side by side.
+    columns.extend(particles.chains.is_none().then_some(column::TEMPERATURE));
+    // Curvature is summed over all particles, and the force on those that are held is not one of heat.
+    if potential && !model.has_fixed_particles() && particles.angles.is_none() {
+        columns.push(column::CONFIGURATIONAL_TEMPERATURE);
+    }
+    // What is tied to places in space presses on nothing.
+    if particles.tether.is_none() && !model.has_fixed_particles() {
+        columns.push(column::PRESSURE);
+        columns.extend(potential.then_some(column::CONSERVATIVE_PRESSURE));
+    }
+    columns.extend(column::motion(model.units.dimension));
+    columns
+}

@@ -1,0 +1,176 @@
+//! What is allowed of particles but deserves a second look.
+
+use super::stability;
+use crate::families::warnings::{warn, warn_of_momentum};
+use crate::families::{FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, Particles, Species};
+use crate::scene::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Warning, brief};
+
+/// All warnings about a scene.
+pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if let Some(force) = &particles.pair_force {
+        warn_of_friction(scene, model, force, &mut warnings);
+        warn_of_stiffness(scene, model, force, &mut warnings);
+        warn_of_attraction(model, force, &mut warnings);
+    }
+    warn_of_rounding(model, &mut warnings);
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        match interaction {
+            Interaction::Dpd(dpd) => warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings),
+            Interaction::ColouredNoise(noise) => {
+                warn_of_noise(noise, model, &format!("interactions[{index}]"), &mut warnings);
+            }
+            _ => {}
+        }
+    }
+    if particles.are_coupled {
+        warnings.extend(stability::warn(scene, model));
+        warn_of_loose_chains(scene, &mut warnings);
+    }
+    warn_of_momentum(scene, &mut warnings);
+    warnings
+}
+
+/// Units of momentum that a thermal momentum or an impulse should have: it is rounded to a whole number of them.
+const FEWEST_UNITS: f64 = 1000.0;
+
+/// Impulses of fewer units of momentum are rounded by more than a thousandth.
+const COARSE_IMPULSE: f64 = 500.0;
+
+/// Chains that no bond holds together are nothing but a way to place particles.
+fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let bonded = |species: &String| {
+        scene.interactions.iter().any(|interaction| match interaction {
+            Interaction::Bonds(bonds) => {
+                !bonds.pairs.is_empty() || bonds.species.as_ref().is_none_or(|names| names.contains(species))
+            }
+            _ => false,
+        })
+    };
+    for (index, group) in scene.particles.iter().enumerate() {
+        if group.chain.is_some() && !bonded(&group.species) {
+            let message = "no interaction `bonds` holds these chains together: they will fall apart".to_owned();
+            warn(warnings, format!("particles[{index}].chain"), message);
+        }
+    }
+}
+
+fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let step = scene.time.step;
+    let (rate, index) = model.largest_friction_rate(force);
+    if rate * step > FRICTION_LIMIT {
+        warn(
+            warnings,
+            "time.step",
+            format!(
+                "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; \
+                 temperatures are reliable up to {FRICTION_LIMIT}, a step of {:.2e}",
+                model.species[index].name,
+                brief(rate),
+                brief(rate * step),
+                FRICTION_LIMIT / rate
+            ),
+        );
+    }
+}
+
+fn warn_of_stiffness(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let step = scene.time.step;
+    let (frequency, index) = model.largest_repulsion_frequency(force);
+    if frequency * step > FREQUENCY_LIMIT {
+        warn(
+            warnings,
+            "time.step",
+            format!(
+                "repulsion shakes `{}` at a frequency of about {}, {} radians in one step of {step}; \
+                 2 is the limit of stability, and up to {FREQUENCY_LIMIT}, a step of {:.2e}, is advisable",
+                model.species[index].name,
+                brief(frequency),
+                brief(frequency * step),
+                FREQUENCY_LIMIT / frequency
+            ),
+        );
+    }
+}
+
+/// Momenta are integers, in a unit that suits the heaviest species: what is far smaller is lost in rounding.
+fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
+    let units = |momentum: f64| momentum / model.units.momentum;
+    let thermal = |species: &Species| units((species.mass * model.pair_temperature()).sqrt());
+    let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
+    let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
+    let alike = model.species.iter().all(|species| species.mass == lightest.mass);
+    let advice = if alike {
+        "choose units in which masses, temperature and repulsion are nearer to 1"
+    } else {
+        "choose masses that are nearer to each other"
+    };
+    let told = |name: &str, value: f64| {
+        format!(
+            "{name} is {} units of the integer momenta, which follow the largest of the scene, and is lost in rounding below \
+             some {FEWEST_UNITS}: results will be wrong; {advice}",
+            brief(value)
+        )
+    };
+    let warmth = thermal(lightest);
+    if warmth > 0.0 && warmth < FEWEST_UNITS {
+        warn(warnings, "particles", told(&format!("the thermal momentum of `{}`", lightest.name), warmth));
+    }
+    let Some(force) = model.pair_force() else { return };
+    let impulse = units(force.largest_repulsion() * model.time_step);
+    if impulse > 0.0 && impulse < FEWEST_UNITS {
+        warn(warnings, "interactions", told("the impulse of the repulsion in a step", impulse));
+    }
+}
+
+/// Soft particles that attract each other, and nothing stiffer to hold them apart, fall into one another.
+fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let mut species = model.species.iter().enumerate();
+    if let Some((_, species)) =
+        species.find(|(index, species)| species.count > 1 && force.repulsion(*index, *index) < 0.0)
+    {
+        let message = format!(
+            "with a negative repulsion particles of `{}` attract each other, the more the closer they are: unless something \
+             else holds them apart they collapse, however short the step",
+            species.name
+        );
+        warn(warnings, "interactions", message);
+    }
+}
+
+fn warn_of_noise(noise: &ColouredNoiseInteraction, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
+    if noise.process == NoiseProcess::Literal {
+        let message = "the process as it is printed has a mean force that is not zero and that grows with age: it has no \
+                       stationary state, and drives the centre of mass; `kangaroo` keeps its holding times without that";
+        warn(warnings, format!("{path}.process"), message.to_owned());
+    }
+    let impulse = 0.5 * noise.strength.sqrt() * model.time_step;
+    let units = impulse / model.units.momentum;
+    if noise.strength > 0.0 && units < COARSE_IMPULSE {
+        let message = format!(
+            "the noise changes a momentum by {impulse:.1e} in half a step, {units:.1} of the units of {:.1e} that momenta \
+             are counted in: rounding distorts it; a larger `time.step` or a lower `temperature` resolves it better",
+            model.units.momentum
+        );
+        warn(warnings, format!("{path}.strength"), message);
+    }
+}
+
+fn warn_of_lengths(lengths: &[f64], cutoff: f64, warnings: &mut Vec<Warning>) {
+    for (axis, length) in lengths.iter().enumerate() {
+        let path = format!("space.box[{axis}]");
+        if *length < 3.0 * cutoff {
+            let message =
+                format!("the edge of {length} is under three cutoffs ({}); this axis is searched whole", 3.0 * cutoff);
+            warn(warnings, path, message);
+            continue;
+        }
+        let resolution = length / 4_294_967_296.0;
+        if resolution > 1e-6 * cutoff {
+            let message = format!(
+                "positions are resolved to {resolution:.1e} on the edge of {length}, more than a millionth of the cutoff {cutoff}"
+            );
+            warn(warnings, path, message);
+        }
+    }
+}

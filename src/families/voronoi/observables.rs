@@ -1,0 +1,96 @@
+//! From the integer sums of a report to observables of Voronoi cells.
+
+use crate::families::column::column;
+use crate::families::{CellObservables, Column, Model, Observables, Voronoi, column};
+use crate::plan::Plan;
+use crate::scene::Integrator;
+
+/// The residual of the solver of the friction is counted in these.
+const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// The observables of a step from the sums of its report.
+pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
+    let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
+    let whole = |index: usize| sums.get(index).copied().unwrap_or(0);
+    let quanta = plan.quanta;
+    let mass_units = whole(3);
+    let mass = mass_units as f64 * cells.mass_unit;
+    // What one molecule has of both, as an ideal gas of two dimensions, and with it the product of pressure and volume.
+    let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
+        // Kinetic and internal energy together are integers, whose sum says whether any is lost.
+        let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
+        (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
+    } else {
+        // Zero where there is no potential.
+        (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
+    };
+    Observables {
+        step,
+        particles: plan.particles,
+        mobile: plan.particles,
+        dimension: 2,
+        volume: model.units.volume(),
+        mass,
+        kinetic_energy: sum(0) * quanta.energy,
+        momentum: [sum(1), sum(2), 0.0].map(|sum| sum * model.units.momentum),
+        potential_energy: free_energy,
+        conservative_virial: 2.0 * internal_energy,
+        total_virial: f64::NAN,
+        gradient_squared: 0.0,
+        laplacian: 0.0,
+        about_centre_of_mass: true,
+        bath_energy: 0.0,
+        bath_square: 0.0,
+        cells: Some(CellObservables {
+            volume: sum(4) * quanta.length_squared,
+            // Every face has two sides.
+            faces: whole(5) as u64 / 2,
+            mass_units,
+            internal_energy,
+            internal_temperature,
+            pressure: internal_energy / model.units.volume(),
+            limited_exchanges: whole(9) as u64,
+            iterations: whole(10) as u64,
+            residual: whole(11) as f64 * RESIDUAL,
+        }),
+    }
+}
+
+/// The columns of the table of energies.
+pub(super) fn columns(cells: &Voronoi, model: &Model) -> Vec<Column> {
+    let potential = model.has_potential();
+    let mut columns = vec![column::TIME, column::KINETIC_ENERGY];
+    // The free energy of cells that exchange mass derives no force.
+    if potential {
+        columns.extend([column::POTENTIAL_ENERGY, column::TOTAL_ENERGY]);
+    }
+    if cells.keeps_energy() {
+        columns.push(column("internal_energy", |row, _| of_cells(row, |cells| cells.internal_energy)));
+        columns
+            .push(column("total_energy", |row, _| row.kinetic_energy + of_cells(row, |cells| cells.internal_energy)));
+    }
+    columns.push(column::TEMPERATURE);
+    if cells.keeps_energy() {
+        columns.push(column("internal_temperature", |row, _| of_cells(row, |cells| cells.internal_temperature)));
+    }
+    columns.push(column::PRESSURE);
+    columns.extend(column::motion(2));
+    columns.extend([
+        column("mass", |row, _| row.mass),
+        column("volume_error", |row, _| of_cells(row, |cells| cells.volume / row.volume - 1.0)),
+        column("mean_neighbours", |row, _| of_cells(row, |cells| 2.0 * cells.faces as f64 / row.particles as f64)),
+    ]);
+    if cells.has_limits(model.temperature) {
+        columns.push(column("limited_exchanges", |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)));
+    }
+    if cells.viscosity > 0.0 && model.integrator == (Integrator::Splitting {}) {
+        columns.push(column("solver_iterations", |row, _| of_cells(row, |cells| cells.iterations as f64)));
+        columns.push(column("solver_residual", |row, _| of_cells(row, |cells| cells.residual)));
+    }
+    columns
+}
+
+/// A quantity of Voronoi cells.
+fn of_cells(row: &Observables, quantity: impl Fn(&CellObservables) -> f64) -> f64 {
+    row.cells.as_ref().map_or(f64::NAN, quantity)
+}

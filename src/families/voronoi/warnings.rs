@@ -1,0 +1,153 @@
+//! What is allowed of Voronoi cells but deserves a second look.
+
+use super::scene::{shear_waves, voronoi};
+use crate::families::warnings::{warn, warn_of_momentum};
+use crate::families::{Model, Voronoi};
+use crate::scene::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
+
+/// All warnings about a scene.
+pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if let Some(voronoi) = voronoi(scene) {
+        warn_of_cells(scene, model, cells, &mut warnings);
+        warn_of_fluid(scene, model, voronoi, cells, &mut warnings);
+    }
+    warn_of_momentum(scene, &mut warnings);
+    warnings
+}
+
+/// A sound wave that passes more than this part of a cell in one step is not resolved.
+const SOUND_LIMIT: f64 = 0.2;
+
+/// A flow faster than this part of the speed of sound compresses the fluid.
+const FLOW_LIMIT: f64 = 0.3;
+
+/// Euler's scheme is hot by about this many times the friction of a step: at density 5, η = 1 and steps of 0.005 and 0.02 in
+/// cells of volume 1 by 1.8 and 9 %.
+const EULER_EXCESS: f64 = 22.0;
+
+/// Excess of the temperature that is worth a warning.
+const HOT: f64 = 0.02;
+
+/// Friction of a step, dt η/M, up to which the implicit solver of `splitting` has been seen to keep the temperature.
+const FRICTION_OF_CELLS: f64 = 0.05;
+
+/// A limit at so many deviations acts rarely.
+const RARELY: f64 = 3.0;
+
+/// A cell of fewer molecules has an internal temperature that noise may take to zero.
+const FEWEST_MOLECULES: f64 = 20.0;
+
+/// Reynolds and molecule numbers of a cell up to which the form `paper` keeps the temperature.
+const LARGEST_REYNOLDS: f64 = 4.0;
+
+const MOST_MOLECULES: f64 = 20.0;
+
+/// Warns of a time step that is too long for Voronoi cells.
+fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, warnings: &mut Vec<Warning>) {
+    let step = scene.time.step;
+    let present = || model.species.iter().filter(|species| species.count > 0);
+    let lightest = present().map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    let size = (model.units.volume() / model.particle_count().max(1) as f64).sqrt();
+    let hottest = scene.interactions.iter().map(|each| each.bath_temperature(scene.temperature)).fold(0.0, f64::max);
+    // Sound of an ideal gas in two dimensions, with the heat it makes or without.
+    let stiffness = if cells.keeps_energy() { 2.0 } else { 1.0 };
+    let sound = (stiffness * hottest / cells.molecular_mass).sqrt();
+    if sound * step > SOUND_LIMIT * size {
+        let message = format!(
+            "sound of speed {sound:.3} passes {:.2} of a cell of width {size:.3} in one step of {step}; up to \
+             {SOUND_LIMIT}, a step of {:.2e}, is advisable",
+            sound * step / size,
+            SOUND_LIMIT * size / sound
+        );
+        warn(warnings, "time.step", message);
+    }
+    let friction = cells.viscosity * step / lightest;
+    let euler = scene.integrator == (Integrator::Euler {});
+    if euler && scene.temperature > 0.0 && EULER_EXCESS * friction > HOT {
+        let message = format!(
+            "`euler` runs hot by about {:.0} % at this step; {:.1e} would be hot by {:.0} %, and `splitting` takes this one",
+            100.0 * EULER_EXCESS * friction,
+            HOT / EULER_EXCESS * lightest / cells.viscosity,
+            100.0 * HOT
+        );
+        warn(warnings, "time.step", message);
+    }
+    if !euler && friction > FRICTION_OF_CELLS {
+        let message = format!(
+            "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_OF_CELLS}, a step \
+             of {:.2e}, and the solver takes more iterations beyond",
+            FRICTION_OF_CELLS * lightest / cells.viscosity
+        );
+        warn(warnings, "time.step", message);
+    }
+}
+
+/// Warns of a fluid of Voronoi cells that the model does not describe well.
+fn warn_of_fluid(
+    scene: &Scene,
+    model: &Model,
+    voronoi: &VoronoiInteraction,
+    cells: &Voronoi,
+    warnings: &mut Vec<Warning>,
+) {
+    let place = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
+    let path = format!("interactions[{}]", place.unwrap_or(0));
+    let present = || model.species.iter().filter(|species| species.count > 0);
+    let mass: f64 = present().map(|species| species.mass * species.count as f64).sum();
+    let fewest = present().map(|species| species.mass).fold(f64::INFINITY, f64::min) / cells.molecular_mass;
+    let mean = mass / model.particle_count().max(1) as f64 / cells.molecular_mass;
+    let reynolds = (mass / model.units.volume() * scene.temperature).sqrt() / cells.viscosity;
+    if voronoi.form == VoronoiForm::Paper
+        && scene.temperature > 0.0
+        && (reynolds > LARGEST_REYNOLDS || mean > MOST_MOLECULES)
+    {
+        let message = format!(
+            "the form `paper` runs hot outside small Reynolds and molecule numbers of a cell, √(ρkT)/η = {reynolds:.2} and \
+             M/m = {mean:.0} here: by 25 % at 7.07 and 50, where `gradient` is right"
+        );
+        warn(warnings, format!("{path}.form"), message);
+    }
+    if cells.keeps_energy() && fewest < FEWEST_MOLECULES {
+        let message = format!(
+            "a cell holds {fewest:.0} molecules, and its temperature varies by {:.0} % in equilibrium; {FEWEST_MOLECULES} or \
+             more keep its internal energy clear of zero",
+            100.0 / fewest.sqrt()
+        );
+        warn(warnings, format!("{path}.molecular_mass"), message);
+    }
+    if let Some(conductivity) = cells.conductivity {
+        // Hot cells have fewer molecules at the same pressure.
+        let thinned = match voronoi.initial_masses {
+            InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
+            InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
+        };
+        let random = (2.0 * conductivity * scene.time.step).sqrt() * thinned / fewest;
+        if RARELY * random > cells.exchange_limit {
+            let message = format!(
+                "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \
+                 it often; a step of {:.2e} or less is advisable",
+                random,
+                cells.exchange_limit,
+                scene.time.step * (cells.exchange_limit / (RARELY * random)).powi(2)
+            );
+            warn(warnings, "time.step", message);
+        }
+    }
+    if voronoi.hottest(scene.temperature) == 0.0 {
+        let how = if cells.keeps_energy() { "until friction has heated them" } else { "at any time" };
+        let message = format!("without a temperature cells have no pressure {how}, and nothing keeps them apart");
+        warn(warnings, "temperature", message);
+    }
+    let coldest = scene.temperature;
+    for (index, amplitude, _) in shear_waves(scene) {
+        let sound = (if cells.keeps_energy() { 2.0 } else { 1.0 } * coldest / cells.molecular_mass).sqrt();
+        if amplitude.abs() > FLOW_LIMIT * sound {
+            let message = format!(
+                "the wave is {:.2} times as fast as sound; up to {FLOW_LIMIT} it does not compress the fluid",
+                amplitude.abs() / sound
+            );
+            warn(warnings, format!("particles[{index}].velocities.amplitude"), message);
+        }
+    }
+}
