@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use mesoscope::engine::Engine;
 
-use crate::Failure;
+use super::Failure;
 
 /// Time a submission should take, and the most steps in it: what `mesoscope run` settles on.
 const BATCH_SECONDS: f64 = 0.15;

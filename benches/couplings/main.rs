@@ -4,25 +4,20 @@
 //! `cargo bench --bench couplings` prints tables in Markdown. A variant and what it is compared with are measured in turns
 //! within one run, and ratios are taken round by round. The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
 
-#[path = "../common/machine.rs"]
-mod machine;
-#[path = "../common/statistics.rs"]
-mod statistics;
-#[path = "../common/timed.rs"]
-mod timed;
+#[path = "../common/mod.rs"]
+mod common;
 
 use clap::Parser;
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
-use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::gpu::Gpu;
 use mesoscope::plan::{self, Hardware, Options, Plan};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-use statistics::{grouped, ratios, spread};
-use timed::Run;
-
-type Failure = Box<dyn std::error::Error>;
+use common::statistics::{grouped, ratios, spread};
+use common::timed::Run;
+use common::{Failure, Report};
 
 /// Cost of couplings and baths.
 #[derive(Debug, Parser)]
@@ -56,32 +51,21 @@ fn variant(name: &'static str, changes: &[&str]) -> Variant {
 fn main() -> Result<(), Failure> {
     mesoscope::gpu::prepare_environment();
     let settings = Settings::parse();
-    let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;
     for &edge in &settings.edges {
         for variant in fluids() {
             largest_buffer = largest_buffer.max(fluid(edge, &variant)?.1.largest_buffer());
         }
     }
-    let requirements = Requirements { largest_buffer, ..Requirements::default() };
-    let gpu = Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements)?;
-    println!("## Couplings and baths: cost of a particle-step\n");
-    println!("{}", machine::describe(gpu.description(), "compared with pairs without memory, searched in cells"));
-    others("before");
+    let gpu = common::open(largest_buffer)?;
+    let peer = "compared with pairs without memory, searched in cells";
+    let report = Report::begin("Couplings and baths: cost of a particle-step", &gpu, peer);
     for &edge in &settings.edges {
         pairs(&gpu, edge, &settings)?;
     }
     small_systems(&gpu, &settings)?;
-    println!();
-    others("after");
+    report.end();
     Ok(())
-}
-
-/// Says what else the machine is doing.
-fn others(when: &str) {
-    if let Some(words) = machine::others() {
-        println!("- other programs {when} the measurement: {words}");
-    }
 }
 
 /// The standard fluid without memory, and with it in lists of several margins.

@@ -7,9 +7,9 @@ use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::scene;
 use mesoscope::state::State;
 
+use crate::common::statistics::{grouped, ratios, spread};
+use crate::common::timed::Run;
 use crate::fluid::Fluid;
-use crate::statistics::{grouped, ratios, spread};
-use crate::timed::Run;
 use crate::{Failure, Settings};
 
 struct Alternative {

@@ -8,7 +8,7 @@ use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
 use crate::Failure;
-use crate::timed::Run;
+use crate::common::timed::Run;
 
 /// Integrators as scenes name them.
 pub const INTEGRATORS: [&str; 2] = ["groot-warren", "splitting"];

@@ -6,28 +6,23 @@
 //! installed (see `lammps.rs`). The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
 
 mod alternatives;
+#[path = "../common/mod.rs"]
+mod common;
 mod fluid;
 mod lammps;
-#[path = "../common/machine.rs"]
-mod machine;
-#[path = "../common/statistics.rs"]
-mod statistics;
-#[path = "../common/timed.rs"]
-mod timed;
 
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::StageClock;
-use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::gpu::Gpu;
 use mesoscope::plan::Hardware;
 
+use common::statistics::{grouped, ratios, spread};
+use common::{Failure, Report};
 use fluid::{Fluid, INTEGRATORS};
 use lammps::Lammps;
-use statistics::{grouped, ratios, spread};
-
-type Failure = Box<dyn std::error::Error>;
 
 const TIME_STEPS: [f64; 2] = [0.01, 0.04];
 /// From here on a run of LAMMPS takes seconds: fewer rounds, and the skin found for the size before.
@@ -60,7 +55,6 @@ struct Settings {
 
 fn main() -> Result<(), Failure> {
     mesoscope::gpu::prepare_environment();
-    let begun = Instant::now();
     let mut settings = Settings::parse();
     if settings.quick {
         settings.rounds = 3;
@@ -73,10 +67,8 @@ fn main() -> Result<(), Failure> {
     } else {
         Lammps::start().and_then(|mut lammps| lammps.version())
     };
-    println!("## The DPD fluid: cost of a particle-step\n");
     let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
-    println!("{}", machine::describe(gpu.description(), &format!("LAMMPS: {words}")));
-    others("before");
+    let report = Report::begin("The DPD fluid: cost of a particle-step", &gpu, &format!("LAMMPS: {words}"));
     let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
     let price = beside_lammps(&gpu, &fluids, peer.is_ok(), &settings)?;
     price_of_accuracy(&price);
@@ -87,17 +79,8 @@ fn main() -> Result<(), Failure> {
         alternatives::compare(&gpu, fluid, &INTEGRATORS, &settings)?;
     }
     start_up(&gpu)?;
-    println!();
-    others("after");
-    println!("- measured in {:.0} s", begun.elapsed().as_secs_f64());
+    report.end();
     Ok(())
-}
-
-/// Says what else the machine is doing.
-fn others(when: &str) {
-    if let Some(words) = machine::others() {
-        println!("- other programs {when} the measurement: {words}");
-    }
 }
 
 /// The adapter, with room for the largest box.
@@ -107,8 +90,7 @@ fn open(settings: &Settings) -> Result<Gpu, Failure> {
         let plan = fluid::plan_of(&fluid::scene(edge, "splitting", 0.04)?, Hardware::default());
         largest_buffer = largest_buffer.max(plan.largest_buffer());
     }
-    let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-    Ok(Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements { largest_buffer, ..Requirements::default() })?)
+    Ok(common::open(largest_buffer)?)
 }
 
 /// Cost of a step of `splitting` in steps of `groot-warren`, round by round.

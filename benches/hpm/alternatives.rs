@@ -3,9 +3,9 @@
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 
+use crate::common::statistics::{grouped, ratios, spread};
+use crate::common::timed::Run;
 use crate::flow::{Flow, Start};
-use crate::statistics::{grouped, ratios, spread};
-use crate::timed::Run;
 use crate::{Failure, Settings};
 
 struct Alternative {

@@ -11,7 +11,7 @@ use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
 use crate::Failure;
-use crate::timed::Run;
+use crate::common::timed::Run;
 
 /// The mesh of the scene, at whose spacing it takes steps of this length.
 const SCENE_MESH: u32 = 64;

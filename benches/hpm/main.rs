@@ -12,27 +12,22 @@
 
 mod alternatives;
 mod bandwidth;
+#[path = "../common/mod.rs"]
+mod common;
 mod compiled_loop;
 mod flow;
-#[path = "../common/machine.rs"]
-mod machine;
-#[path = "../common/statistics.rs"]
-mod statistics;
-#[path = "../common/timed.rs"]
-mod timed;
 
 use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::StageClock;
-use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
+use mesoscope::gpu::{Gpu, GpuError};
 use mesoscope::plan::{Hardware, Options, Plan};
 
+use common::statistics::{grouped, median, ratios, spread};
+use common::{Failure, Report};
 use compiled_loop::CompiledLoop;
 use flow::{Flow, Size, Start};
-use statistics::{grouped, median, ratios, spread};
-
-type Failure = Box<dyn std::error::Error>;
 
 /// Steps after which the energies of mesoscope and the loop are compared, and by how much they may differ.
 const CHECKED_STEPS: u64 = 20;
@@ -68,16 +63,14 @@ struct Settings {
 
 fn main() -> Result<(), Failure> {
     mesoscope::gpu::prepare_environment();
-    let begun = Instant::now();
     let mut settings = Settings::parse();
     if settings.quick {
         settings.rounds = 3;
         settings.seconds = 0.1;
     }
     let (gpu, sizes) = open(&settings)?;
-    println!("## Shallow water: cost of a particle-step\n");
-    println!("{}", machine::describe(gpu.description(), &format!("compiled loop: {}", CompiledLoop::describe())));
-    others("before");
+    let peer = format!("compiled loop: {}", CompiledLoop::describe());
+    let report = Report::begin("Shallow water: cost of a particle-step", &gpu, &peer);
     let flows = sizes.into_iter().map(Flow::new).collect::<Result<Vec<_>, _>>()?;
     let costs = beside_the_loop(&gpu, &flows, &settings)?;
     by_stage(&gpu, &flows, &settings)?;
@@ -85,23 +78,12 @@ fn main() -> Result<(), Failure> {
     if settings.alternatives {
         alternatives::compare(&gpu, &flows, &settings)?;
     }
-    println!();
-    others("after");
-    println!("- measured in {:.0} s", begun.elapsed().as_secs_f64());
+    report.end();
     Ok(())
-}
-
-/// Says what else the machine is doing.
-fn others(when: &str) {
-    if let Some(words) = machine::others() {
-        println!("- other programs {when} the measurement: {words}");
-    }
 }
 
 /// The adapter with room for the largest size, and the sizes.
 fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
-    let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-    let choice = AdapterChoice::parse(name.as_deref());
     let with_room = |sizes: &[Size]| {
         let (mut needed, mut wished) = (0, 0);
         for &size in sizes {
@@ -110,10 +92,8 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
         }
         let wished = if settings.alternatives { wished } else { needed };
         // Alternatives that do not fit are left out.
-        match Gpu::open(&choice, Requirements { largest_buffer: wished.max(needed), ..Requirements::default() }) {
-            Err(GpuError::TooSmall { .. }) if wished > needed => {
-                Ok::<_, Failure>(Gpu::open(&choice, Requirements { largest_buffer: needed, ..Requirements::default() }))
-            }
+        match common::open(wished.max(needed)) {
+            Err(GpuError::TooSmall { .. }) if wished > needed => Ok::<_, Failure>(common::open(needed)),
             opened => Ok(opened),
         }
     };
@@ -122,7 +102,7 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     }
     let mut sizes = vec![Size::filled(64, 16), Size::filled(256, 16)];
     if !settings.quick {
-        let software = Gpu::open(&choice, Requirements::default())?.description().kind == "software";
+        let software = common::open(0)?.description().kind == "software";
         sizes.push(Size::filled(1024, if software { 4 } else { 16 }));
     }
     match with_room(&sizes)? {

@@ -3,28 +3,23 @@
 //! `cargo bench --bench voronoi` prints tables in Markdown. What is compared is measured in turns within one run, and ratios
 //! are taken round by round. The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
 
-#[path = "../common/machine.rs"]
-mod machine;
-#[path = "../common/statistics.rs"]
-mod statistics;
-#[path = "../common/timed.rs"]
-mod timed;
+#[path = "../common/mod.rs"]
+mod common;
 
 use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
-use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::gpu::Gpu;
 use mesoscope::plan::{self, Hardware, Options, Plan};
 use mesoscope::scene::{self, Scene};
 use mesoscope::tessellation::Tessellation;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
-use statistics::{grouped, ratios, spread};
-use timed::Run;
-
-type Failure = Box<dyn std::error::Error>;
+use common::statistics::{grouped, ratios, spread};
+use common::timed::Run;
+use common::{Failure, Report};
 
 /// Changes of a scene, and their name in a table.
 type Variant = (&'static str, &'static [&'static str]);
@@ -57,18 +52,14 @@ struct Settings {
 fn main() -> Result<(), Failure> {
     mesoscope::gpu::prepare_environment();
     let settings = Settings::parse();
-    let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let mut largest_buffer = 0;
     for &size in &settings.sizes {
         largest_buffer = largest_buffer.max(plan_of(&cells(size, &[])?, Hardware::default()).largest_buffer());
     }
-    let requirements = Requirements { largest_buffer, ..Requirements::default() };
-    let gpu = Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements)?;
-    println!("## Voronoi cells: cost of the tessellation\n");
+    let gpu = common::open(largest_buffer)?;
     let peer = "compared with the crate spade on one core: Delaunay triangulation of the same points by bulk load, without \
         periodic images; and the cells of `mesoscope::tessellation` made from it, with them";
-    println!("{}", machine::describe(gpu.description(), peer));
-    others("before");
+    let report = Report::begin("Voronoi cells: cost of the tessellation", &gpu, peer);
     println!("\nMillion cells/s; random points.\n");
     println!("| cells | device | spade | device / spade | cells from spade | device / cells from spade |");
     println!("|--:|--:|--:|--:|--:|--:|");
@@ -85,16 +76,8 @@ fn main() -> Result<(), Failure> {
             step(&gpu, size, variant, &settings)?;
         }
     }
-    println!();
-    others("after");
+    report.end();
     Ok(())
-}
-
-/// Says what else the machine is doing.
-fn others(when: &str) {
-    if let Some(words) = machine::others() {
-        println!("- other programs {when} the measurement: {words}");
-    }
 }
 
 /// Cells of mean area 1, with changes.

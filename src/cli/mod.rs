@@ -1,4 +1,4 @@
-//! The command line: one file per command.
+//! The command line: one file or folder per command.
 
 mod adapter_argument;
 mod adapters;
@@ -7,9 +7,11 @@ mod failure;
 mod interruption;
 mod plot;
 mod print;
+mod progress;
 mod report;
 mod resume;
 mod run;
+mod run_arguments;
 mod scene_arguments;
 mod scenes;
 mod schema;
@@ -26,6 +28,7 @@ use mesoscope::gpu::prepare_environment;
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
 pub use print::{line, print};
+pub use run_arguments::RunArguments;
 pub use scene_arguments::{SceneArguments, whole_number};
 
 /// Stochastic mesoscale particle simulations on any GPU.

@@ -3,7 +3,7 @@
 use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use mesoscope::families::{self, Model};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::numbers::{grouped, prefixed};
@@ -12,7 +12,7 @@ use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 use mesoscope::scene::{Interaction, Scene};
 
 use super::table::{aligned, dimensions};
-use super::{Failure, SceneArguments, line, print};
+use super::{Failure, SceneArguments, line, print, progress};
 
 /// Executes a run and reports on it, unless it is to be quiet.
 pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, quiet: bool) -> Result<(), Failure> {
@@ -99,10 +99,8 @@ impl Reporter {
                 ));
                 self.first_step = first_step;
                 if self.terminal {
-                    let bar = ProgressBar::new(last_step).with_position(first_step);
-                    let style = ProgressStyle::with_template("step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
-                    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
-                    self.bar = Some(bar);
+                    let bar = progress::bar(last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
+                    self.bar = Some(bar.with_position(first_step));
                 }
             }
             Event::Advanced(progress) => self.advanced(&progress),

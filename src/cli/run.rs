@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use mesoscope::printable;
 use mesoscope::run::Simulation;
 
-use super::{AdapterArgument, Failure, SceneArguments, report};
+use super::{Failure, RunArguments, SceneArguments, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -27,15 +27,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
 
     #[command(flatten)]
-    adapter: AdapterArgument,
-
-    /// Overwrite the results of an earlier run in the directory
-    #[arg(long)]
-    force: bool,
-
-    /// Report errors only
-    #[arg(long)]
-    quiet: bool,
+    how: RunArguments,
 }
 
 /// Simulates the scene.
@@ -43,6 +35,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, notices) = arguments.scene.load()?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = printable::path(&directory);
-    let simulation = Simulation::start(scene, directory, arguments.force).noting(&notices);
-    report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
+    let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
+    report::execute(simulation, &arguments.how.adapter.choice(), &shown, arguments.how.quiet)
 }

@@ -6,7 +6,7 @@ use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Sweep, SweepError, SweepOutcome, SweepRun};
 
 use super::sweep_report::{self, Reporter};
-use super::{AdapterArgument, Failure, print, report, whole_number};
+use super::{Failure, RunArguments, print, report, whole_number};
 
 /// Run variants of a scene, and compare them in one table and one plot per quantity
 #[derive(Debug, clap::Args)]
@@ -69,15 +69,7 @@ pub struct Arguments {
     jobs: Option<u16>,
 
     #[command(flatten)]
-    adapter: AdapterArgument,
-
-    /// Overwrite the results of an earlier sweep in the directory
-    #[arg(long)]
-    force: bool,
-
-    /// Report errors only
-    #[arg(long)]
-    quiet: bool,
+    how: RunArguments,
 }
 
 /// Runs the variants.
@@ -93,12 +85,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let set: Vec<String> = arguments.set.iter().cloned().chain(seed).collect();
         let sweep = Sweep::load(scene, &set, arguments.steps, &arguments.vary, &arguments.also)?;
         let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-sweep", report::stem(scene)).into());
-        (SweepRun::start(sweep, &directory, look, arguments.force), directory)
+        (SweepRun::start(sweep, &directory, look, arguments.how.force), directory)
     };
-    let choice = arguments.adapter.choice();
+    let choice = arguments.how.adapter.choice();
     let jobs = arguments.jobs.map(usize::from);
     let run = run.until(&super::interruption::interrupt());
-    let outcome = if arguments.quiet {
+    let outcome = if arguments.how.quiet {
         run.execute(&choice, jobs, &mut |_| {})?
     } else {
         let mut reporter = Reporter::new(run.sweep().clone());

@@ -3,7 +3,7 @@
 use std::io::IsTerminal as _;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use mesoscope::families;
 use mesoscope::numbers::prefixed;
 use mesoscope::output::summary::Unequilibrated;
@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 
 use super::report::{duration, marked};
 use super::table::aligned;
-use super::{line, print};
+use super::{line, print, progress};
 
 /// Columns of the table at the end, where a variant has them.
 const SHOWN: [&str; 4] = ["total_energy", "temperature", "configurational_temperature", "pressure"];
@@ -110,10 +110,7 @@ impl Reporter {
                 ));
                 self.waiting = waiting;
                 if std::io::stderr().is_terminal() {
-                    let bar = ProgressBar::new(0);
-                    let style = ProgressStyle::with_template("{wide_bar} {percent:>3}%  {msg}");
-                    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
-                    self.bar = Some(bar);
+                    self.bar = Some(progress::bar(0, "{wide_bar} {percent:>3}%  {msg}"));
                 }
             }
             SweepEvent::Begun { variant, first_step } => self.under_way.push((variant, first_step, None)),

@@ -1,6 +1,7 @@
 //! Curves fitted to decays by nonlinear least squares.
 
-use super::correlation::{Coefficient, WindowedAverage, jackknife_error};
+use super::correlation::{Coefficient, WindowedAverage};
+use super::statistics::jackknife_error;
 use crate::scene::DecayFit;
 
 /// Steps of the solver after which a fit counts as failed.

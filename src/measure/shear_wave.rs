@@ -1,6 +1,7 @@
 //! The decay of a shear wave, and the viscosity that follows from it.
 
-use super::correlation::{Coefficient, jackknife_error};
+use super::correlation::Coefficient;
+use super::statistics::jackknife_error;
 
 /// How fast a shear wave decays.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -116,6 +116,20 @@ pub fn independent(values: &[f64]) -> Option<(f64, Option<f64>)> {
     Some((mean, variance_of_mean(values).map(f64::sqrt)))
 }
 
+/// Fewest values of a jackknife that give an error.
+pub(super) const FEWEST_REPLICATES: usize = 5;
+
+/// The jackknife's standard error from the values with one block left out each.
+pub(super) fn jackknife_error(replicates: &[f64]) -> Option<f64> {
+    if replicates.len() < FEWEST_REPLICATES {
+        return None;
+    }
+    let count = replicates.len() as f64;
+    let mean = replicates.iter().sum::<f64>() / count;
+    let squares: f64 = replicates.iter().map(|value| (value - mean).powi(2)).sum();
+    Some((squares * (count - 1.0) / count).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]

@@ -2,7 +2,7 @@
 
 use super::field::FieldScene;
 use super::palette::linear;
-use super::renderer::{Target, colour_attachment, module, pipeline};
+use super::pipelines::{Target, colour_attachment, module, pipeline};
 use bytemuck::{Pod, Zeroable};
 
 /// The uniform of `field.wgsl`.

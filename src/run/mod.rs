@@ -33,12 +33,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod adapter;
 mod analyses;
 mod colour_ranges;
 mod conservation;
 mod energies;
 mod error;
 mod exchange_tally;
+mod execution;
 mod interrupt;
 mod kept_sums;
 mod pace;
@@ -50,15 +52,18 @@ mod settling;
 mod shown_field;
 mod simulation;
 mod sizes;
+mod task;
 
+pub use adapter::adapter_for;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
+pub use execution::Outcome;
 pub use interrupt::Interrupt;
 pub(crate) use pictures::save;
 pub use pictures::{lettering, redraw};
 pub use pilot::{ExpectedTime, expected_time};
-pub use simulation::{Outcome, Simulation, adapter_for};
+pub use simulation::Simulation;
 pub use sizes::Sizes;
 
 use crate::gpu::AdapterDescription;

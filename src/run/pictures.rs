@@ -1,10 +1,10 @@
 //! The pictures of a run, drawn from its tables and states.
 
 use super::RunError;
+use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
-use super::shown_field::{ShownField, closed_loops};
-use super::simulation::{mesh_depth, open_adapter, plan_for};
+use super::shown_field::{ShownField, closed_loops, mesh_depth};
 use crate::engine::Engine;
 use crate::families::{Model, ShallowWater, Voronoi};
 use crate::gpu::{AdapterChoice, Gpu};

@@ -1,7 +1,7 @@
 //! How long a run would take: a few steps of it, timed.
 
 use super::RunError;
-use super::simulation::plan_for;
+use super::adapter::plan_for;
 use crate::engine::{Engine, EngineError};
 use crate::families::{self, Model};
 use crate::gpu::Gpu;

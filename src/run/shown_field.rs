@@ -1,5 +1,7 @@
 //! What the fields of shallow water are called and how they are shown.
 
+use super::RunError;
+use crate::engine::Engine;
 use crate::families::{Model, ShallowWater};
 use crate::measure::circulation::largest_gap;
 use crate::measure::{Field, MeshFlow};
@@ -50,6 +52,12 @@ impl ShownField {
             values: places.map(|place| self.values[place]).collect(),
         }
     }
+}
+
+/// The smoothed depth on the nodes of the mesh, right after a report.
+pub(super) fn mesh_depth(engine: &mut Engine<'_>, water: &ShallowWater) -> Result<Vec<f64>, RunError> {
+    let words = engine.words("depths")?;
+    Ok(words.iter().take(water.nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
 
 /// The points of every closed loop of tracers that is still a curve.

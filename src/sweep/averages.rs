@@ -2,7 +2,7 @@
 
 use super::naming;
 use super::observables::{Observable, observables};
-use super::summary::{VariantState, VariantSummary};
+use super::variant::{VariantState, VariantSummary};
 use super::variation::Setting;
 use crate::measure::statistics::Estimate;
 use serde::{Deserialize, Serialize};

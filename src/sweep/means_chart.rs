@@ -2,9 +2,9 @@
 
 use super::averages::{Group, SEED, groups};
 use super::expansion::Sweep;
+use super::look::Look;
 use super::naming::{readable, short_keys};
 use super::observables::Observable;
-use super::plots::Look;
 use super::summary::SweepSummary;
 use super::variation::Setting;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
@@ -185,7 +185,7 @@ fn is_geometric(values: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::super::summary::VariantState;
+    use super::super::variant::VariantState;
     use super::*;
     use crate::plot::Scale;
     use serde_json::json;

@@ -1,6 +1,6 @@
 //! Names of variants, for directories and for people.
 
-use super::Setting;
+use super::variation::Setting;
 use serde_json::Value;
 
 /// The variant that changes nothing.

@@ -1,6 +1,6 @@
 //! The numbers that came out of a variant: means of the table of energies and results of the analyses.
 
-use super::summary::VariantSummary;
+use super::variant::VariantSummary;
 use serde_json::Value;
 
 /// A quantity with its standard error, which may be missing.

@@ -4,47 +4,16 @@ use super::error::SweepError;
 use super::expansion::{Sweep, Variant};
 use super::files;
 use super::means_chart;
-use super::summary::{SweepSummary, VariantState};
-use crate::families::Model;
+use super::summary::SweepSummary;
+use super::variant::VariantState;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::output::{RunDirectory, files as run_files};
 use crate::plot::{Curve, Plotter, SeriesInk, overlay_chart};
 use crate::run;
 use crate::scene::{self, PlotStyle};
 use crate::table::Table;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
-
-/// What the plots of a sweep show.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Look {
-    /// Every quantity is divided by its own first value.
-    pub relative: bool,
-    /// The quantities to plot; none means all that change in any variant.
-    pub quantities: Vec<String>,
-}
-
-impl Look {
-    /// Looks for quantities that no variant measures.
-    ///
-    /// # Errors
-    /// [`SweepError::Quantity`] names the first.
-    pub(super) fn check(&self, sweep: &Sweep) -> Result<(), SweepError> {
-        let mut accepted: Vec<String> = Vec::new();
-        for variant in sweep.variants() {
-            for quantity in run::quantities(&Model::new(&variant.scene)) {
-                if accepted.iter().all(|known| known != quantity) {
-                    accepted.push(quantity.to_owned());
-                }
-            }
-        }
-        match self.quantities.iter().find(|wanted| !accepted.contains(wanted)) {
-            Some(wanted) => Err(SweepError::Quantity { wanted: wanted.clone(), accepted }),
-            None => Ok(()),
-        }
-    }
-}
 
 /// A scale of colours says more than colours apart from more than this many values on.
 const FEW: usize = 5;

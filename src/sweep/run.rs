@@ -3,8 +3,10 @@
 use super::directory;
 use super::error::SweepError;
 use super::expansion::{Sweep, Variant};
-use super::plots::{self, Look};
-use super::summary::{SweepSummary, VariantSummary};
+use super::look::Look;
+use super::plots;
+use super::summary::SweepSummary;
+use super::variant::VariantSummary;
 use super::{default_jobs, files, table};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};

@@ -4,10 +4,11 @@ use super::averages::{SeedAverage, averages};
 use super::error::SweepError;
 use super::expansion::Sweep;
 use super::files;
-use super::plots::Look;
+use super::look::Look;
+use super::variant::{VariantState, VariantSummary};
 use super::variation::{Setting, Variation};
-use crate::output::summary::{AdapterSummary, Unequilibrated};
-use crate::output::{OutputError, Summary, write_atomically};
+use crate::output::summary::AdapterSummary;
+use crate::output::{OutputError, write_atomically};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -39,63 +40,6 @@ pub struct SweepSummary {
     pub averages: Vec<SeedAverage>,
     /// The scene as it was written, before all of this.
     pub base: Value,
-}
-
-/// What came out of one variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct VariantSummary {
-    /// Name of its directory.
-    pub name: String,
-    /// What a legend calls it.
-    pub label: String,
-    /// What distinguishes it.
-    pub settings: Vec<Setting>,
-    /// How far it came.
-    pub state: VariantState,
-    /// Why it failed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub failure: Option<String>,
-    /// Number of particles.
-    pub particles: u64,
-    /// Step of the last state.
-    pub steps: u64,
-    /// Wall-clock time of the steps, in seconds.
-    pub wall_seconds: f64,
-    /// Particles times steps over wall-clock time.
-    pub particle_steps_per_second: f64,
-    /// Means of the table of energies, as in `run.json`.
-    pub means: Map<String, Value>,
-    /// Results of the analyses, as in `run.json`.
-    pub results: Map<String, Value>,
-    /// Means that include the way to equilibrium, as in `run.json`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub unequilibrated: Option<Unequilibrated>,
-    /// What the user should know before trusting the numbers.
-    pub warnings: Vec<String>,
-}
-
-/// How far a variant came.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum VariantState {
-    /// It has not ended yet.
-    Waiting,
-    /// It came to its last step.
-    Finished,
-    /// It failed.
-    Failed,
-}
-
-impl VariantState {
-    /// The word that tables and messages use.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Waiting => "waiting",
-            Self::Finished => "finished",
-            Self::Failed => "failed",
-        }
-    }
 }
 
 impl SweepSummary {
@@ -167,27 +111,5 @@ impl SweepSummary {
     pub(super) fn sweep(&self) -> Result<Sweep, SweepError> {
         let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
         Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())
-    }
-}
-
-impl VariantSummary {
-    /// Takes over what a finished run says.
-    pub(super) fn finish(&mut self, run: &Summary) {
-        self.state = VariantState::Finished;
-        self.failure = None;
-        self.particles = run.particles;
-        self.steps = run.steps;
-        self.wall_seconds = run.wall_seconds;
-        self.particle_steps_per_second = run.particle_steps_per_second;
-        self.means.clone_from(&run.means);
-        self.results.clone_from(&run.results);
-        self.unequilibrated.clone_from(&run.unequilibrated);
-        self.warnings.clone_from(&run.warnings);
-    }
-
-    /// Notes a failure.
-    pub(super) fn fail(&mut self, message: String) {
-        self.state = VariantState::Failed;
-        self.failure = Some(message);
     }
 }

@@ -126,8 +126,8 @@ fn number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::plots::Look;
-    use super::super::summary::{VariantState, VariantSummary};
+    use super::super::look::Look;
+    use super::super::variant::{VariantState, VariantSummary};
     use super::*;
     use serde_json::{Map, json};
 

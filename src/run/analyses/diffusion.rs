@@ -6,7 +6,8 @@ use super::{
 };
 use crate::engine::Sample;
 use crate::families::Model;
-use crate::measure::correlation::{WindowedAverage, diffusion_from_displacement, diffusion_from_velocity};
+use crate::measure::correlation::WindowedAverage;
+use crate::measure::diffusion::{diffusion_from_displacement, diffusion_from_velocity};
 use crate::plot::{Chart, diffusion_chart};
 use crate::scene::{self, Scene};
 use crate::table::Table;

@@ -3,7 +3,7 @@
 use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, printed};
 use crate::engine::Sample;
 use crate::families::Model;
-use crate::measure::correlation::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
+use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
 use crate::plot::{Chart, Found, viscosity_chart};
 use crate::scene::{self, Scene};
 use crate::table::Table;

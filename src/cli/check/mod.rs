@@ -1,14 +1,16 @@
 //! `mesoscope check`: what a scene requires.
 
+mod files;
+mod kernels;
+
 use std::fmt::Write as _;
 
 use mesoscope::engine::EngineError;
 use mesoscope::families::{self, Model, NETWORK_VISCOSITY, ShallowWater};
-use mesoscope::gpu::{self, GpuError};
+use mesoscope::gpu::GpuError;
 use mesoscope::numbers::{bytes, grouped, six_digits};
-use mesoscope::output::files;
 use mesoscope::plan::smoothing::iterations;
-use mesoscope::plan::{self, Hardware, Layout, Options, Plan, TIDYING};
+use mesoscope::plan::{self, Hardware, Layout, Options, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{
@@ -64,9 +66,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sizes = Sizes::of(&scene, &model, &plan);
     let mut text = overview(&scene, &model, &plan, &adapter, time, &sizes);
-    text.push_str(&outputs(&scene, &model, &sizes));
+    text.push_str(&files::outputs(&scene, &model, &sizes));
     if arguments.kernels {
-        kernels(&mut text, &plan)?;
+        kernels::kernels(&mut text, &plan)?;
     }
     for warning in &warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
@@ -113,41 +115,6 @@ fn duration(seconds: f64) -> String {
 
 fn two_digits(value: f64) -> String {
     if value < 0.1 { format!("{value:.1e}") } else { format!("{value:.1}") }
-}
-
-/// All kernels, stage by stage, and the buffers.
-fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
-    let tidying = format!("Every {TIDYING} steps: put them in order in memory too");
-    let stages = [
-        ("Once, before the first step", &plan.prepare),
-        ("Every step: order the particles by cell", &plan.sort),
-        (tidying.as_str(), &plan.tidy),
-        ("Every step: before anything is measured", &plan.before_report),
-        ("Every step without a measurement", &plan.advance),
-        ("Every step with a measurement: measure", &plan.report),
-        ("Every step with a measurement: finish it", &plan.finish_report),
-    ];
-    let shared = Shared::of(plan)?;
-    if !shared.modules.is_empty() {
-        text.push_str("\nShared by all kernels that see particles\n");
-    }
-    wrapped(text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
-    wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
-    let mut described = Vec::new();
-    for (heading, kernels) in stages {
-        section(text, heading, plan, kernels, &shared, &mut described)?;
-    }
-    for sampler in &plan.samplers {
-        let heading = format!("{}: {}", sampler.id.name(), interval(sampler.first, sampler.every));
-        section(text, &heading, plan, &sampler.kernels, &shared, &mut described)?;
-    }
-    buffers(text, plan);
-    Ok(())
-}
-
-fn interval(first: u64, every: u64) -> String {
-    let every = if every == 1 { "every step".to_owned() } else { format!("every {} steps", grouped(every)) };
-    if first == 0 { every } else { format!("{every} from step {}", grouped(first)) }
 }
 
 fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Option<String>, sizes: &Sizes) -> String {
@@ -315,172 +282,8 @@ fn mesh(
     rows
 }
 
-fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
-    let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
-    Some(format!("{name} = {}", six_digits(*value)))
-}
-
-/// What all kernels that see particles have in common, so that it need not be said of each.
-struct Shared {
-    modules: Vec<&'static str>,
-    constants: Vec<String>,
-}
-
-impl Shared {
-    fn of(plan: &Plan) -> Result<Self, Failure> {
-        let mut shared: Option<Self> = None;
-        for kernel in plan
-            .kernels
-            .iter()
-            .filter(|kernel| kernel.modules.iter().any(|module| module.starts_with("common/particle")))
-        {
-            let constants = gpu::link(kernel.name, &kernel.modules)?.overrides;
-            // A constant that a kernel sets for itself is not shared.
-            let own = |name: &String| kernel.constants.iter().any(|(known, _)| known == name);
-            match &mut shared {
-                None => {
-                    let constants = constants.into_iter().filter(|name| !own(name)).collect();
-                    shared = Some(Self { modules: kernel.modules.clone(), constants });
-                }
-                Some(shared) => {
-                    shared.modules.retain(|module| kernel.modules.contains(module));
-                    shared.constants.retain(|name| constants.contains(name) && !own(name));
-                }
-            }
-        }
-        Ok(shared.unwrap_or(Self { modules: Vec::new(), constants: Vec::new() }))
-    }
-
-    /// Whether a kernel with these modules is one of those.
-    fn among(&self, modules: &[&'static str]) -> bool {
-        self.modules.iter().all(|module| modules.contains(module))
-    }
-}
-
-/// Kernels under a heading; one that has been described before is only named.
-fn section(
-    text: &mut String,
-    heading: &str,
-    plan: &Plan,
-    kernels: &[usize],
-    shared: &Shared,
-    described: &mut Vec<usize>,
-) -> Result<(), Failure> {
-    if kernels.is_empty() {
-        return Ok(());
-    }
-    let _ = writeln!(text, "\n{heading}");
-    for (place, &index) in kernels.iter().enumerate() {
-        if kernels[..place].contains(&index) {
-            continue;
-        }
-        let kernel = &plan.kernels[index];
-        let noun = if kernel.workgroups == 1 { "workgroup" } else { "workgroups" };
-        let times = match kernels.iter().filter(|other| **other == index).count() {
-            1 => String::new(),
-            count => format!(", {count} times"),
-        };
-        let _ = writeln!(text, "  {}, {} {noun}{times}", kernel.name, grouped(kernel.workgroups.into()));
-        if described.contains(&index) {
-            continue;
-        }
-        described.push(index);
-        let linked = gpu::link(kernel.name, &kernel.modules)?;
-        let own = |name: &&&'static str| !shared.among(&kernel.modules) || !shared.modules.contains(name);
-        wrapped(text, "modules", kernel.modules.iter().filter(own).map(|module| (*module).to_owned()));
-        // A kernel's own constants come before those of the plan, as in the engine.
-        let constants = [&kernel.constants[..], &plan.constants].concat();
-        let own =
-            linked.overrides.iter().filter(|name| !shared.among(&kernel.modules) || !shared.constants.contains(*name));
-        wrapped(text, "constants", own.filter_map(|name| constant(&constants, name)));
-        let buffer = |variable: &str| {
-            let renamed = kernel.renamed.iter().find(|(name, _)| *name == variable);
-            renamed.map_or(variable, |(_, buffer)| buffer).to_owned()
-        };
-        wrapped(text, "buffers", linked.bindings.iter().map(|binding| buffer(&binding.name)));
-    }
-    Ok(())
-}
-
-/// A label and a list, broken into lines of at most 110 characters.
-fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) {
-    let mut line = format!("      {label:<9} ");
-    let indent = line.len();
-    let mut items = items.peekable();
-    if items.peek().is_none() {
-        return;
-    }
-    while let Some(item) = items.next() {
-        if line.chars().count() > indent && line.chars().count() + item.chars().count() > 109 {
-            let _ = writeln!(text, "{}", line.trim_end());
-            line = " ".repeat(indent);
-        }
-        line.push_str(&item);
-        if items.peek().is_some() {
-            line.push_str(", ");
-        }
-    }
-    let _ = writeln!(text, "{line}");
-}
-
-fn buffers(text: &mut String, plan: &Plan) {
-    let rows: Vec<Vec<String>> = plan
-        .buffers
-        .iter()
-        .map(|buffer| (buffer.name, buffer.bytes, buffer.purpose))
-        .chain(plan.textures.iter().map(|texture| (texture.name, texture.bytes(), texture.purpose)))
-        .map(|(name, size, purpose)| vec![name.to_owned(), bytes(size), purpose.to_owned()])
-        .collect();
-    let title = if plan.textures.is_empty() { "Buffers" } else { "Buffers and textures" };
-    let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));
-}
-
-fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
-    let output = &scene.output;
-    let mut rows = vec![
-        (files::ENERGIES.to_owned(), sized(&format!("a row {}", interval(0, output.energies.every)), sizes.energies)),
-        (format!("{}, {}", files::ENERGIES_PLOT, files::SUMMARY), "at the end".to_owned()),
-        (
-            files::CHECKPOINT.to_owned(),
-            sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
-        ),
-    ];
-    if model.shallow_water().is_some() {
-        let fields = output.fields.clone().unwrap_or_default();
-        for quantity in fields.quantities {
-            let stem = quantity.stem();
-            rows.push((format!("{stem}.png, {stem}.npy"), "at the end".to_owned()));
-            if fields.every > 0 {
-                rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));
-            }
-        }
-    } else if model.units.dimension > 1 {
-        rows.push((files::SNAPSHOT.to_owned(), "at the end".to_owned()));
-        if output.snapshot.every > 0 {
-            rows.push(("snapshot-….png".to_owned(), sized(&interval(0, output.snapshot.every), sizes.numbered)));
-        }
-    }
-    if let Some(trajectory) = &output.trajectory {
-        let name = files::trajectory(trajectory.format);
-        rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
-    }
-    rows.extend(analyses(scene, model));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
-    format!("\nFiles\n{}", aligned(&rows, "  "))
-}
-
-/// When a file is written and how long it becomes.
-fn sized(when: &str, size: u64) -> String {
-    format!("{when}, about {}", bytes(size))
-}
-
-/// Files of the analyses, which are written at the end.
-fn analyses(scene: &Scene, model: &Model) -> Vec<(String, String)> {
-    let mut rows = Vec::new();
-    for asked in run::asked_analyses(scene, model) {
-        let sampled = format!("sampled {}", interval(asked.first, asked.every));
-        let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
-        rows.extend(asked.id.tables().iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
-    }
-    rows
+/// How often something is done.
+fn interval(first: u64, every: u64) -> String {
+    let every = if every == 1 { "every step".to_owned() } else { format!("every {} steps", grouped(every)) };
+    if first == 0 { every } else { format!("{every} from step {}", grouped(first)) }
 }

@@ -1,0 +1,60 @@
+//! The files of a run, when they are written and how long they become.
+
+use mesoscope::families::Model;
+use mesoscope::numbers::bytes;
+use mesoscope::output::files;
+use mesoscope::run::{self, Sizes};
+use mesoscope::scene::Scene;
+
+use super::interval;
+use crate::cli::table::aligned;
+
+pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
+    let output = &scene.output;
+    let mut rows = vec![
+        (files::ENERGIES.to_owned(), sized(&format!("a row {}", interval(0, output.energies.every)), sizes.energies)),
+        (format!("{}, {}", files::ENERGIES_PLOT, files::SUMMARY), "at the end".to_owned()),
+        (
+            files::CHECKPOINT.to_owned(),
+            sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
+        ),
+    ];
+    if model.shallow_water().is_some() {
+        let fields = output.fields.clone().unwrap_or_default();
+        for quantity in fields.quantities {
+            let stem = quantity.stem();
+            rows.push((format!("{stem}.png, {stem}.npy"), "at the end".to_owned()));
+            if fields.every > 0 {
+                rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));
+            }
+        }
+    } else if model.units.dimension > 1 {
+        rows.push((files::SNAPSHOT.to_owned(), "at the end".to_owned()));
+        if output.snapshot.every > 0 {
+            rows.push(("snapshot-….png".to_owned(), sized(&interval(0, output.snapshot.every), sizes.numbered)));
+        }
+    }
+    if let Some(trajectory) = &output.trajectory {
+        let name = files::trajectory(trajectory.format);
+        rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
+    }
+    rows.extend(analyses(scene, model));
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
+    format!("\nFiles\n{}", aligned(&rows, "  "))
+}
+
+/// When a file is written and how long it becomes.
+fn sized(when: &str, size: u64) -> String {
+    format!("{when}, about {}", bytes(size))
+}
+
+/// Files of the analyses, which are written at the end.
+fn analyses(scene: &Scene, model: &Model) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    for asked in run::asked_analyses(scene, model) {
+        let sampled = format!("sampled {}", interval(asked.first, asked.every));
+        let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
+        rows.extend(asked.id.tables().iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
+    }
+    rows
+}

@@ -1,0 +1,161 @@
+//! Kernels, stage by stage, and buffers.
+
+use std::fmt::Write as _;
+
+use mesoscope::gpu;
+use mesoscope::numbers::{bytes, grouped, six_digits};
+use mesoscope::plan::{Plan, TIDYING};
+
+use super::interval;
+use crate::cli::Failure;
+use crate::cli::table::aligned;
+
+/// All kernels, stage by stage, and the buffers.
+pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
+    let tidying = format!("Every {TIDYING} steps: put them in order in memory too");
+    let stages = [
+        ("Once, before the first step", &plan.prepare),
+        ("Every step: order the particles by cell", &plan.sort),
+        (tidying.as_str(), &plan.tidy),
+        ("Every step: before anything is measured", &plan.before_report),
+        ("Every step without a measurement", &plan.advance),
+        ("Every step with a measurement: measure", &plan.report),
+        ("Every step with a measurement: finish it", &plan.finish_report),
+    ];
+    let shared = Shared::of(plan)?;
+    if !shared.modules.is_empty() {
+        text.push_str("\nShared by all kernels that see particles\n");
+    }
+    wrapped(text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
+    wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
+    let mut described = Vec::new();
+    for (heading, kernels) in stages {
+        section(text, heading, plan, kernels, &shared, &mut described)?;
+    }
+    for sampler in &plan.samplers {
+        let heading = format!("{}: {}", sampler.id.name(), interval(sampler.first, sampler.every));
+        section(text, &heading, plan, &sampler.kernels, &shared, &mut described)?;
+    }
+    buffers(text, plan);
+    Ok(())
+}
+
+fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
+    let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
+    Some(format!("{name} = {}", six_digits(*value)))
+}
+
+/// What all kernels that see particles have in common, so that it need not be said of each.
+struct Shared {
+    modules: Vec<&'static str>,
+    constants: Vec<String>,
+}
+
+impl Shared {
+    fn of(plan: &Plan) -> Result<Self, Failure> {
+        let mut shared: Option<Self> = None;
+        for kernel in plan
+            .kernels
+            .iter()
+            .filter(|kernel| kernel.modules.iter().any(|module| module.starts_with("common/particle")))
+        {
+            let constants = gpu::link(kernel.name, &kernel.modules)?.overrides;
+            // A constant that a kernel sets for itself is not shared.
+            let own = |name: &String| kernel.constants.iter().any(|(known, _)| known == name);
+            match &mut shared {
+                None => {
+                    let constants = constants.into_iter().filter(|name| !own(name)).collect();
+                    shared = Some(Self { modules: kernel.modules.clone(), constants });
+                }
+                Some(shared) => {
+                    shared.modules.retain(|module| kernel.modules.contains(module));
+                    shared.constants.retain(|name| constants.contains(name) && !own(name));
+                }
+            }
+        }
+        Ok(shared.unwrap_or(Self { modules: Vec::new(), constants: Vec::new() }))
+    }
+
+    /// Whether a kernel with these modules is one of those.
+    fn among(&self, modules: &[&'static str]) -> bool {
+        self.modules.iter().all(|module| modules.contains(module))
+    }
+}
+
+/// Kernels under a heading; one that has been described before is only named.
+fn section(
+    text: &mut String,
+    heading: &str,
+    plan: &Plan,
+    kernels: &[usize],
+    shared: &Shared,
+    described: &mut Vec<usize>,
+) -> Result<(), Failure> {
+    if kernels.is_empty() {
+        return Ok(());
+    }
+    let _ = writeln!(text, "\n{heading}");
+    for (place, &index) in kernels.iter().enumerate() {
+        if kernels[..place].contains(&index) {
+            continue;
+        }
+        let kernel = &plan.kernels[index];
+        let noun = if kernel.workgroups == 1 { "workgroup" } else { "workgroups" };
+        let times = match kernels.iter().filter(|other| **other == index).count() {
+            1 => String::new(),
+            count => format!(", {count} times"),
+        };
+        let _ = writeln!(text, "  {}, {} {noun}{times}", kernel.name, grouped(kernel.workgroups.into()));
+        if described.contains(&index) {
+            continue;
+        }
+        described.push(index);
+        let linked = gpu::link(kernel.name, &kernel.modules)?;
+        let own = |name: &&&'static str| !shared.among(&kernel.modules) || !shared.modules.contains(name);
+        wrapped(text, "modules", kernel.modules.iter().filter(own).map(|module| (*module).to_owned()));
+        // A kernel's own constants come before those of the plan, as in the engine.
+        let constants = [&kernel.constants[..], &plan.constants].concat();
+        let own =
+            linked.overrides.iter().filter(|name| !shared.among(&kernel.modules) || !shared.constants.contains(*name));
+        wrapped(text, "constants", own.filter_map(|name| constant(&constants, name)));
+        let buffer = |variable: &str| {
+            let renamed = kernel.renamed.iter().find(|(name, _)| *name == variable);
+            renamed.map_or(variable, |(_, buffer)| buffer).to_owned()
+        };
+        wrapped(text, "buffers", linked.bindings.iter().map(|binding| buffer(&binding.name)));
+    }
+    Ok(())
+}
+
+/// A label and a list, broken into lines of at most 110 characters.
+fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) {
+    let mut line = format!("      {label:<9} ");
+    let indent = line.len();
+    let mut items = items.peekable();
+    if items.peek().is_none() {
+        return;
+    }
+    while let Some(item) = items.next() {
+        if line.chars().count() > indent && line.chars().count() + item.chars().count() > 109 {
+            let _ = writeln!(text, "{}", line.trim_end());
+            line = " ".repeat(indent);
+        }
+        line.push_str(&item);
+        if items.peek().is_some() {
+            line.push_str(", ");
+        }
+    }
+    let _ = writeln!(text, "{line}");
+}
+
+fn buffers(text: &mut String, plan: &Plan) {
+    let rows: Vec<Vec<String>> = plan
+        .buffers
+        .iter()
+        .map(|buffer| (buffer.name, buffer.bytes, buffer.purpose))
+        .chain(plan.textures.iter().map(|texture| (texture.name, texture.bytes(), texture.purpose)))
+        .map(|(name, size, purpose)| vec![name.to_owned(), bytes(size), purpose.to_owned()])
+        .collect();
+    let title = if plan.textures.is_empty() { "Buffers" } else { "Buffers and textures" };
+    let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));
+}

@@ -1,0 +1,18 @@
+//! Arguments of every command that runs something into a directory.
+
+use super::AdapterArgument;
+
+/// How to run.
+#[derive(Debug, clap::Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub adapter: AdapterArgument,
+
+    /// Overwrite the results of an earlier run in the directory
+    #[arg(long)]
+    pub force: bool,
+
+    /// Report errors only
+    #[arg(long)]
+    pub quiet: bool,
+}

@@ -1,0 +1,56 @@
+//! The adapter of a run, and the plan for it.
+
+use super::RunError;
+use crate::families::Model;
+use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
+use crate::plan::{self, Hardware, Options, Plan};
+use crate::scene::Scene;
+
+/// Opens an adapter with room for the buffers of a scene.
+pub(super) fn open_adapter(
+    scene: &Scene,
+    model: &Model,
+    choice: &AdapterChoice,
+    options: Options,
+) -> Result<Gpu, RunError> {
+    let open = |hardware| {
+        let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
+        plan::check_precision(scene, &plan)?;
+        let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
+        Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() }).map_err(
+            |error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
+                Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
+                    RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
+                }
+                _ => error.into(),
+            },
+        )
+    };
+    match open(Hardware::default()) {
+        // What the plan for any adapter needs this one may not: some get by with smaller buffers.
+        Err(RunError::TooLarge { .. }) => open(Hardware::from(&Gpu::open(choice, Requirements::default())?)),
+        opened => opened,
+    }
+}
+
+/// Opens the adapter that a run of this scene would open.
+///
+/// ```
+/// use mesoscope::gpu::AdapterChoice;
+/// use mesoscope::{run, scene};
+///
+/// let gpu = run::adapter_for(&scene::load("dpd-fluid", &[])?, &AdapterChoice::Best)?;
+/// println!("{}", gpu.description().name);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError::Gpu`] without an adapter that has room for it, [`RunError::Scene`] if its numbers are beyond single precision.
+pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    open_adapter(scene, &Model::new(scene), choice, Options::default())
+}
+
+/// The plan of a scene on an adapter.
+pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
+    plan::plan(model, scene.time.equilibration, &scene.output, gpu.into(), options)
+}

@@ -1,0 +1,319 @@
+//! A run under way: from one event to the next, and its files.
+
+use super::analyses::Analyses;
+use super::conservation::{conserved, not_conserved};
+use super::energies::{self, EnergyRecorder};
+use super::exchange_tally::{self, ExchangeTally};
+use super::kept_sums::{self, KeptSums};
+use super::pace::Pace;
+use super::pictures::Pictures;
+use super::schedule::Schedule;
+use super::sections::Sections;
+use super::shown_field::mesh_depth;
+use super::task::Task;
+use super::{Event, Progress, RunError};
+use crate::engine::{Engine, Sample};
+use crate::families::{KeptQuantity, Model};
+use crate::gpu::Gpu;
+use crate::measure::observables_of;
+use crate::output::summary::AdapterSummary;
+use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What a run leaves.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Outcome {
+    /// What `run.json` says.
+    pub summary: Summary,
+    /// Names of the files of this run that are in its directory, sorted; numbered snapshots are counted instead.
+    pub files: Vec<&'static str>,
+    /// Number of numbered snapshots.
+    pub snapshots: u64,
+}
+
+/// A run under way: its open files and what it has gathered.
+pub(super) struct Run<'a> {
+    task: &'a Task,
+    scene: &'a Scene,
+    model: &'a Model,
+    gpu: &'a Gpu,
+    directory: &'a RunDirectory,
+    schedule: Schedule,
+    pub energies: EnergyRecorder,
+    analyses: Analyses,
+    tally: ExchangeTally,
+    pub kept_sums: KeptSums,
+    trajectory: Option<TrajectoryWriter>,
+    pictures: Pictures<'a>,
+    /// What was done to the scene before the run.
+    pub notices: &'a [String],
+    /// Step of the checkpoint on disk.
+    pub saved_step: u64,
+    /// When it was written.
+    saved_at: Instant,
+}
+
+impl<'a> Run<'a> {
+    /// Creates the files of a run at step 0, or cuts them back to what was there before the step of `start`.
+    pub(super) fn open(
+        task: &'a Task,
+        gpu: &'a Gpu,
+        engine: &mut Engine<'_>,
+        start: &Checkpoint,
+    ) -> Result<Self, RunError> {
+        let Task { scene, model, directory, .. } = task;
+        let step = start.state.step;
+        let path = directory.file(files::CHECKPOINT);
+        let sections = Sections::new(&path, step, &start.sections);
+        // What is wrong with the checkpoint is found before a file is touched.
+        let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
+        analyses.continue_windows(engine, &sections)?;
+        let tally = if model.voronoi().is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
+        let kept_sums = KeptSums::new(model, &start.state, &sections)?;
+        let schedule = Schedule::new(scene, analyses.state_intervals());
+        let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
+            // At step 0 there is nothing yet.
+            _ if step == 0 => Ok(None),
+            Some((_, extent)) => Ok(Some(*extent)),
+            None => Err(sections.malformed(format!("it does not know `{name}`"))),
+        };
+        let table = directory.file(files::ENERGIES);
+        let energies = EnergyRecorder::open(&table, scene, model, written(files::ENERGIES)?, &sections)?;
+        let trajectory = match &scene.output.trajectory {
+            None => None,
+            Some(asked) => {
+                let name = files::trajectory(asked.format);
+                let path = directory.file(name);
+                Some(match written(name)? {
+                    None => TrajectoryWriter::create(&path, asked.format, model)?,
+                    Some(written) => TrajectoryWriter::resume(&path, asked.format, model, written)?,
+                })
+            }
+        };
+        directory.remove_snapshots_after(schedule.snapshots_before(step))?;
+        Ok(Self {
+            task,
+            scene,
+            model,
+            gpu,
+            directory,
+            schedule,
+            energies,
+            analyses,
+            tally,
+            kept_sums,
+            trajectory,
+            pictures: Pictures::new(gpu, directory, scene, &start.sections),
+            notices: &[],
+            saved_step: step,
+            saved_at: Instant::now(),
+        })
+    }
+
+    pub(super) fn advance_to_end(
+        &mut self,
+        engine: &mut Engine<'_>,
+        pace: &mut Pace,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<(), RunError> {
+        let begun = pace.done();
+        let first = engine.step();
+        self.visit(engine, pace)?;
+        while engine.step() < self.scene.time.steps {
+            let event = self.schedule.next(engine.step());
+            pace.begin();
+            while engine.step() < event {
+                let steps = pace.batch().min(event - engine.step());
+                let advanced = engine.advance(steps, steps);
+                // A failure is found a few batches late: what came before it is good.
+                let samples = engine.take_samples();
+                self.record(&samples, engine.plan())?;
+                self.energies.flush()?;
+                advanced?;
+                pace.submitted(steps);
+                observer(Event::Advanced(self.progress(first, begun, pace)));
+                // Here nothing has been added yet of what is due at this step.
+                let interrupted = self.task.interrupt.is_asked() && engine.step() < self.scene.time.steps;
+                if interrupted || self.schedule.checkpoint_after(self.saved_at.elapsed()) {
+                    self.save(engine, pace)?;
+                }
+                if interrupted {
+                    self.obey()?;
+                }
+            }
+            self.visit(engine, pace)?;
+            observer(Event::Advanced(self.progress(first, begun, pace)));
+        }
+        Ok(())
+    }
+
+    /// Stops if the run is asked to. What is not saved is lost.
+    fn obey(&self) -> Result<(), RunError> {
+        self.task.obey(self.saved_step)
+    }
+
+    /// Does what is due at the current step: a checkpoint, then the samples, then pictures and frames.
+    fn visit(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+        let step = engine.step();
+        if self.schedule.checkpoint(step) {
+            self.save(engine, pace)?;
+        }
+        let last = step == self.scene.time.steps;
+        if last {
+            // Whatever follows can be done later too.
+            self.obey()?;
+        }
+        let samples = engine.finish()?;
+        pace.finished();
+        self.record(&samples, engine.plan())?;
+        self.energies.flush()?;
+        let number = self.schedule.snapshot(step);
+        let frame = self.schedule.frame(step);
+        if number.is_some() || frame || self.analyses.take_state(step) || last {
+            let state = engine.reported()?;
+            self.analyses.add_state(&state, self.model);
+            if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
+                trajectory.append(&state)?;
+                trajectory.flush()?;
+            }
+            if let Some(water) = self.model.shallow_water() {
+                let depth = mesh_depth(engine, water)?;
+                for number in number.map(Some).into_iter().chain(last.then_some(None)) {
+                    self.pictures.fields(number, &state, &depth, self.model, water)?;
+                }
+            } else {
+                if let Some(number) = number {
+                    self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+                }
+                if last {
+                    self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Saves a checkpoint.
+    fn save(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+        let state = engine.state();
+        pace.finished();
+        let samples = engine.take_samples();
+        self.record(&samples, engine.plan())?;
+        let state = state?;
+        // The checkpoint counts on what is in the files before its step.
+        self.energies.sync()?;
+        if let Some(trajectory) = &mut self.trajectory {
+            trajectory.flush()?;
+        }
+        let mut sections = self.analyses.sections_of_samples();
+        sections.extend(self.analyses.open_windows(engine)?);
+        if !self.notices.is_empty() {
+            sections.push((NOTICES.to_owned(), serde_json::json!(self.notices).to_string().into_bytes()));
+        }
+        sections.push((energies::SECTION.to_owned(), self.energies.section()));
+        sections.extend(self.analyses.sections_of_states());
+        sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
+        sections.extend(self.pictures.sections());
+        if self.model.voronoi().is_some() {
+            sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
+        }
+        let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
+        if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
+            written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
+        }
+        checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &written, &sections)?;
+        self.saved_step = state.step;
+        self.saved_at = Instant::now();
+        pace.begin();
+        Ok(())
+    }
+
+    fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
+        for sample in samples {
+            if sample.sampler == 0 {
+                self.kept_sums.compare(sample);
+                let mut observables = observables_of(sample, plan, self.model);
+                self.tally.complete(&mut observables);
+                self.energies.add(&observables)?;
+            } else {
+                self.analyses.add(sample);
+            }
+        }
+        Ok(())
+    }
+
+    fn progress(&self, first: u64, begun: (u64, Duration), pace: &Pace) -> Progress {
+        let (done, spent) = pace.done();
+        let (done, spent) = (done - begun.0, (spent.saturating_sub(begun.1)).as_secs_f64());
+        let rate = if done > 0 && spent > 0.0 { done as f64 / spent } else { 0.0 };
+        let last_step = self.scene.time.steps;
+        let step = first + done;
+        let left = last_step.saturating_sub(step) as f64 / rate;
+        Progress {
+            step,
+            last_step,
+            particle_steps_per_second: rate * self.model.particle_count() as f64,
+            remaining: Duration::try_from_secs_f64(left).ok(),
+            temperature: self.energies.temperature(),
+        }
+    }
+
+    /// Writes tables, summary and plots.
+    pub(super) fn conclude(
+        mut self,
+        warnings: Vec<String>,
+        (steps, spent): (u64, Duration),
+    ) -> Result<Outcome, RunError> {
+        let description = self.gpu.description();
+        let adapter = AdapterSummary {
+            name: description.name.clone(),
+            driver: description.driver.clone(),
+            backend: description.backend.clone(),
+        };
+        let mut summary = Summary::new(self.scene.clone(), adapter, self.model.particle_count());
+        let last_step = self.scene.time.steps;
+        summary.set_duration(last_step, steps, spent.as_secs_f64());
+        if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
+            // What is added here took no step.
+            summary.wall_seconds = earlier.wall_seconds;
+            summary.particle_steps_per_second = earlier.particle_steps_per_second;
+        }
+        summary.warnings = warnings;
+        self.energies.summarise(&mut summary);
+        self.analyses.conclude(self.directory, &mut summary, &|| self.obey())?;
+        let changed = self.kept_sums.lost();
+        let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
+        summary.conserved_exactly = conserved(self.model, &lost);
+        summary.not_conserved = not_conserved(self.model, &changed);
+        let written = |name: &&str| self.directory.file(name).exists();
+        let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
+        for name in files::all().filter(is_table).filter(written) {
+            summary.tables.insert(name.to_owned(), Extent::of(&self.directory.file(name))?);
+        }
+        // Numbers first: they are worth more than pictures if the disk is full.
+        let path = self.directory.file(files::SUMMARY);
+        summary.save(&path)?;
+        self.obey()?;
+        self.pictures.energies(&self.energies.table(), self.model, &summary)?;
+        let (task, saved_step) = (self.task, self.saved_step);
+        self.pictures.analyses(&summary, &|| task.obey(saved_step))?;
+        // What was moved away or replaced under way is not what `run.json` speaks of.
+        self.energies.check()?;
+        if let Some(trajectory) = &self.trajectory {
+            trajectory.check()?;
+        }
+        self.pictures.check()?;
+        exists(&self.directory.file(files::CHECKPOINT))?;
+        let written: Vec<&str> = files::all().filter(written).collect();
+        summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
+        summary.save(&path)?;
+        Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
+    }
+}
+
+/// Name of the section of a checkpoint that holds what was done to the scene before the run.
+pub(super) const NOTICES: &str = "notices";

@@ -1,0 +1,48 @@
+//! What a run has to do, and how it ends early.
+
+use super::RunError;
+use super::interrupt::Interrupt;
+use crate::families::Model;
+use crate::output::{Checkpoint, OutputError, RunDirectory, Summary, checkpoint, files};
+use crate::scene::Scene;
+
+/// What stays the same if a run has to go back.
+pub(super) struct Task {
+    pub scene: Scene,
+    pub model: Model,
+    pub directory: RunDirectory,
+    pub interrupt: Interrupt,
+    /// What was done to the scene before the run.
+    pub notices: Vec<String>,
+    /// What `run.json` says of an earlier part of the run.
+    pub earlier: Option<Box<Summary>>,
+}
+
+impl Task {
+    /// The last checkpoint on disk; the start itself if nothing was saved since.
+    pub(super) fn last_checkpoint(&self, start: Checkpoint) -> Result<Checkpoint, RunError> {
+        let path = self.directory.file(files::CHECKPOINT);
+        if path.exists() { Ok(checkpoint::load(&path)?) } else { Ok(start) }
+    }
+
+    /// Stops if the run is asked to, with a checkpoint of this step on disk.
+    pub(super) fn obey(&self, checkpoint_step: u64) -> Result<(), RunError> {
+        if self.interrupt.is_asked() {
+            let checkpoint = self.directory.file(files::CHECKPOINT);
+            return Err(RunError::Interrupted { checkpoint, checkpoint_step });
+        }
+        Ok(())
+    }
+
+    /// Says of a failure to write what is left to go on from.
+    pub(super) fn stopped(&self, error: RunError, checkpoint_step: u64) -> RunError {
+        let checkpoint = self.directory.file(files::CHECKPOINT);
+        match error {
+            // What is lost no checkpoint goes on from.
+            RunError::Output(source) if checkpoint.exists() && !matches!(source, OutputError::Lost { .. }) => {
+                RunError::Stopped { source, checkpoint, checkpoint_step }
+            }
+            error => error,
+        }
+    }
+}
