@@ -1,4 +1,4 @@
-//! `mesoscope resume`: go on with a run.
+//! `mesoscope resume`: continue a run.
 
 use std::path::PathBuf;
 
@@ -35,9 +35,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
     if simulation.is_finished() {
         let step = simulation.first_step();
-        let state = if step > simulation.scene().time.steps { "has come to" } else { "is finished at" };
+        let state = if step > simulation.scene().time.steps { "has reached" } else { "is finished at" };
         let text =
-            format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` goes on to a later step\n");
+            format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
     report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)

@@ -17,7 +17,7 @@ Examples:
   mesoscope run dpd-fluid --set time.step=0.02 --set integrator.type=groot-warren
   mesoscope run dpd-fluid --adapter software
 
-Ctrl-C saves a checkpoint and stops; `mesoscope resume` goes on from there.")]
+Ctrl-C saves a checkpoint and stops; `mesoscope resume` continues from there.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,

@@ -117,7 +117,7 @@ fn failures(outcome: &SweepOutcome) -> Result<(), Failure> {
     });
     let mut text = format!("{failed} of {all} variants failed:{}", messages.collect::<String>());
     if outcome.failures.iter().any(|(_, error)| matches!(error, RunError::Output(_) | RunError::Checkpoint(_))) {
-        text.push_str("\nhint: `mesoscope sweep --resume` runs a variant anew once its directory is removed");
+        text.push_str("\nhint: `mesoscope sweep --resume` runs a variant again once its directory is removed");
     }
     // Instability says something about the scene; anything else, about the machine, and comes first.
     let others = outcome
@@ -138,7 +138,7 @@ impl From<SweepError> for Failure {
                 "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
             )),
             SweepError::Arguments { .. } | SweepError::Quantity { .. } => Self::usage(error.to_string()),
-            SweepError::Output(mesoscope::output::OutputError::InTheWay { .. }) => Self::input_output(format!(
+            SweepError::Output(mesoscope::output::OutputError::ResultExists { .. }) => Self::input_output(format!(
                 "{error}\nhint: `mesoscope sweep --resume DIR` finishes an interrupted sweep"
             )),
             _ => Self::input_output(error.to_string()),

@@ -19,8 +19,8 @@ use std::sync::Arc;
 /// // As long as the run writes, the directory is its own.
 /// assert!(matches!(RunDirectory::create(&path, true), Err(OutputError::InUse { .. })));
 /// drop(results);
-/// // Another run takes its place only when it is told to.
-/// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::InTheWay { .. })));
+/// // Another run replaces it only when that is asked for.
+/// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::ResultExists { .. })));
 /// let results = RunDirectory::create(&path, true)?;
 /// assert!(!results.file(files::ENERGIES).exists());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -39,8 +39,8 @@ impl RunDirectory {
     /// removed, so that what is there afterwards belongs to one run.
     ///
     /// # Errors
-    /// [`OutputError::InUse`] when another process writes there; [`OutputError::InTheWay`] when there are files of an earlier
-    /// run and `force` is not given; [`OutputError::DirectoryInTheWay`] when a directory has the name of a result;
+    /// [`OutputError::InUse`] when another process writes there; [`OutputError::ResultExists`] when there are files of an earlier
+    /// run and `force` is not given; [`OutputError::DirectoryOfThatName`] when a directory has the name of a result;
     /// [`OutputError::NoDirectory`] when `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed,
     /// cleared or written to.
     pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
@@ -65,10 +65,10 @@ impl RunDirectory {
         // Nothing is removed where not everything can be.
         let mut paths = in_the_way.iter().map(|name| self.file(name));
         if let Some(path) = paths.find(|path| path.is_dir()) {
-            return Err(OutputError::DirectoryInTheWay { path });
+            return Err(OutputError::DirectoryOfThatName { path });
         }
         if let (false, Some(name)) = (force, in_the_way.first()) {
-            return Err(OutputError::InTheWay { path: self.file(name) });
+            return Err(OutputError::ResultExists { path: self.file(name) });
         }
         self.probe()?;
         for name in in_the_way {
@@ -129,6 +129,11 @@ impl RunDirectory {
         Ok(path)
     }
 
+    /// Whether there is a file that a run may have written.
+    pub(crate) fn has_results(&self) -> Result<bool, OutputError> {
+        Ok(!self.names(files::is_of_a_run)?.is_empty())
+    }
+
     /// Removes numbered snapshots above `last`: those a resumed run will take again.
     ///
     /// # Errors
@@ -146,7 +151,7 @@ impl RunDirectory {
     }
 
     /// The names of all files of a kind, sorted.
-    fn names(&self, kind: impl Fn(&str) -> bool) -> Result<Vec<String>, OutputError> {
+    pub(super) fn names(&self, kind: impl Fn(&str) -> bool) -> Result<Vec<String>, OutputError> {
         let list = || -> io::Result<Vec<String>> {
             let mut names = Vec::new();
             for entry in fs::read_dir(&self.path)? {

@@ -26,7 +26,7 @@ use std::path::Path;
 /// energies.flush()?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n20,0.98,23.5\n");
 ///
-/// // A run that goes on from before a row takes it again.
+/// // A run that continues from before a row writes it again.
 /// EnergiesFile::resume(&path, &["temperature", "pressure"], first)?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "step,temperature,pressure\n0,1.02,\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,6 +1,6 @@
 //! What can go wrong with files.
 
-use super::files;
+use super::Id;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -20,10 +20,10 @@ pub enum OutputError {
     },
     /// The directory holds a file of an earlier run.
     #[error(
-        "`{}` is in the way: it has the name of a result, likely of an earlier run; pass --force to replace all results there, or choose another directory with --out",
+        "`{}` exists already, likely from an earlier run: pass --force to replace all results there, or choose another directory with --out",
         crate::printable::path(path)
     )]
-    InTheWay {
+    ResultExists {
         /// The first such file.
         path: PathBuf,
     },
@@ -54,7 +54,7 @@ pub enum OutputError {
         "`{}` is a directory, and a result is to have its name: move it away, or choose another directory with --out",
         crate::printable::path(path)
     )]
-    DirectoryInTheWay {
+    DirectoryOfThatName {
         /// The directory inside that of the run.
         path: PathBuf,
     },
@@ -106,7 +106,7 @@ pub enum OutputError {
         /// The step of the first row that is missing.
         step: u64,
     },
-    /// A file that a run is to go on with holds something else than was written.
+    /// A file that a run is to continue does not hold what was written.
     #[error(
         "`{}` is not what the run wrote: its length or checksum is not the one that the run noted; restore the file, or run the scene again with --force",
         crate::printable::path(path)
@@ -115,19 +115,35 @@ pub enum OutputError {
         /// The table or trajectory.
         path: PathBuf,
     },
-    /// Files of different runs in one directory.
+    /// A file in the directory of a run has the id of another one.
     #[error(
-        "`{}` belongs to another run than `{}`, of another scene or seed: put the files of one run together, or run the scene again with --force",
+        "`{}` belongs to another {1} than `{reference}`, of another scene or seed: its {2} is {found}, not {expected}; put the files of one {1} together",
         crate::printable::path(path),
-        files::CHECKPOINT
+        expected.noun(),
+        found.key()
     )]
     OtherRun {
-        /// The summary of the other run.
+        /// The file of the other run.
+        path: PathBuf,
+        /// The id in it.
+        found: Id,
+        /// The id of the run in this directory.
+        expected: Id,
+        /// The file that this id is from.
+        reference: &'static str,
+    },
+    /// A summary that speaks of another scene than the run has.
+    #[error(
+        "`{}` was changed: it describes another scene than the run has; remove it, and `mesoscope resume` writes it again",
+        crate::printable::path(path)
+    )]
+    OtherScene {
+        /// The summary.
         path: PathBuf,
     },
     /// A run was taken further than its summary says, and has not ended.
     #[error(
-        "the run in `{0}` was continued beyond step {finished} and has not ended: `mesoscope resume {0}` goes on with it",
+        "the run in `{0}` was continued beyond step {finished} and has not ended: `mesoscope resume {0}` continues it",
         crate::printable::path(directory)
     )]
     Continued {
@@ -135,6 +151,15 @@ pub enum OutputError {
         directory: PathBuf,
         /// The step up to which it was finished, or was to be.
         finished: u64,
+    },
+    /// A run ended before it saved anything to continue from.
+    #[error(
+        "the run in `{}` ended before it saved its first checkpoint, so there is nothing to resume: run the scene again with --force",
+        crate::printable::path(directory)
+    )]
+    NothingSaved {
+        /// The directory of the run.
+        directory: PathBuf,
     },
     /// No run has been finished in the directory.
     #[error("`{}` is missing: {advice}", crate::printable::path(path))]

@@ -1,6 +1,6 @@
 //! The summary of a run, `run.json`.
 
-use super::{Extent, OutputError, RunDirectory, files, run_id, write_atomically};
+use super::{Extent, Id, OutputError, RunDirectory, files, of_one_run, write_atomically};
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -12,12 +12,13 @@ use std::path::Path;
 ///
 /// ```
 /// use mesoscope::measure::statistics::estimate;
+/// use mesoscope::output::Id;
 /// use mesoscope::output::summary::{AdapterSummary, Summary};
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("run.json");
 /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-/// let mut summary = Summary::new(scene, AdapterSummary::default(), 24_000);
+/// let mut summary = Summary::new(Id::of_run(&scene), scene, AdapterSummary::default(), 24_000);
 /// summary.set_duration(2000, 2000, 12.0);
 /// summary.add_mean("temperature", estimate(&[0.75, 1.25]).as_ref());
 /// summary.save(&path)?;
@@ -30,8 +31,8 @@ use std::path::Path;
 pub struct Summary {
     /// Version of the program.
     pub mesoscope_version: String,
-    /// What tells the run from those of other scenes and seeds: see [`run_id`].
-    pub run_id: String,
+    /// The id of the run, which is in its other files too.
+    pub run_id: Id,
     /// The adapter the run computed on.
     pub adapter: AdapterSummary,
     /// Number of particles.
@@ -57,7 +58,7 @@ pub struct Summary {
     pub not_conserved: Vec<String>,
     /// What the user should know before trusting the numbers.
     pub warnings: Vec<String>,
-    /// Every table, as the run wrote it.
+    /// Every table and array, as the run wrote it: these have no place for the id.
     pub tables: BTreeMap<String, Extent>,
     /// All files but the numbered ones, once there are all; null as long as some are missing.
     pub files: Option<Vec<String>>,
@@ -151,10 +152,10 @@ pub struct AdapterSummary {
 impl Summary {
     /// A summary of a run that has not measured anything yet.
     #[must_use]
-    pub fn new(scene: Scene, adapter: AdapterSummary, particles: u64) -> Self {
+    pub fn new(run_id: Id, scene: Scene, adapter: AdapterSummary, particles: u64) -> Self {
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
-            run_id: run_id(&scene),
+            run_id,
             adapter,
             particles,
             steps: 0,
@@ -193,30 +194,35 @@ impl Summary {
     /// [`OutputError::Altered`] names the first that is not, [`OutputError::Continued`] means that the run went on and was
     /// killed, [`OutputError::Io`] names the first that cannot be read.
     pub fn check_tables(&self, directory: &RunDirectory) -> Result<(), OutputError> {
-        for (name, extent) in &self.tables {
-            let path = directory.file(name);
-            if Extent::of(&path)? == *extent {
-                continue;
-            }
-            if Extent::of_beginning(&path, extent.bytes)? == *extent {
-                let (directory, finished) = (directory.path().to_path_buf(), self.steps);
-                return Err(OutputError::Continued { directory, finished });
-            }
-            return Err(OutputError::Altered { path });
-        }
-        Ok(())
+        self.tables.keys().try_for_each(|name| self.check_table(directory, name))
     }
 
-    /// Looks whether this is the summary of the run of a scene.
+    /// Looks whether one table in a directory is the one that the run wrote.
     ///
     /// # Errors
-    /// [`OutputError::OtherRun`], with the path of the summary.
-    pub fn check_run(&self, scene: &Scene, path: &Path) -> Result<(), OutputError> {
-        let id = run_id(scene);
-        if self.run_id == id && run_id(&self.scene) == id {
+    /// As [`check_tables`](Self::check_tables).
+    pub(crate) fn check_table(&self, directory: &RunDirectory, name: &str) -> Result<(), OutputError> {
+        let path = directory.file(name);
+        let Some(extent) = self.tables.get(name) else { return Err(OutputError::Altered { path }) };
+        // Numbered arrays may have been moved elsewhere.
+        let moved = files::snapshot_number(name).is_some() && !path.exists();
+        if moved || Extent::of(&path)? == *extent {
             return Ok(());
         }
-        Err(OutputError::OtherRun { path: path.to_path_buf() })
+        if Extent::of_beginning(&path, extent.bytes)? == *extent {
+            let (directory, finished) = (directory.path().to_path_buf(), self.steps);
+            return Err(OutputError::Continued { directory, finished });
+        }
+        Err(OutputError::Altered { path })
+    }
+
+    /// Looks whether this is the summary of a run of this id and scene, however many steps it has.
+    ///
+    /// # Errors
+    /// [`OutputError::OtherRun`] or [`OutputError::OtherScene`], with the path of the summary.
+    pub fn check_run(&self, run_id: Id, scene: &Scene, path: &Path) -> Result<(), OutputError> {
+        run_id.check(path, Some(self.run_id), files::CHECKPOINT)?;
+        if of_one_run(&self.scene, scene) { Ok(()) } else { Err(OutputError::OtherScene { path: path.to_path_buf() }) }
     }
 
     /// Adds the mean of a column; `None` where the column has no values.
@@ -245,7 +251,9 @@ impl Summary {
             std::io::ErrorKind::NotFound => OutputError::Unfinished {
                 path: path.to_path_buf(),
                 advice: if path.with_file_name(files::CHECKPOINT).exists() {
-                    "no run has been finished there; `mesoscope resume` goes on from the last checkpoint"
+                    "no run has been finished there; `mesoscope resume` continues from the last checkpoint"
+                } else if path.with_file_name(files::ENERGIES).exists() {
+                    "the run there ended before it saved its first checkpoint; run the scene again with --force"
                 } else {
                     "there is no run in this directory"
                 },

@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A new file beside the one it is to become; removed unless it is moved there.
+/// A new file in the directory of the one it is to become; removed unless it is moved there.
 ///
 /// Its name is one that only mesoscope gives ([`files::temporary`]), and nothing that exists is opened, emptied or followed
 /// as a link.
@@ -52,7 +52,7 @@ impl Drop for Temporary {
     }
 }
 
-/// Writes a file under a temporary name beside `path`, and moves it to `path` once it is on the disk. On an error the
+/// Writes a file under a temporary name in the same directory, and moves it to `path` once it is on the disk. On an error the
 /// temporary file is removed, and what was at `path` before is still there.
 ///
 /// ```

@@ -6,7 +6,7 @@ use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::Scene;
 
-/// Opens an adapter with room for the buffers of a scene.
+/// Opens an adapter that allows the buffers of a scene.
 pub(super) fn open_adapter(
     scene: &Scene,
     model: &Model,
@@ -45,7 +45,7 @@ pub(super) fn open_adapter(
 /// ```
 ///
 /// # Errors
-/// [`RunError::Gpu`] without an adapter that has room for it, [`RunError::Scene`] if its numbers are beyond single precision.
+/// [`RunError::Gpu`] without an adapter that allows its buffers, [`RunError::Scene`] if its numbers are beyond single precision.
 pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
     open_adapter(scene, &Model::new(scene), choice, Options::default())
 }

@@ -44,7 +44,7 @@ pub enum RunError {
     },
     /// It was asked to stop before its end.
     #[error(
-        "interrupted at step {checkpoint_step}; `mesoscope resume {}` goes on from there",
+        "interrupted at step {checkpoint_step}; `mesoscope resume {}` continues it",
         crate::printable::path(directory_of(checkpoint))
     )]
     Interrupted {
@@ -55,7 +55,7 @@ pub enum RunError {
     },
     /// Writing failed on the way, when there was a checkpoint already.
     #[error(
-        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` goes on from it",
+        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` continues from it",
         crate::printable::path(checkpoint)
     )]
     Stopped {
@@ -66,7 +66,7 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
-    /// The adapter has no room for a buffer of the scene.
+    /// The adapter does not allow a buffer that the scene needs.
     #[error(
         "{source}, for `{buffer}` ({purpose}): a smaller system needs less; `mesoscope check --kernels` lists all buffers"
     )]
@@ -78,7 +78,7 @@ pub enum RunError {
         /// What it is for.
         purpose: &'static str,
     },
-    /// The engine refuses the state, or has no room for its particles.
+    /// The engine refuses the state, or a buffer overflowed.
     #[error(transparent)]
     Engine(EngineError),
     /// A file of the run cannot be written or read.

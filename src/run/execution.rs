@@ -65,7 +65,7 @@ impl<'a> Run<'a> {
         engine: &mut Engine<'_>,
         start: &Checkpoint,
     ) -> Result<Self, RunError> {
-        let Task { scene, model, directory, .. } = task;
+        let Task { id, scene, model, directory, .. } = task;
         let step = start.state.step;
         let path = directory.file(files::CHECKPOINT);
         let sections = Sections::new(&path, step, &start.sections);
@@ -89,11 +89,12 @@ impl<'a> Run<'a> {
                 let name = files::trajectory(asked.format);
                 let path = directory.file(name);
                 Some(match written(name)? {
-                    None => TrajectoryWriter::create(&path, asked.format, model)?,
-                    Some(written) => TrajectoryWriter::resume(&path, asked.format, model, written)?,
+                    None => TrajectoryWriter::create(&path, asked.format, model, *id)?,
+                    Some(written) => TrajectoryWriter::resume(&path, asked.format, model, *id, written)?,
                 })
             }
         };
+        let pictures = Pictures::new(gpu, directory, scene, start)?;
         directory.remove_snapshots_after(schedule.snapshots_before(step))?;
         Ok(Self {
             task,
@@ -107,7 +108,7 @@ impl<'a> Run<'a> {
             tally,
             kept_sums,
             trajectory,
-            pictures: Pictures::new(gpu, directory, scene, &start.sections),
+            pictures,
             notices: &[],
             saved_step: step,
             saved_at: Instant::now(),
@@ -225,7 +226,9 @@ impl<'a> Run<'a> {
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
         }
-        checkpoint::save(&self.directory.file(files::CHECKPOINT), self.scene, &state, &written, &sections)?;
+        written.extend_from_slice(self.pictures.arrays());
+        let path = self.directory.file(files::CHECKPOINT);
+        checkpoint::save(&path, self.task.id, self.scene, &state, &written, &sections)?;
         self.saved_step = state.step;
         self.saved_at = Instant::now();
         pace.begin();
@@ -274,7 +277,7 @@ impl<'a> Run<'a> {
             driver: description.driver.clone(),
             backend: description.backend.clone(),
         };
-        let mut summary = Summary::new(self.scene.clone(), adapter, self.model.particle_count());
+        let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
@@ -294,6 +297,7 @@ impl<'a> Run<'a> {
         for name in files::all().filter(is_table).filter(written) {
             summary.tables.insert(name.to_owned(), Extent::of(&self.directory.file(name))?);
         }
+        summary.tables.extend(self.pictures.arrays().iter().cloned());
         // Numbers first: they are worth more than pictures if the disk is full.
         let path = self.directory.file(files::SUMMARY);
         summary.save(&path)?;

@@ -2,7 +2,7 @@
 //!
 //! A [`Simulation`] is started from a scene or resumed from a directory. It opens an adapter, advances the engine from
 //! one event to the next (a checkpoint, a snapshot, a frame, the end), and writes what the scene asks for. It prints
-//! nothing: an observer is told how far it is.
+//! nothing: an observer learns how far it is.
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
@@ -22,7 +22,7 @@
 //! println!("{:?}", outcome.summary.means.get("temperature"));
 //! assert!(outcome.files.contains(&"energies.csv") && results.join("run.json").exists());
 //!
-//! // Its directory is enough to go on from.
+//! // Its directory is enough to continue it.
 //! let longer = Simulation::resume(&results, Some(80))?;
 //! assert_eq!((longer.first_step(), longer.is_finished()), (40, false));
 //!
@@ -69,7 +69,7 @@ pub use sizes::Sizes;
 use crate::gpu::AdapterDescription;
 use std::time::Duration;
 
-/// What an observer of a run is told.
+/// What an observer of a run receives.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum Event<'a> {
@@ -86,7 +86,7 @@ pub enum Event<'a> {
     Advanced(Progress),
     /// The run goes back to an earlier step, to repeat the steps since with more memory; results are the same.
     Repeating {
-        /// The step it goes on from.
+        /// The step it continues from.
         from: u64,
         /// Why.
         reason: &'a str,

@@ -10,7 +10,9 @@ use crate::families::{Model, ShallowWater, Voronoi};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::measure::MeshFlow;
 use crate::numbers::{grouped, with_error};
-use crate::output::{OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy};
+use crate::output::{
+    Checkpoint, Extent, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy,
+};
 use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter, ShownValues,
@@ -20,11 +22,7 @@ use crate::scene::{self, AnalysisId, AnalysisTable, FieldQuantity, Scene, Snapsh
 use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
-use image::{
-    DynamicImage, ExtendedColorType, ImageEncoder, RgbaImage,
-    codecs::png::{CompressionType, FilterType, PngEncoder},
-};
-use std::io;
+use image::RgbaImage;
 
 /// Draws the pictures of a run again from the files it left, with changes to the look given as overrides of the scene
 /// (`output.plot.width=800`). Returns the names of the files written.
@@ -42,7 +40,8 @@ pub fn redraw(
     let scene = scene::parse(&name, &text, overrides)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
-    summary.check_run(&checkpoint.scene, &directory.file(files::SUMMARY))?;
+    summary.check_run(checkpoint.run_id, &checkpoint.scene, &directory.file(files::SUMMARY))?;
+    directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
     if checkpoint.state.step > summary.steps {
         let (directory, finished) = (directory.path().to_path_buf(), summary.steps);
         return Err(OutputError::Continued { directory, finished }.into());
@@ -50,7 +49,7 @@ pub fn redraw(
     summary.check_tables(directory)?;
     let model = Model::new(&checkpoint.scene);
     let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
-    let mut pictures = Pictures::new(&gpu, directory, &scene, &checkpoint.sections);
+    let mut pictures = Pictures::again(&gpu, directory, &scene, &checkpoint);
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, &model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
@@ -80,21 +79,47 @@ pub(super) struct Pictures<'a> {
     gpu: &'a Gpu,
     directory: &'a RunDirectory,
     scene: &'a Scene,
+    run: Id,
     ranges: ColourRanges,
     plotter: Option<Plotter>,
     /// Names of the files written so far.
     written: Vec<String>,
+    /// Arrays of the run so far; none where pictures alone are drawn again.
+    arrays: Option<Vec<(String, Extent)>>,
 }
 
 impl<'a> Pictures<'a> {
-    /// Begins the pictures of a run, or goes on from the sections of a checkpoint.
+    /// The pictures of a finished run, without its arrays.
+    fn again(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene, end: &Checkpoint) -> Self {
+        let (run, ranges) = (end.run_id, ColourRanges::restored(&end.sections));
+        Self { gpu, directory, scene, run, ranges, plotter: None, written: Vec::new(), arrays: None }
+    }
+
+    /// The pictures and arrays of a run from its beginning, or continued from a checkpoint.
+    ///
+    /// # Errors
+    /// [`OutputError::Altered`] names the first array that is not the one the run wrote.
     pub(super) fn new(
         gpu: &'a Gpu,
         directory: &'a RunDirectory,
         scene: &'a Scene,
-        sections: &[(String, Vec<u8>)],
-    ) -> Self {
-        Self { gpu, directory, scene, ranges: ColourRanges::restored(sections), plotter: None, written: Vec::new() }
+        start: &Checkpoint,
+    ) -> Result<Self, OutputError> {
+        let is_array = |(name, _): &&(String, Extent)| files::snapshot_number(name).is_some();
+        let arrays: Vec<_> = start.files.iter().filter(is_array).cloned().collect();
+        for (name, extent) in &arrays {
+            let path = directory.file(name);
+            // Those of earlier steps may have been moved elsewhere.
+            if path.exists() && Extent::of(&path)? != *extent {
+                return Err(OutputError::Altered { path });
+            }
+        }
+        Ok(Self { arrays: Some(arrays), ..Self::again(gpu, directory, scene, start) })
+    }
+
+    /// Arrays of the run so far, which have no place for its id.
+    pub(super) fn arrays(&self) -> &[(String, Extent)] {
+        self.arrays.as_deref().unwrap_or_default()
     }
 
     /// What a checkpoint has to keep.
@@ -276,7 +301,7 @@ impl<'a> Pictures<'a> {
         self.save(name, drawn)
     }
 
-    /// Draws the fields of shallow water that the scene asks for, and writes them as arrays. Returns the names.
+    /// Draws the fields of shallow water that the scene asks for, and writes the arrays of a run. Returns the names.
     pub(super) fn fields(
         &mut self,
         number: Option<u64>,
@@ -317,10 +342,14 @@ impl<'a> Pictures<'a> {
             };
             self.save(&name, drawn)?;
             written.push(name);
-            let name = files::field(shown.stem, number, "npy");
-            write_npy(&self.directory.file(&name), &field.nodes, &field.values)?;
-            self.written.push(name.clone());
-            written.push(name);
+            if let Some(arrays) = &mut self.arrays {
+                let name = files::field(shown.stem, number, "npy");
+                let path = self.directory.file(&name);
+                write_npy(&path, &field.nodes, &field.values)?;
+                arrays.push((name.clone(), Extent::of(&path)?));
+                self.written.push(name.clone());
+                written.push(name);
+            }
         }
         Ok(written)
     }
@@ -340,23 +369,21 @@ impl<'a> Pictures<'a> {
     }
 
     fn save(&mut self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
-        save(self.directory, name, drawn)?;
+        save(self.directory, name, self.run, drawn)?;
         self.written.push(name.to_owned());
         Ok(())
     }
 }
 
 /// Writes a picture, which appears complete or not at all.
-pub(crate) fn save(directory: &RunDirectory, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+pub(crate) fn save(
+    directory: &RunDirectory,
+    name: &str,
+    id: Id,
+    drawn: Result<RgbaImage, PlotError>,
+) -> Result<(), RunError> {
     let image = drawn.map_err(|source| RunError::Plot { name: name.to_owned(), source })?;
-    // Pictures are opaque. Level 4 takes a third of the time of the default and a twentieth more space.
-    let image = DynamicImage::from(image).into_rgb8();
-    directory.write(name, |writer| {
-        PngEncoder::new_with_quality(writer, CompressionType::Level(4), FilterType::Adaptive)
-            .write_image(image.as_raw(), image.width(), image.height(), ExtendedColorType::Rgb8)
-            .map_err(io::Error::other)
-    })?;
-    Ok(())
+    Ok(directory.write_picture(name, id, image)?)
 }
 
 /// The means of a summary, as charts take them.
@@ -429,7 +456,8 @@ mod tests {
     #[test]
     fn means_of_a_summary_stand_in_the_chart() {
         let scene = scene::load("dpd-fluid", &[]).unwrap();
-        let mut summary = Summary::new(scene, crate::output::summary::AdapterSummary::default(), 10);
+        let mut summary =
+            Summary::new(Id::of_run(&scene), scene, crate::output::summary::AdapterSummary::default(), 10);
         summary.add_mean("temperature", crate::measure::statistics::estimate(&[0.75, 1.25]).as_ref());
         summary.add_mean("pressure", None);
         let averages = averages(&summary);

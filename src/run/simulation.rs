@@ -11,7 +11,7 @@ use crate::engine::{Engine, EngineError};
 use crate::families::{self, Instability, Model};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
-use crate::output::{Checkpoint, OutputError, RunDirectory, Summary, checkpoint, files};
+use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{self, Hardware, Options};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
@@ -24,6 +24,7 @@ pub struct Simulation {
     interrupt: Interrupt,
     /// What was done to the scene before the run, for its summary.
     notices: Vec<String>,
+    id: Id,
 }
 
 #[derive(Debug, Clone)]
@@ -46,7 +47,8 @@ impl Simulation {
     #[must_use]
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
-        Self { scene, beginning, interrupt: Interrupt::default(), notices: Vec::new() }
+        let id = Id::of_run(&scene);
+        Self { scene, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -54,12 +56,15 @@ impl Simulation {
     ///
     /// # Errors
     /// [`RunError::Checkpoint`] when there is no checkpoint or it is damaged; [`RunError::Output`] when another process
-    /// writes there, or when `run.json` belongs to another run; [`RunError::Scene`] when the scene cannot do with as few
+    /// writes there, or when a file there belongs to another run; [`RunError::Scene`] when the scene cannot do with as few
     /// steps.
     pub fn resume(directory: impl Into<PathBuf>, steps: Option<u64>) -> Result<Self, RunError> {
         let directory = directory.into();
         if !directory.join(files::CHECKPOINT).exists() {
             // Nothing is written where there is no run, no lock either.
+            if RunDirectory::open(&directory).and_then(|found| found.has_results()).unwrap_or(false) {
+                return Err(OutputError::NothingSaved { directory }.into());
+            }
             checkpoint::load(&directory.join(files::CHECKPOINT))?;
         }
         let directory = RunDirectory::claim(directory)?;
@@ -84,15 +89,17 @@ impl Simulation {
         let summary = directory.file(files::SUMMARY);
         let earlier = match Summary::load(&summary) {
             Ok(summary) => Some(Box::new(summary)),
-            // It will be written anew.
+            // It will be written again.
             Err(OutputError::Unfinished { .. } | OutputError::Line { .. }) => None,
             Err(error) => return Err(error.into()),
         };
         if let Some(earlier) = &earlier {
-            earlier.check_run(&scene, &summary)?;
+            earlier.check_run(checkpoint.run_id, &scene, &summary)?;
         }
+        directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
+        let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self { scene, beginning, interrupt: Interrupt::default(), notices })
+        Ok(Self { scene, beginning, interrupt: Interrupt::default(), notices, id })
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -100,6 +107,11 @@ impl Simulation {
     pub fn noting(mut self, notices: &[Warning]) -> Self {
         self.notices.extend(notices.iter().map(ToString::to_string));
         self
+    }
+
+    /// The same run as part of a sweep, whose summary has its id.
+    pub(crate) fn with_id(self, id: Id) -> Self {
+        Self { id, ..self }
     }
 
     /// What was done to the scene before the run.
@@ -151,7 +163,7 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, beginning, interrupt, notices } = self;
+        let Self { scene, beginning, interrupt, notices, id } = self;
         let model = Model::new(&scene);
         let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
@@ -161,14 +173,15 @@ impl Simulation {
                 let state = families::initial_state(&scene, &model);
                 families::check_start(&scene, &model, &state)?;
                 let directory = RunDirectory::create(directory, force)?;
-                (directory, Checkpoint { scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() }, None)
+                let scene = scene.clone();
+                (directory, Checkpoint { run_id: id, scene, state, files: Vec::new(), sections: Vec::new() }, None)
             }
             Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier),
         };
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { scene, model, directory, interrupt, notices, earlier };
+        let task = Task { id, scene, model, directory, interrupt, notices, earlier };
         loop {
             match attempt(&task, &gpu, options, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {

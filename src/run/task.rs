@@ -3,11 +3,12 @@
 use super::RunError;
 use super::interrupt::Interrupt;
 use crate::families::Model;
-use crate::output::{Checkpoint, OutputError, RunDirectory, Summary, checkpoint, files};
+use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::scene::Scene;
 
 /// What stays the same if a run has to go back.
 pub(super) struct Task {
+    pub id: Id,
     pub scene: Scene,
     pub model: Model,
     pub directory: RunDirectory,
@@ -34,11 +35,11 @@ impl Task {
         Ok(())
     }
 
-    /// Says of a failure to write what is left to go on from.
+    /// Adds to a failure to write what is left to continue from.
     pub(super) fn stopped(&self, error: RunError, checkpoint_step: u64) -> RunError {
         let checkpoint = self.directory.file(files::CHECKPOINT);
         match error {
-            // What is lost no checkpoint goes on from.
+            // No checkpoint restores what is lost.
             RunError::Output(source) if checkpoint.exists() && !matches!(source, OutputError::Lost { .. }) => {
                 RunError::Stopped { source, checkpoint, checkpoint_step }
             }

@@ -119,6 +119,7 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Id;
     use serde_json::json;
 
     fn variant(settings: &[(&str, Value)], state: VariantState, temperature: f64) -> VariantSummary {
@@ -126,6 +127,7 @@ mod tests {
             settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
         let means = json!({"temperature": {"mean": temperature, "standard_error": 0.5}});
         VariantSummary {
+            run_id: Id::of_sweep([]),
             name: String::new(),
             label: String::new(),
             settings,

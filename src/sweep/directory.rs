@@ -12,11 +12,11 @@ use std::path::{Component, Path, PathBuf};
 /// files of an earlier sweep there, or of a single run, are removed; anything else is left alone.
 ///
 /// # Errors
-/// [`OutputError::InTheWay`] when there are such files and `force` is not given; [`OutputError::Io`].
+/// [`OutputError::ResultExists`] when there are such files and `force` is not given; [`OutputError::Io`].
 pub(super) fn create(path: &Path, sweep: &Sweep, force: bool) -> Result<RunDirectory, OutputError> {
     let in_the_way = in_the_way(path, sweep)?;
     if let (false, Some(first)) = (force, in_the_way.first()) {
-        return Err(OutputError::InTheWay { path: first.clone() });
+        return Err(OutputError::ResultExists { path: first.clone() });
     }
     let earlier = SweepSummary::load(path).map(|summary| summary.variants).unwrap_or_default();
     let directory = RunDirectory::make(path)?;

@@ -39,6 +39,15 @@ pub enum SweepError {
         /// The directory.
         path: PathBuf,
     },
+    /// The summary of the sweep does not fit the ids in it.
+    #[error(
+        "`{}` was changed: it describes other runs than those whose ids are in it; restore it, or run the sweep again with --force",
+        crate::printable::path(path)
+    )]
+    Changed {
+        /// The summary.
+        path: PathBuf,
+    },
     /// It was asked to stop before its end.
     #[error(
         "interrupted after {finished} of {all} variants; `mesoscope sweep --resume {}` finishes the sweep",

@@ -39,7 +39,7 @@ pub struct Variant {
     pub scene: Scene,
     /// What was shortened in it to suit the number of steps.
     pub notices: Vec<Warning>,
-    /// Number of the value of each variation; empty for a variant that stands beside them.
+    /// Number of the value of each variation; empty for a variant that is none of the combinations.
     pub(super) places: Vec<usize>,
 }
 
@@ -47,7 +47,7 @@ impl Sweep {
     /// Varies the scene in the file `source`, or the built-in scene of that name.
     ///
     /// Each of `vary` is a key with its values, `key=value,value,…` (see [`Variation::parse`]); there is a variant for
-    /// every combination, the last key varying fastest. Each of `also` is one more variant beside these, with settings
+    /// every combination, the last key varying fastest. Each of `also` is one more variant, with settings
     /// `key=value,key=value,…` of its own. The overrides `set` apply to all of them, first. With `steps` all variants run for
     /// so many, as [`scene::load_for`] does it.
     ///
@@ -78,10 +78,10 @@ impl Sweep {
                 Err(message) => mistakes.push(format!("`--vary {argument}`: {message}")),
             }
         }
-        let mut beside = Vec::new();
+        let mut further = Vec::new();
         for argument in also {
             match settings(argument) {
-                Ok(settings) => beside.push(settings),
+                Ok(settings) => further.push(settings),
                 Err(message) => mistakes.push(format!("`--also {argument}`: {message}")),
             }
         }
@@ -110,8 +110,8 @@ impl Sweep {
             // The reader of scenes says what is wrong in better words.
             return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene));
         };
-        let variants = expand(&name, &text, (set, steps), &read, &beside)?;
-        Ok(Self { scene: name, base, set: set.to_vec(), steps, vary: read, also: beside, variants })
+        let variants = expand(&name, &text, (set, steps), &read, &further)?;
+        Ok(Self { scene: name, base, set: set.to_vec(), steps, vary: read, also: further, variants })
     }
 
     /// The sweep of a summary.
@@ -185,8 +185,8 @@ fn expand(
         };
         (vary.iter().zip(&places).map(setting).collect::<Vec<_>>(), places)
     });
-    let beside = also.iter().map(|settings| (settings.clone(), Vec::new()));
-    let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(beside).collect();
+    let further = also.iter().map(|settings| (settings.clone(), Vec::new()));
+    let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(further).collect();
     let keys = keys(vary, also);
     let short_keys = naming::short_keys(&keys);
     let short = |key: &str| {
@@ -200,7 +200,7 @@ fn expand(
         let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
         match scene::parse_for(name, text, &overrides, steps.filter(|_| !sets_steps)) {
             Ok((scene, notices)) => {
-                // Values of one key differ, but what stands beside them may be one of the combinations.
+                // Values of one key differ, but a further variant may be one of the combinations.
                 let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
                 if let Some(twin) = twin {
                     let message = format!("this is the scene of `{}` again; leave one of them out", twin.name);
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_may_stand_beside_the_product() {
+    fn a_variant_may_stand_further_the_product() {
         let found = sweep(&["interactions.0.friction=1,2"], &["integrator.type=cotter-reich,time.step=.01"]).unwrap();
         assert_eq!(names(&found), ["friction=1", "friction=2", "type=cotter-reich,step=0.01"]);
         assert_eq!(found.variants()[2].scene.time.step, 0.01);

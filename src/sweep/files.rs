@@ -1,4 +1,4 @@
-//! The names of the files in the directory of a sweep, beside the directories of its variants.
+//! The names of the files in the directory of a sweep, in addition to the directories of its variants.
 
 /// The table: a row for every variant.
 pub const TABLE: &str = "sweep.csv";

@@ -20,7 +20,7 @@ const LEFT_OUT: [&str; 3] = ["momentum_", "center_of_mass_velocity_", "particle"
 const FIRST: [&str; 3] = ["temperature", "configurational_temperature", "pressure"];
 
 /// The charts of the means of all variants that are finished against the values of one varied key: the one with most
-/// numbers, or else most values; every combination of the others is a curve, and variants beside them are lines to compare
+/// numbers, or else most values; every combination of the others is a curve, and further variants are lines to compare
 /// with. No chart where less than two values are finished.
 pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<Chart> {
     let Some(axis) = MeansAxis::of(sweep) else { return Vec::new() };

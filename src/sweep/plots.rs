@@ -7,7 +7,7 @@ use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
-use crate::output::{RunDirectory, files as run_files};
+use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Curve, Plotter, SeriesInk, overlay_chart};
 use crate::run;
 use crate::scene::{self, PlotStyle};
@@ -26,7 +26,8 @@ const FEW: usize = 5;
 pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, SweepError> {
     let summary = SweepSummary::load(directory)?;
     let directory = RunDirectory::claim(directory)?;
-    let sweep = summary.sweep()?;
+    let sweep = summary.sweep(directory.path())?;
+    directory.check_pictures(summary.sweep_id, files::SUMMARY, files::is_of_a_sweep)?;
     let mut style = style(&sweep);
     if !overrides.is_empty() {
         let overrides = [summary.set.as_slice(), &first_settings(&sweep), overrides].concat();
@@ -62,8 +63,10 @@ pub(super) fn draw(
     let mut finished: Vec<(&Variant, Table)> = Vec::new();
     for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
         if ended.state == VariantState::Finished {
-            let path = place.file(&variant.name).join(run_files::ENERGIES);
-            let table = run::read_energies(&path, &variant.scene, ended.steps)?;
+            let run = RunDirectory::open(place.file(&variant.name))?;
+            run.check_run(ended.run_id, files::SUMMARY)?;
+            Summary::load(&run.file(run_files::SUMMARY))?.check_table(&run, run_files::ENERGIES)?;
+            let table = run::read_energies(&run.file(run_files::ENERGIES), &variant.scene, ended.steps)?;
             finished.push((variant, table));
         }
     }
@@ -81,7 +84,7 @@ pub(super) fn draw(
     let mut written = Vec::new();
     for (number, chart) in (1..).zip(means_chart::charts(sweep, summary, look)) {
         let name = files::means(number);
-        run::save(place, &name, plotter.draw_chart(&chart, style))?;
+        run::save(place, &name, summary.sweep_id, plotter.draw_chart(&chart, style))?;
         written.push(name);
     }
     for quantity in quantities {
@@ -106,7 +109,7 @@ pub(super) fn draw(
         }
         let chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
         let name = files::plot(quantity);
-        run::save(place, &name, plotter.draw_chart(&chart, style))?;
+        run::save(place, &name, summary.sweep_id, plotter.draw_chart(&chart, style))?;
         written.push(name);
     }
     Ok(written)
@@ -144,7 +147,7 @@ fn changes(curves: &[Curve]) -> bool {
 }
 
 /// What each variant is drawn with: where one key has more than a few numbers as values, and no other has, colours on
-/// a scale in the order of these numbers, and dashes for the other keys; variants beside them in the ink of the axes.
+/// a scale in the order of these numbers, and dashes for the other keys; variants that are none of their combinations in the ink of the axes.
 fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
     let numeric = |place: usize| sweep.variations()[place].values.iter().all(Value::is_number);
     let many: Vec<usize> =
@@ -156,11 +159,11 @@ fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
     let values: Vec<f64> = sweep.variations()[scaled].values.iter().filter_map(Value::as_f64).collect();
     let last = (values.len() - 1) as f64;
     let place_on_scale = |index: usize| values.iter().filter(|value| **value < values[index]).count() as f64 / last;
-    let mut beside = 0;
+    let mut further = 0;
     let ink = |variant: &Variant| {
         let Some(index) = variant.places.get(scaled) else {
-            beside += 1;
-            return SeriesInk::Ink { pattern: beside };
+            further += 1;
+            return SeriesInk::Ink { pattern: further };
         };
         // Dashes count through the combinations of the other keys.
         let others = (0..variant.places.len()).filter(|place| *place != scaled);

@@ -11,10 +11,9 @@ use super::{default_jobs, files, table};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::output::summary::AdapterSummary;
-use crate::output::{OutputError, RunDirectory, Summary, files as run_files};
+use crate::output::{Id, OutputError, RunDirectory, Summary, files as run_files, of_one_run};
 use crate::plan::{self, Hardware, Options};
 use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
-use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -36,7 +35,7 @@ enum Beginning {
     Interrupted { directory: RunDirectory },
 }
 
-/// What an observer of a sweep is told.
+/// What an observer of a sweep receives.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum SweepEvent<'a> {
@@ -82,7 +81,7 @@ pub struct SweepOutcome {
     pub summary: SweepSummary,
     /// Numbers of the variants that failed, and why.
     pub failures: Vec<(usize, RunError)>,
-    /// Names of the files of the sweep that are in its directory, beside the directories of the variants.
+    /// Names of the files of the sweep that are in its directory, without the directories of the variants.
     pub files: Vec<String>,
 }
 
@@ -103,7 +102,7 @@ impl SweepRun {
         Self { sweep, summary, directory, beginning, interrupt: Interrupt::default() }
     }
 
-    /// What is missing of the sweep in a directory: variants under way go on from their last checkpoints, those that
+    /// What is missing of the sweep in a directory: variants under way continue from their last checkpoints, those that
     /// failed are tried again. The plots are drawn again, with another look where one is given. The directory belongs to
     /// this process from now on, until the sweep is dropped or executed.
     ///
@@ -116,11 +115,12 @@ impl SweepRun {
         SweepSummary::load(&directory)?;
         let claimed = RunDirectory::claim(&directory)?;
         let mut summary = SweepSummary::load(&directory)?;
-        let sweep = summary.sweep()?;
+        let sweep = summary.sweep(&directory)?;
+        claimed.check_pictures(summary.sweep_id, files::SUMMARY, files::is_of_a_sweep)?;
         let look = look.unwrap_or_else(|| summary.plots.clone());
-        summary = SweepSummary { adapter: summary.adapter.take(), ..SweepSummary::new(&sweep, look) };
+        summary = summary.begun_again(&sweep, look);
         for (variant, entry) in sweep.variants().iter().zip(&mut summary.variants) {
-            if let Some(run) = finished(&directory.join(&variant.name), variant) {
+            if let Some(run) = finished(&directory.join(&variant.name), variant, entry.run_id) {
                 entry.finish(&run);
             }
         }
@@ -200,7 +200,7 @@ impl SweepRun {
         Ok(SweepOutcome { summary: self.summary, failures, files })
     }
 
-    /// Opens an adapter with room for the largest of these variants, and says how many operations a step of it takes.
+    /// Opens an adapter with the capacity for the largest of these variants, and says how many operations a step of it takes.
     fn open_adapter(&self, choice: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, f64), SweepError> {
         let scenes = waiting.iter().map(|number| &self.sweep.variants()[*number].scene);
         let Some(scene) = scenes.max_by_key(|scene| Model::new(scene).particle_count()) else {
@@ -229,6 +229,8 @@ impl SweepRun {
         let (sweep, directory, resuming) =
             (&*sweep, directory.as_path(), matches!(beginning, Beginning::Interrupted { .. }));
         let interrupt = &*interrupt;
+        let ids: Vec<Id> = summary.variants.iter().map(|variant| variant.run_id).collect();
+        let ids = &ids;
         let next = AtomicUsize::new(0);
         let (sender, receiver) = mpsc::channel();
         let mut failures = Vec::new();
@@ -242,7 +244,7 @@ impl SweepRun {
                             break;
                         }
                         let variant = &sweep.variants()[*number];
-                        let simulation = simulation(variant, &directory.join(&variant.name), resuming);
+                        let simulation = simulation(variant, ids[*number], &directory.join(&variant.name), resuming);
                         work(*number, simulation, interrupt, choice, &sender);
                     }
                 });
@@ -255,7 +257,7 @@ impl SweepRun {
                     Message::Ended(result) => {
                         match *result {
                             Ok(outcome) => summary.variants[number].finish(&outcome.summary),
-                            // It waits to go on.
+                            // It waits to be continued.
                             Err(RunError::Interrupted { .. }) => continue,
                             Err(error) => {
                                 summary.variants[number].fail(error.to_string());
@@ -285,21 +287,21 @@ fn save(directory: &Path, sweep: &Sweep, summary: &SweepSummary) -> Result<(), S
 }
 
 /// The run of a variant: from its checkpoint if a sweep is resumed and there is one, else from the beginning.
-fn simulation(variant: &Variant, directory: &Path, resuming: bool) -> Result<Simulation, RunError> {
+fn simulation(variant: &Variant, id: Id, directory: &Path, resuming: bool) -> Result<Simulation, RunError> {
     let steps = variant.scene.time.steps;
-    let begin = |force| Simulation::start(variant.scene.clone(), directory, force).noting(&variant.notices);
-    if !directory.join(run_files::CHECKPOINT).exists() {
-        // What a resumed sweep finds without a checkpoint is the beginning of this very run.
-        return Ok(begin(resuming));
-    }
+    let begin = |force| Simulation::start(variant.scene.clone(), directory, force).with_id(id).noting(&variant.notices);
     if !resuming {
         return Ok(begin(false));
     }
-    let simulation = Simulation::resume(directory, Some(steps))?;
-    if !is_of(variant, simulation.scene()) {
-        // The run of another scene is nothing to go on from, nor to be overwritten.
-        return Ok(begin(false));
+    if directory.is_dir() {
+        // The run of another scene is not to be continued, nor to be overwritten.
+        RunDirectory::open(directory)?.check_run(id, files::SUMMARY)?;
     }
+    if !directory.join(run_files::CHECKPOINT).exists() {
+        // What a resumed sweep finds without a checkpoint is the beginning of this very run.
+        return Ok(begin(true));
+    }
+    let simulation = Simulation::resume(directory, Some(steps))?;
     if simulation.first_step() > steps {
         return Err(OutputError::Continued { directory: directory.to_path_buf(), finished: steps }.into());
     }
@@ -313,35 +315,30 @@ fn work(
     choice: &AdapterChoice,
     sender: &mpsc::Sender<(usize, Message)>,
 ) {
-    // If nobody listens any more, there is nobody to tell.
-    let tell = |message: Message| drop(sender.send((number, message)));
+    // If nobody listens any more, there is nobody to report.
+    let report = |message: Message| drop(sender.send((number, message)));
     let result = simulation.and_then(|simulation| {
-        tell(Message::Begun(simulation.first_step()));
+        report(Message::Begun(simulation.first_step()));
         simulation.until(interrupt).execute(choice, &mut |event| {
             if let Event::Advanced(progress) = event {
-                tell(Message::Advanced(progress));
+                report(Message::Advanced(progress));
             }
         })
     });
-    tell(Message::Ended(Box::new(result)));
+    report(Message::Ended(Box::new(result)));
 }
 
-/// The summary of a run that came to the last step of a variant, if it did and left everything that it was to leave.
-fn finished(directory: &Path, variant: &Variant) -> Option<Summary> {
+/// The summary of the run of a variant, if it reached its last step and left all of its files.
+fn finished(directory: &Path, variant: &Variant, id: Id) -> Option<Summary> {
     if !directory.is_dir() {
         return None;
     }
     // A process that still writes there is not finished; what a killed one left half-written is removed.
     let directory = RunDirectory::claim(directory).ok()?;
-    let came_to_its_end =
-        |summary: &Summary| summary.steps >= variant.scene.time.steps && is_of(variant, &summary.scene);
-    let summary = Summary::load(&directory.file(run_files::SUMMARY)).ok().filter(came_to_its_end)?;
+    directory.check_run(id, files::SUMMARY).ok()?;
+    let reached_its_end = |summary: &Summary| {
+        summary.run_id == id && summary.steps >= variant.scene.time.steps && of_one_run(&summary.scene, &variant.scene)
+    };
+    let summary = Summary::load(&directory.file(run_files::SUMMARY)).ok().filter(reached_its_end)?;
     summary.is_complete(&directory).then_some(summary)
-}
-
-/// Whether a scene is that of a variant, but for how long it runs.
-fn is_of(variant: &Variant, scene: &Scene) -> bool {
-    let mut as_long = scene.clone();
-    as_long.time.steps = variant.scene.time.steps;
-    as_long == variant.scene
 }

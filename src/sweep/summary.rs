@@ -8,7 +8,7 @@ use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use super::variation::{Setting, Variation};
 use crate::output::summary::AdapterSummary;
-use crate::output::{OutputError, write_atomically};
+use crate::output::{Id, OutputError, write_atomically};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -18,13 +18,15 @@ use std::path::Path;
 pub struct SweepSummary {
     /// Version of the program.
     pub mesoscope_version: String,
+    /// The id of the sweep, made of those of its runs.
+    pub sweep_id: Id,
     /// File or built-in name of the scene.
     pub scene: String,
     /// The adapter the sweep last computed on; none before it began.
     pub adapter: Option<AdapterSummary>,
     /// Keys that are varied, with their values.
     pub vary: Vec<Variation>,
-    /// Variants beside their combinations.
+    /// Variants in addition to their combinations.
     pub also: Vec<Vec<Setting>>,
     /// Overrides of the scene that apply to all variants.
     pub set: Vec<String>,
@@ -47,6 +49,7 @@ impl SweepSummary {
     pub(super) fn new(sweep: &Sweep, look: Look) -> Self {
         let waiting = |variant: &super::Variant| VariantSummary {
             name: variant.name.clone(),
+            run_id: Id::of_run(&variant.scene),
             label: variant.label.clone(),
             settings: variant.settings.clone(),
             state: VariantState::Waiting,
@@ -60,8 +63,10 @@ impl SweepSummary {
             unequilibrated: None,
             warnings: Vec::new(),
         };
+        let variants: Vec<VariantSummary> = sweep.variants().iter().map(waiting).collect();
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            sweep_id: Id::of_sweep(variants.iter().map(|variant| variant.run_id)),
             scene: sweep.scene.clone(),
             adapter: None,
             vary: sweep.vary.clone(),
@@ -69,13 +74,13 @@ impl SweepSummary {
             set: sweep.set.clone(),
             steps: sweep.steps,
             plots: look,
-            variants: sweep.variants().iter().map(waiting).collect(),
+            variants,
             averages: Vec::new(),
             base: sweep.base.clone(),
         }
     }
 
-    /// Takes the means over the seed anew.
+    /// Takes the means over the seed of all variants that are finished.
     pub(super) fn average(&mut self) {
         self.averages = averages(&self.variants);
     }
@@ -107,9 +112,32 @@ impl SweepSummary {
         })
     }
 
-    /// The sweep that this is the summary of.
-    pub(super) fn sweep(&self) -> Result<Sweep, SweepError> {
+    /// The sweep that this is the summary of, if the ids of its runs are those in the summary.
+    ///
+    /// # Errors
+    /// [`SweepError::Changed`], and what [`Sweep::load`] gives rise to.
+    pub(super) fn sweep(&self, directory: &Path) -> Result<Sweep, SweepError> {
         let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
-        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())
+        let sweep = Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())?;
+        let ids = |summary: &Self| summary.variants.iter().map(|variant| variant.run_id).collect::<Vec<_>>();
+        let expected = Self::new(&sweep, self.plots.clone());
+        // Another version may have keys in its scenes that change the ids.
+        let same_version = self.mesoscope_version == expected.mesoscope_version;
+        let same_names = self.variants.iter().map(|v| &v.name).eq(expected.variants.iter().map(|v| &v.name));
+        let same_ids = !same_version || ids(self) == ids(&expected);
+        if same_names && same_ids && self.sweep_id == Id::of_sweep(ids(self)) {
+            return Ok(sweep);
+        }
+        Err(SweepError::Changed { path: directory.join(files::SUMMARY) })
+    }
+
+    /// The summary of the same sweep before any of its variants was run.
+    pub(super) fn begun_again(self, sweep: &Sweep, look: Look) -> Self {
+        let mut new = Self::new(sweep, look);
+        (new.sweep_id, new.adapter) = (self.sweep_id, self.adapter);
+        for (variant, earlier) in new.variants.iter_mut().zip(&self.variants) {
+            variant.run_id = earlier.run_id;
+        }
+        new
     }
 }

@@ -129,11 +129,13 @@ mod tests {
     use super::super::look::Look;
     use super::super::variant::{VariantState, VariantSummary};
     use super::*;
+    use crate::output::Id;
     use serde_json::{Map, json};
 
     fn variant(name: &str, setting: Option<Value>, means: Value, results: Value) -> VariantSummary {
         let object = |value: Value| value.as_object().cloned().unwrap_or_default();
         VariantSummary {
+            run_id: Id::of_sweep([]),
             name: name.to_owned(),
             label: name.to_owned(),
             settings: setting.map(|value| Setting { key: "a.b".to_owned(), value }).into_iter().collect(),
@@ -155,11 +157,12 @@ mod tests {
         let means = json!({"temperature": {"mean": 1.5, "standard_error": 0.25}, "pressure": null});
         let results = json!({"diffusion": {"windows": 3, "einstein": {"value": 0.3, "standard_error": null}}});
         let first = variant("b=one,two", Some(json!("one,two")), means, results);
-        let beside = variant("c=1", None, json!({"temperature": {"mean": 2.0, "standard_error": null}}), json!({}));
+        let further = variant("c=1", None, json!({"temperature": {"mean": 2.0, "standard_error": null}}), json!({}));
         let mut failed = variant("b=[1,2]", Some(json!([1, 2])), json!({}), json!({}));
         (failed.state, failed.steps) = (VariantState::Failed, 0);
         let summary = SweepSummary {
             mesoscope_version: String::new(),
+            sweep_id: Id::of_sweep([]),
             scene: String::new(),
             adapter: None,
             vary: Vec::new(),
@@ -167,7 +170,7 @@ mod tests {
             set: Vec::new(),
             steps: None,
             plots: Look::default(),
-            variants: vec![first, beside, failed],
+            variants: vec![first, further, failed],
             averages: Vec::new(),
             base: Value::Object(Map::new()),
         };

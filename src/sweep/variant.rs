@@ -1,8 +1,8 @@
 //! What came out of one variant of a sweep.
 
 use super::variation::Setting;
-use crate::output::Summary;
 use crate::output::summary::Unequilibrated;
+use crate::output::{Id, Summary};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -11,6 +11,8 @@ use serde_json::{Map, Value};
 pub struct VariantSummary {
     /// Name of its directory.
     pub name: String,
+    /// The id of its run.
+    pub run_id: Id,
     /// What a legend calls it.
     pub label: String,
     /// What distinguishes it.
@@ -45,7 +47,7 @@ pub struct VariantSummary {
 pub enum VariantState {
     /// It has not ended yet.
     Waiting,
-    /// It came to its last step.
+    /// It reached its last step.
     Finished,
     /// It failed.
     Failed,

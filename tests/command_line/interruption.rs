@@ -94,7 +94,7 @@ fn an_interrupted_run_goes_on_where_it_was() {
         assert_eq!(code, Some(130), "{said}");
         let step = checkpoint::load(&place.path("parts").join(files::CHECKPOINT)).unwrap().state.step;
         assert!(step > 0);
-        let told = format!("interrupted at step {step}; `mesoscope resume {parts}` goes on from there");
+        let told = format!("interrupted at step {step}; `mesoscope resume {parts}` continues it");
         assert!(said.ends_with(&format!("{told}\n")) && !said.contains("error"), "{said}");
 
         let steps = (step + 35).to_string();
@@ -269,7 +269,7 @@ fn files_that_vanish_under_way_are_errors_at_the_end() {
         send("-CONT", &child, 1);
         let (code, said) = ended(child);
         assert!(code == Some(5) && said.contains(&format!("{name}` is not complete: {problem}")), "{code:?} {said}");
-        assert!(!said.contains("goes on from"), "{said}");
+        assert!(!said.contains("continues from"), "{said}");
         assert_eq!(Summary::load(&path.join(files::SUMMARY)).unwrap().steps, 6000);
         assert!(path.join(files::ENERGIES_PLOT).exists());
         fs::remove_dir_all(path).unwrap();
@@ -453,17 +453,87 @@ fn files_of_different_runs_are_not_mixed() {
             }
             fs::write(place.path("one").join(name), kept).unwrap();
         }
-        // Without a summary it is the table that does not belong to the checkpoint, and without a table the trajectory.
+        // Without a summary it is the trajectory or a picture that does not belong to the checkpoint, or the table.
         let mixed = place.path("mixed");
-        for tables in [&[files::ENERGIES, files::TRAJECTORY_GSD][..], &[files::TRAJECTORY_GSD]] {
+        let files = [files::CHECKPOINT, files::ENERGIES, files::TRAJECTORY_GSD, files::SNAPSHOT];
+        for (foreign, problem) in [
+            (files::ENERGIES, "is not what the run wrote"),
+            (files::TRAJECTORY_GSD, "belongs to another run than `checkpoint.bin`"),
+            (files::SNAPSHOT, "belongs to another run than `checkpoint.bin`"),
+        ] {
             fs::create_dir_all(&mixed).unwrap();
-            for name in [files::CHECKPOINT, files::ENERGIES, files::TRAJECTORY_GSD] {
-                let from = if tables.contains(&name) { "one" } else { other };
+            for name in files {
+                let from = if name == foreign { "one" } else { other };
                 fs::copy(place.path(from).join(name), mixed.join(name)).unwrap();
             }
-            let told = format!("{}` is not what the run wrote", tables[0]);
+            let told = format!("{foreign}` {problem}");
             fails(&["resume", &place.argument("mixed"), "--steps", "90"], 5, &[&told]);
         }
     }
     assert!(succeeds(&["resume", &place.argument("one")]).contains("nothing to do"));
+}
+
+/// Nor are those of the variants of a sweep, nor of sweeps.
+#[test]
+fn files_of_different_sweeps_are_not_mixed() {
+    let place = place().with("/time/steps", json!(30));
+    let (scene, out, swept) = (place.scene(), place.argument("out"), place.path("out"));
+    let sweep = |out: &str, vary: &str| {
+        succeeds(&["sweep", &scene, "--vary", vary, "--plot", "temperature", "--out", out, "--quiet"]);
+    };
+    sweep(&out, "seed=1,2");
+    sweep(&place.argument("other"), "seed=1,3");
+    let resume = ["sweep", "--resume", &out];
+    let variant = swept.join("seed=2");
+    // A file of one variant in the place of that of the other.
+    let foreign = |name: &str| fs::copy(swept.join("seed=1").join(name), variant.join(name)).unwrap();
+    for name in [files::SUMMARY, files::CHECKPOINT, files::TRAJECTORY_GSD, files::ENERGIES_PLOT] {
+        let kept = bytes(&variant.join(name));
+        foreign(name);
+        let told = format!("{name}` belongs to another run than `sweep.json`");
+        fails(&["plot", &out], 5, &[&told]);
+        fails(&resume, 5, &["`seed=2`", &told]);
+        // The same before the first checkpoint of the variant, where there is nothing to resume.
+        let saved = bytes(&variant.join(files::CHECKPOINT));
+        if name != files::CHECKPOINT {
+            fs::remove_file(variant.join(files::CHECKPOINT)).unwrap();
+            fails(&resume, 5, &["`seed=2`", &told]);
+            fs::write(variant.join(files::CHECKPOINT), saved).unwrap();
+        }
+        assert!(bytes(&variant.join(name)) == bytes(&swept.join("seed=1").join(name)), "{name} was replaced");
+        fs::write(variant.join(name), kept).unwrap();
+        succeeds(&resume);
+    }
+    let kept = bytes(&variant.join(files::ENERGIES));
+    foreign(files::ENERGIES);
+    fails(&["plot", &out], 5, &["energies.csv` is not what the run wrote"]);
+    fails(&resume, 5, &["energies.csv` is not what the run wrote"]);
+    fs::write(variant.join(files::ENERGIES), kept).unwrap();
+
+    // A plot of another sweep; a summary that speaks of other runs.
+    let plot = swept.join("sweep-temperature.png");
+    let kept = bytes(&plot);
+    fs::copy(place.path("other").join("sweep-temperature.png"), &plot).unwrap();
+    for arguments in [&resume[..], &["plot", &out]] {
+        fails(arguments, 5, &["sweep-temperature.png` belongs to another sweep than `sweep.json`"]);
+    }
+    fs::write(&plot, kept).unwrap();
+    let summary = swept.join(mesoscope::sweep::files::SUMMARY);
+    let kept = text(&bytes(&summary)).to_owned();
+    let found = SweepSummary::load(&swept).unwrap();
+    let other = SweepSummary::load(&place.path("other")).unwrap();
+    for (old, new) in [
+        ("\"temperature\": 1,".to_owned(), "\"temperature\": 2,".to_owned()),
+        (found.sweep_id.to_string(), other.sweep_id.to_string()),
+        (found.variants[1].run_id.to_string(), other.variants[1].run_id.to_string()),
+    ] {
+        assert!(kept.contains(&old), "{old}");
+        fs::write(&summary, kept.replacen(&old, &new, 1)).unwrap();
+        for arguments in [&resume[..], &["plot", &out]] {
+            fails(arguments, 5, &["sweep.json` was changed: it describes other runs"]);
+        }
+    }
+    fs::write(&summary, &kept).unwrap();
+    succeeds(&resume);
+    succeeds(&["plot", &out]);
 }

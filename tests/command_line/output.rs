@@ -6,14 +6,18 @@ use mesoscope::measure::statistics;
 use mesoscope::output::checkpoint::{self, CheckpointError};
 use mesoscope::output::summary::AdapterSummary;
 use mesoscope::output::{
-    EnergiesFile, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, files, read_table, write_atomically,
-    write_table,
+    EnergiesFile, Extent, Id, OutputError, RunDirectory, Summary, TrajectoryWriter, files, read_table,
+    write_atomically, write_table,
 };
 use mesoscope::scene::{Scene, TrajectoryFormat};
 use mesoscope::state::State;
 use mesoscope::table::Table;
 use std::fs;
 use std::path::Path;
+
+fn run_id() -> Id {
+    Id::of_run(&scene(3))
+}
 
 fn scene(dimension: usize) -> Scene {
     let lengths = &[4.0, 5.0, 6.1][..dimension];
@@ -77,14 +81,14 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
         RunDirectory::open(&path).unwrap()
     };
     let error = RunDirectory::create(&path, false).unwrap_err();
-    assert!(matches!(&error, OutputError::InTheWay { path } if path.ends_with("energies.csv")), "{error}");
+    assert!(matches!(&error, OutputError::ResultExists { path } if path.ends_with("energies.csv")), "{error}");
     assert!(error.to_string().contains("--force"));
     assert_eq!(fs::read(run.file(files::SUMMARY)).unwrap(), b"old");
 
     // Where something cannot be replaced, nothing is.
     fs::create_dir(run.file(files::ENERGIES_PLOT)).unwrap();
     let error = RunDirectory::create(&path, true).unwrap_err();
-    assert!(matches!(&error, OutputError::DirectoryInTheWay { path } if path.ends_with("energies.png")), "{error}");
+    assert!(matches!(&error, OutputError::DirectoryOfThatName { path } if path.ends_with("energies.png")), "{error}");
     assert_eq!(fs::read(run.file(files::ENERGIES)).unwrap(), b"old");
     fs::remove_dir(run.file(files::ENERGIES_PLOT)).unwrap();
 
@@ -199,9 +203,9 @@ fn a_full_disk_is_reported_as_such() {
     assert!(error.to_string().starts_with("cannot write `/dev/full`: No space left"), "{error}");
 
     let model = Model::new(&scene(3));
-    let error = TrajectoryWriter::create(full, TrajectoryFormat::Gsd, &model).unwrap_err();
+    let error = TrajectoryWriter::create(full, TrajectoryFormat::Gsd, &model, run_id()).unwrap_err();
     assert!(is_full(&error), "{error}");
-    let mut trajectory = TrajectoryWriter::create(full, TrajectoryFormat::ExtendedXyz, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(full, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
     trajectory.append(&state(0, 3)).unwrap();
     assert!(is_full(&trajectory.flush().unwrap_err()));
 }
@@ -305,7 +309,7 @@ fn a_file_that_vanishes_is_missed() {
         let lost = energies.check().unwrap_err();
         assert!(matches!(lost, OutputError::Lost { .. }) && lost.to_string().contains(problem), "{lost}");
         for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
-            let mut trajectory = TrajectoryWriter::create(&path, format, &model).unwrap();
+            let mut trajectory = TrajectoryWriter::create(&path, format, &model, run_id()).unwrap();
             for state in &states {
                 trajectory.append(state).unwrap();
                 trajectory.flush().unwrap();
@@ -361,22 +365,23 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
     let mut state = state(99, 3);
     for predicted in [Vec::new(), vec![[1, -2, 3]; 3]] {
         state.predicted = predicted;
-        checkpoint::save(&path, &scene, &state, &written, &sections).unwrap();
+        checkpoint::save(&path, run_id(), &scene, &state, &written, &sections).unwrap();
         let loaded = checkpoint::load(&path).unwrap();
         assert_eq!((&loaded.scene, &loaded.state), (&scene, &state));
         assert_eq!((&loaded.files, &loaded.sections), (&written, &sections));
+        assert_eq!(loaded.run_id, run_id());
         let first = fs::read(&path).unwrap();
-        checkpoint::save(&path, &loaded.scene, &loaded.state, &loaded.files, &loaded.sections).unwrap();
+        checkpoint::save(&path, run_id(), &loaded.scene, &loaded.state, &loaded.files, &loaded.sections).unwrap();
         assert_eq!(fs::read(&path).unwrap(), first);
     }
     let mut nothing = scene.clone();
     nothing.particles.clear();
-    checkpoint::save(&path, &nothing, &State::default(), &[], &[]).unwrap();
+    checkpoint::save(&path, run_id(), &nothing, &State::default(), &[], &[]).unwrap();
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
     assert_eq!(directory_listing(root.path()), [files::CHECKPOINT]);
 
     state.momenta.pop();
-    assert!(matches!(checkpoint::save(&path, &scene, &state, &[], &[]), Err(OutputError::Io { .. })));
+    assert!(matches!(checkpoint::save(&path, run_id(), &scene, &state, &[], &[]), Err(OutputError::Io { .. })));
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
 }
 
@@ -384,7 +389,7 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
 fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::CHECKPOINT);
-    checkpoint::save(&path, &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
+    checkpoint::save(&path, run_id(), &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
     let whole = fs::read(&path).unwrap();
     let load = |bytes: &[u8]| {
         fs::write(&path, bytes).unwrap();
@@ -424,7 +429,7 @@ fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
 fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::CHECKPOINT);
-    checkpoint::save(&path, &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
+    checkpoint::save(&path, run_id(), &scene(2), &state(7, 2), &[], &[("a".to_owned(), vec![9; 10])]).unwrap();
     let whole = fs::read(&path).unwrap();
     let payload = &whole[20..whole.len() - 8];
     let sealed = |payload: &[u8]| {
@@ -434,7 +439,9 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
         [&whole[..12], &(payload.len() as u64).to_le_bytes(), payload, &sum.to_le_bytes()].concat()
     };
     assert_eq!(sealed(payload), whole);
-    let scene = 8..u64::from_le_bytes(payload[..8].try_into().unwrap()) as usize;
+    let length = |at: usize| u64::from_le_bytes(payload[at..at + 8].try_into().unwrap()) as usize;
+    let after_id = 8 + length(0);
+    let scene = after_id + 8..after_id + 8 + length(after_id);
     for place in 0..payload.len() - 7 {
         // The text of the scene holds no length.
         let lengths = [u64::MAX / 12, 1 << 40];
@@ -449,7 +456,7 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
             }
         }
     }
-    for place in [0, 8 + u64::from_le_bytes(payload[..8].try_into().unwrap()) as usize + 8] {
+    for place in [0, after_id, scene.end + 8] {
         let mut altered = payload.to_vec();
         altered[place..place + 8].copy_from_slice(&(u64::MAX / 12).to_le_bytes());
         fs::write(&path, sealed(&altered)).unwrap();
@@ -480,7 +487,7 @@ fn gsd_holds_bonds() {
     let scene: Scene = scene.unwrap();
     let model = Model::new(&scene);
     let start = mesoscope::families::initial_state(&scene, &model);
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     let mut extents = Vec::new();
     for step in [0, 10, 20] {
         trajectory.append(&State { step, ..start.clone() }).unwrap();
@@ -488,7 +495,7 @@ fn gsd_holds_bonds() {
         extents.push(trajectory.extent());
     }
     drop(trajectory);
-    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[1]).unwrap());
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), extents[1]).unwrap());
 
     let file = GsdFile::open(&path, Mode::Read).unwrap();
     assert_eq!(file.n_frames(), 2);
@@ -508,7 +515,7 @@ fn gsd_holds_what_hoomd_expects() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::TRAJECTORY_GSD);
     let model = Model::new(&scene(3));
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     for step in [0, 10] {
         trajectory.append(&state(step, 3)).unwrap();
     }
@@ -543,7 +550,7 @@ fn gsd_holds_what_hoomd_expects() {
 
     let flat = root.path().join("flat.gsd");
     let model = Model::new(&scene(2));
-    let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     trajectory.append(&state(0, 2)).unwrap();
     drop(trajectory);
     let file = GsdFile::open(&flat, Mode::Read).unwrap();
@@ -554,7 +561,7 @@ fn gsd_holds_what_hoomd_expects() {
 
 /// Writes frames of steps 0, 10, 20, …; returns the extents after each.
 fn write_frames(path: &Path, format: TrajectoryFormat, model: &Model, frames: u64) -> Vec<Extent> {
-    let mut trajectory = TrajectoryWriter::create(path, format, model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(path, format, model, run_id()).unwrap();
     let extents = (0..frames).map(|frame| {
         trajectory.append(&state(10 * frame, 3)).unwrap();
         trajectory.flush().unwrap();
@@ -576,7 +583,8 @@ fn trajectories_resume_at_the_step() {
         // Nothing to drop, some frames to drop, all frames but the first to drop; and data of a frame that was not finished.
         for (last, more) in [(49, 0), (23, 0), (0, 0), (49, 100)] {
             fs::write(&path, [straight.as_slice(), &vec![7; more]].concat()).unwrap();
-            let mut trajectory = TrajectoryWriter::resume(&path, format, &model, extents[last as usize]).unwrap();
+            let mut trajectory =
+                TrajectoryWriter::resume(&path, format, &model, run_id(), extents[last as usize]).unwrap();
             assert_eq!(trajectory.extent(), extents[last as usize]);
             for frame in last + 1..50 {
                 trajectory.append(&state(10 * frame, 3)).unwrap();
@@ -605,7 +613,7 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     let scene = mesoscope::scene::parse("t", scene, &[]).unwrap();
     let model = Model::new(&scene);
     let start = mesoscope::families::initial_state(&scene, &model);
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     let mut written = Vec::new();
     for step in 0..9 {
         trajectory.append(&State { step, ..start.clone() }).unwrap();
@@ -614,7 +622,7 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     }
     drop(trajectory);
     for (extent, bytes) in written.iter().rev() {
-        drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, *extent).unwrap());
+        drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), *extent).unwrap());
         assert!(fs::read(&path).unwrap() == *bytes, "{extent:?}");
     }
 }
@@ -641,7 +649,7 @@ fn damaged_trajectories_are_refused_and_left_alone() {
     let whole = fs::read(&path).unwrap();
     for length in (0..whole.len()).step_by(7) {
         fs::write(&path, &whole[..length]).unwrap();
-        let error = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[2]).unwrap_err();
+        let error = TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), extents[2]).unwrap_err();
         let refused = matches!(error, OutputError::Trajectory { .. } | OutputError::Altered { .. });
         assert!(refused, "{length}: {error}");
         assert_eq!(fs::read(&path).unwrap(), whole[..length]);
@@ -654,7 +662,7 @@ fn damaged_trajectories_are_refused_and_left_alone() {
         let mut bytes = whole.clone();
         bytes[place] ^= 0xff;
         fs::write(&path, &bytes).unwrap();
-        match TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, extents[2]) {
+        match TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), extents[2]) {
             Err(_) => {
                 refused += 1;
                 assert_eq!(fs::read(&path).unwrap(), bytes);
@@ -676,8 +684,9 @@ fn damaged_trajectories_are_refused_and_left_alone() {
         let mut bytes = whole.clone();
         bytes[place] ^= 1;
         fs::write(&path, &bytes).unwrap();
-        let resumed = TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, extents[1]);
-        assert_eq!(matches!(resumed, Err(OutputError::Altered { .. })), place < extents[1].bytes as usize, "{place}");
+        let resumed = TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, run_id(), extents[1]);
+        let refused = matches!(resumed, Err(OutputError::Altered { .. } | OutputError::OtherRun { .. }));
+        assert_eq!(refused, place < extents[1].bytes as usize, "{place}");
     }
 }
 
@@ -686,7 +695,7 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::TRAJECTORY_XYZ);
     let model = Model::new(&scene(2));
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model).unwrap();
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
     trajectory.append(&state(0, 2)).unwrap();
     trajectory.flush().unwrap();
     let first = trajectory.extent();
@@ -704,6 +713,8 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
         lines[6],
         "Lattice=\"4 0 0 0 5 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3:map_shift:I:3:\
          species_name:S:1 pbc=\"T T F\" Step=5 Time=0.05"
+            .to_owned()
+            + &format!(" run_id={}", run_id())
     );
     assert!(lines[2].starts_with("H 0 1.25 0 ") && lines[2].ends_with(" 1 -2 0 light"), "{}", lines[2]);
     assert!(lines[4].starts_with("He 3 ") && lines[4].ends_with(" -1 0 0 heavy_one"), "{}", lines[4]);
@@ -715,8 +726,63 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     assert!((4..7).all(|axis| number(axis + 4) == 4.0 * number(axis)) && number(4) != 0.0, "{words:?}");
 
     fs::write(&path, &text[..text.len() - 2]).unwrap();
-    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, first).unwrap());
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::ExtendedXyz, &model, run_id(), first).unwrap());
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 5);
+}
+
+/// Every file whose format has a place for it holds the id of its run, and is refused in the directory of another one.
+#[test]
+fn files_of_another_run_are_recognised() {
+    let root = tempfile::tempdir().unwrap();
+    let directory = RunDirectory::create(root.path(), false).unwrap();
+    let (this, other) = (run_id(), Id::of_run(&scene(2)));
+    let model = Model::new(&scene(3));
+    let write = |name: &str, id: Id| {
+        let path = directory.file(name);
+        match name {
+            files::SUMMARY => Summary::new(id, scene(3), AdapterSummary::default(), 3).save(&path).unwrap(),
+            files::CHECKPOINT => checkpoint::save(&path, id, &scene(3), &state(0, 3), &[], &[]).unwrap(),
+            files::TRAJECTORY_GSD | files::TRAJECTORY_XYZ => {
+                let format =
+                    if name == files::TRAJECTORY_GSD { TrajectoryFormat::Gsd } else { TrajectoryFormat::ExtendedXyz };
+                let mut trajectory = TrajectoryWriter::create(&path, format, &model, id).unwrap();
+                for step in [0, 10] {
+                    trajectory.append(&state(step, 3)).unwrap();
+                }
+                trajectory.flush().unwrap();
+                let written = trajectory.extent();
+                drop(trajectory);
+                let resumed = TrajectoryWriter::resume(&path, format, &model, this, written);
+                assert_eq!(matches!(resumed, Err(OutputError::OtherRun { .. })), id != this, "{name}");
+            }
+            name => directory.write_picture(name, id, image::RgbaImage::new(8, 8)).unwrap(),
+        }
+    };
+    let snapshot = files::snapshot(3);
+    let names = [
+        files::SUMMARY,
+        files::CHECKPOINT,
+        files::TRAJECTORY_GSD,
+        files::TRAJECTORY_XYZ,
+        files::ENERGIES_PLOT,
+        snapshot.as_str(),
+    ];
+    for name in names {
+        write(name, this);
+        directory.check_run(this, files::CHECKPOINT).unwrap();
+    }
+    for name in names {
+        write(name, other);
+        let error = directory.check_run(this, files::CHECKPOINT).unwrap_err();
+        let told = error.to_string();
+        assert!(matches!(error, OutputError::OtherRun { .. }) && told.contains(name), "{told}");
+        assert!(told.contains(&this.to_string()) && told.contains(&other.to_string()), "{told}");
+        write(name, this);
+    }
+    // What another program has drawn again has no id, and is no other run's.
+    image::RgbaImage::new(8, 8).save(directory.file(&snapshot)).unwrap();
+    fs::write(directory.file(files::ENERGIES_PLOT), "nothing").unwrap();
+    directory.check_run(this, files::CHECKPOINT).unwrap();
 }
 
 #[test]
@@ -727,12 +793,12 @@ fn a_trajectory_of_nothing_is_fine() {
     let model = Model::new(&empty);
     for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
         let path = root.path().join("t");
-        let mut trajectory = TrajectoryWriter::create(&path, format, &model).unwrap();
+        let mut trajectory = TrajectoryWriter::create(&path, format, &model, run_id()).unwrap();
         trajectory.append(&State::default()).unwrap();
         trajectory.flush().unwrap();
         let written = trajectory.extent();
         drop(trajectory);
-        TrajectoryWriter::resume(&path, format, &model, written).unwrap().flush().unwrap();
+        TrajectoryWriter::resume(&path, format, &model, run_id(), written).unwrap().flush().unwrap();
     }
 }
 
@@ -741,7 +807,7 @@ fn the_summary_keeps_its_order_and_reads_back() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::SUMMARY);
     let adapter = AdapterSummary { name: "llvmpipe".into(), driver: "Mesa 22.3".into(), backend: "Vulkan".into() };
-    let mut summary = Summary::new(scene(3), adapter, 3);
+    let mut summary = Summary::new(run_id(), scene(3), adapter, 3);
     summary.set_duration(200, 100, 0.5);
     summary.add_mean("temperature", statistics::estimate(&[1.0, 1.2, 0.9]).as_ref());
     summary.add_mean("bath_energy", None);

@@ -7,7 +7,7 @@ use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
-use crate::support::program::{Place, bytes, colours, fails, mesoscope, picture, size, succeeds, text};
+use crate::support::program::{Place, bytes, colours, fails, listing, mesoscope, picture, size, succeeds, text};
 
 /// A scene of 375 particles that takes small pictures.
 fn place() -> Place {
@@ -168,7 +168,7 @@ fn resuming_a_finished_run_does_nothing() {
     let said = succeeds(&["resume", &place.argument("out")]);
     assert!(said.contains("is finished at step 60"), "{said}");
     let said = succeeds(&["resume", &place.argument("out"), "--steps", "30"]);
-    assert!(said.contains("has come to step 60"), "{said}");
+    assert!(said.contains("has reached step 60"), "{said}");
     assert_eq!(bytes(&place.path("out").join(files::SUMMARY)), before);
     // Killed between the last checkpoint and the summary: the rest is written.
     fs::remove_file(place.path("out").join(files::SUMMARY)).unwrap();
@@ -221,6 +221,21 @@ fn an_explosion_is_reported_with_its_step() {
     fails(&["plot", &out], 5, &["run.json", "no run has been finished there", "mesoscope resume"]);
     let found = |message: &str| message.lines().find(|line| line.contains("became unstable")).map(str::to_owned);
     assert_eq!(found(&fails(&["resume", &out], 4, &[])), found(&message));
+}
+
+/// A run that was killed between its first file and its first checkpoint.
+#[test]
+fn a_run_that_saved_nothing_cannot_be_resumed() {
+    let place = Place::of(json!({}));
+    let out = place.argument("out");
+    fs::create_dir(place.path("out")).unwrap();
+    fails(&["resume", &out], 5, &["cannot read the checkpoint"]);
+    fails(&["plot", &out], 5, &["there is no run in this directory"]);
+    fs::write(place.path("out").join(files::ENERGIES), "step,time\n").unwrap();
+    let told = ["ended before it saved its first checkpoint", "run the scene again with --force"];
+    fails(&["resume", &out], 5, &told);
+    fails(&["plot", &out], 5, &told);
+    assert_eq!(listing(&place.path("out")), [files::ENERGIES]);
 }
 
 #[test]

@@ -219,7 +219,7 @@ fn nothing_is_overwritten_unless_asked() {
     fs::write(place.path("out/notes.txt"), "mine").unwrap();
     let before = listing(&place.path("out"));
     let again = sweep(&["--vary", "seed=3,4"]);
-    fails(&borrowed(&again), 5, &["in the way", "--force", "--resume"]);
+    fails(&borrowed(&again), 5, &["exists already", "--force", "--resume"]);
     assert_eq!(listing(&place.path("out")), before);
     fails(&borrowed(&[again.clone(), vec!["--force".into(), "--adapter".into(), "abacus".into()]].concat()), 3, &[]);
     assert_eq!(listing(&place.path("out")), before);
@@ -227,9 +227,9 @@ fn nothing_is_overwritten_unless_asked() {
     let expected =
         ["notes.txt", "seed=3", "seed=4", "sweep-averages.csv", "sweep-pressure.png", "sweep.csv", "sweep.json"];
     assert_eq!(listing(&place.path("out")), expected);
-    // The directory of a single run is in the way too.
+    // The directory of a single run holds results too.
     succeeds(&["run", &place.scene(), "--out", &place.argument("single"), "--quiet"]);
-    fails(&borrowed(&sweep_into(&place, "single", &["--vary", "seed=1,2"])), 5, &["in the way", "checkpoint.bin"]);
+    fails(&borrowed(&sweep_into(&place, "single", &["--vary", "seed=1,2"])), 5, &["exists already", "checkpoint.bin"]);
 }
 
 #[test]
@@ -241,7 +241,7 @@ fn the_run_of_another_scene_is_not_taken_for_a_variant() {
     let foreign = place.argument("out/seed=2");
     succeeds(&["run", &place.scene(), "--set", "seed=7", "--out", &foreign, "--quiet"]);
     let before = bytes(&second.join(files::ENERGIES));
-    fails(&["sweep", "--resume", &place.argument("out")], 5, &["seed=2", "in the way"]);
+    fails(&["sweep", "--resume", &place.argument("out")], 5, &["seed=2", "belongs to another run than `sweep.json`"]);
     assert_eq!(bytes(&second.join(files::ENERGIES)), before);
     assert_eq!(states(&summary(&place, "out")), [VariantState::Finished, VariantState::Failed]);
     fs::remove_dir_all(&second).unwrap();
@@ -256,7 +256,7 @@ fn a_damaged_table_fails_its_variant_only() {
     let plot = place.path("out").join("sweep-pressure.png");
     fs::remove_file(&plot).unwrap();
     fs::write(second.join(files::ENERGIES), "lost\n\u{fffd}\n").unwrap();
-    let told = ["energies.csv", "hint: `mesoscope sweep --resume` runs a variant anew once its directory is removed"];
+    let told = ["energies.csv", "hint: `mesoscope sweep --resume` runs a variant again once its directory is removed"];
     fails(&["sweep", "--resume", &place.argument("out")], 5, &told);
     assert_eq!(states(&summary(&place, "out")), [VariantState::Finished, VariantState::Failed]);
     assert!(plot.exists(), "the plots show the others");

@@ -2,7 +2,7 @@
 
 use mesoscope::engine::EngineError;
 use mesoscope::families::Model;
-use mesoscope::output::checkpoint;
+use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::{Layout, Options};
 use mesoscope::scene::Scene;
 use rand::SeedableRng as _;
@@ -91,7 +91,7 @@ fn a_resumed_run_goes_on_with_the_same_bytes() {
             let mut samples = first.finish().unwrap();
             samples.retain(|sample| sample.step < interruption);
             let path = directory.path().join(format!("{number}-{interruption}"));
-            checkpoint::save(&path, &scene, &kept, &[], &[]).unwrap();
+            checkpoint::save(&path, Id::of_run(&scene), &scene, &kept, &[], &[]).unwrap();
             let kept = checkpoint::load(&path).unwrap().state;
             let mut second = engine(&scene, &kept, Options::default());
             second.advance(STEPS - interruption, 8).unwrap();

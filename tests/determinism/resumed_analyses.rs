@@ -67,8 +67,8 @@ fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
                 format!("{summary:#?}").into_bytes()
             }
             files::CHECKPOINT => {
-                let Checkpoint { scene, state, files: written, sections } = checkpoint::load(&path).unwrap();
-                format!("{scene:?} {state:?} {written:?} {sections:?}").into_bytes()
+                let Checkpoint { run_id, scene, state, files: written, sections } = checkpoint::load(&path).unwrap();
+                format!("{run_id} {scene:?} {state:?} {written:?} {sections:?}").into_bytes()
             }
             _ => std::fs::read(&path).unwrap(),
         };
@@ -189,7 +189,7 @@ fn sections_of_another_length_are_refused() {
     run_until(&scene, directory.path(), 18);
     let path = directory.path().join(files::CHECKPOINT);
     let saved = std::fs::read(&path).unwrap();
-    let Checkpoint { scene, state, files: written, sections } = checkpoint::load(&path).unwrap();
+    let Checkpoint { run_id, scene, state, files: written, sections } = checkpoint::load(&path).unwrap();
     let names: Vec<&str> = sections.iter().map(|(name, _)| name.as_str()).collect();
     for name in ["diffusion_window", "velocity_autocorrelation_window", "viscosity", "kept_sums", "configuration"] {
         assert!(names.contains(&name), "{names:?}");
@@ -209,7 +209,7 @@ fn sections_of_another_length_are_refused() {
             if damaged == sections {
                 continue;
             }
-            checkpoint::save(&path, &scene, &state, &written, &damaged).unwrap();
+            checkpoint::save(&path, run_id, &scene, &state, &written, &damaged).unwrap();
             let error = resume(directory.path()).unwrap_err();
             let told = error.to_string();
             assert!(matches!(error, RunError::Checkpoint(_)), "{told}");
@@ -228,9 +228,9 @@ fn a_changed_momentum_is_told() {
     let directory = tempfile::tempdir().unwrap();
     run_until(&scene, directory.path(), 18);
     let path = directory.path().join(files::CHECKPOINT);
-    let Checkpoint { scene, mut state, files: written, sections } = checkpoint::load(&path).unwrap();
+    let Checkpoint { run_id, scene, mut state, files: written, sections } = checkpoint::load(&path).unwrap();
     state.momenta[7][1] += 2;
-    checkpoint::save(&path, &scene, &state, &written, &sections).unwrap();
+    checkpoint::save(&path, run_id, &scene, &state, &written, &sections).unwrap();
     let summary = resume(directory.path()).unwrap().summary;
     let told = "the total momentum along y was to be kept to the last bit, and at step 20 had changed by";
     let warned = summary.warnings.iter().filter(|warning| warning.starts_with(told) && warning.contains("(2 units)"));

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use mesoscope::engine::{EngineError, Sample};
 use mesoscope::families::Model;
 use mesoscope::families::reference::ShallowWaterReference;
-use mesoscope::output::checkpoint;
+use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::{Options, Storage, TIDYING, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -167,7 +167,7 @@ fn sorted_water_is_put_in_order_of_cells_now_and_then() {
 fn through_a_checkpoint(scene: &Scene, state: &State) -> State {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("checkpoint.bin");
-    checkpoint::save(&path, scene, state, &[], &[]).unwrap();
+    checkpoint::save(&path, Id::of_run(scene), scene, state, &[], &[]).unwrap();
     checkpoint::load(&path).unwrap().state
 }
 

@@ -12,16 +12,17 @@ use std::time::Instant;
 
 use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, prepare_environment};
-use mesoscope::output::{checkpoint, files};
+use mesoscope::output::{Id, checkpoint, files};
 use mesoscope::run::{Interrupt, RunError, Simulation};
 use mesoscope::scene::{self, Scene};
+use mesoscope::sweep::{self, SweepSummary, VariantState, VariantSummary};
 use rand::rngs::StdRng;
 use rand::seq::IndexedRandom as _;
 use rand::{RngExt as _, SeedableRng as _};
 use serde_json::{Value, json};
 
 use crate::cost::{MEMORY, PATIENCE, measured};
-use crate::support::program::{Place, assert_same, bytes, command, listing, succeeds, text};
+use crate::support::program::{Place, assert_same, bytes, command, listing, results, succeeds, text};
 
 /// A small scene of every kind of state: a name, the built-in scene, and what makes it small.
 fn families() -> Vec<(&'static str, Scene)> {
@@ -119,7 +120,10 @@ fn sealed(start: &[u8], payload: &[u8]) -> Vec<u8> {
 
 /// Where the scene is in a payload.
 fn scene_in(payload: &[u8]) -> Range<usize> {
-    8..8 + u64::from_le_bytes(payload[..8].try_into().unwrap()) as usize
+    let length = |at: usize| u64::from_le_bytes(payload[at..at + 8].try_into().unwrap()) as usize;
+    // After the id of the run.
+    let begin = 8 + length(0) + 8;
+    begin..begin + length(begin - 8)
 }
 
 /// One mistake, or a few.
@@ -172,8 +176,9 @@ fn mutated(payload: &[u8], random: &mut StdRng) -> Vec<u8> {
                     extreme.choose(random).unwrap().clone();
             }
             let text = document.to_string();
+            let length = scene.start - 8..scene.start;
             altered.splice(scene, text.bytes());
-            altered[..8].copy_from_slice(&(text.len() as u64).to_le_bytes());
+            altered[length].copy_from_slice(&(text.len() as u64).to_le_bytes());
         }
     }
     altered
@@ -283,7 +288,7 @@ fn shipped_scenes_come_back_from_checkpoints() {
     for builtin in scene::builtin() {
         let scene = scene::load(builtin.name, &[]).unwrap();
         let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
-        checkpoint::save(&place.path().join(files::CHECKPOINT), &scene, &state, &[], &[]).unwrap();
+        checkpoint::save(&place.path().join(files::CHECKPOINT), Id::of_run(&scene), &scene, &state, &[], &[]).unwrap();
         let resumed = Simulation::resume(place.path(), None);
         let resumed = resumed.unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
         assert!(*resumed.scene() == scene, "{}", builtin.name);
@@ -401,4 +406,100 @@ fn killed_runs_go_on_as_if_they_had_not_been() {
 #[ignore = "hundreds of kills"]
 fn hundreds_of_killed_runs_go_on_as_if_they_had_not_been() {
     kill(2, &["fluid", "memory", "melt", "bonds", "noise", "water", "cells", "chain"], 20);
+}
+
+/// Everything that a sweep leaves, apart from how long it took: names with their contents.
+fn sweep_results(directory: &Path) -> Files {
+    let timeless = |name: &str, content: Vec<u8>| match name {
+        sweep::files::SUMMARY => {
+            let mut summary = SweepSummary::load(directory).unwrap();
+            for variant in &mut summary.variants {
+                (variant.wall_seconds, variant.particle_steps_per_second) = (0.0, 0.0);
+            }
+            serde_json::to_vec(&summary).unwrap()
+        }
+        sweep::files::TABLE => {
+            let lines: Vec<Vec<&str>> = text(&content).lines().map(|line| line.split(',').collect()).collect();
+            let is_time = |column: usize| ["wall_seconds", "particle_steps_per_second"].contains(&lines[0][column]);
+            let kept = lines.iter().map(|cells| {
+                let kept = (0..cells.len()).filter(|column| !is_time(*column)).map(|column| cells[column]);
+                kept.collect::<Vec<_>>().join(",")
+            });
+            kept.collect::<Vec<_>>().join("\n").into_bytes()
+        }
+        _ => content,
+    };
+    let found = listing(directory).into_iter().flat_map(|name| {
+        let path = directory.join(&name);
+        if path.is_dir() {
+            let files = results(&path).into_iter().map(|(file, content)| (format!("{name}/{file}"), content));
+            return files.collect();
+        }
+        vec![(name.clone(), timeless(&name, bytes(&path)))]
+    });
+    found.collect()
+}
+
+/// Kills sweeps at random moments, once to three times, and lets them come to their end: every file, of the sweep and of its
+/// runs, has the bytes of a sweep that was never killed.
+fn kill_sweeps(seed: u64, names: &[&str], each: usize) {
+    let mut random = StdRng::seed_from_u64(seed);
+    let (mut kills, mut before_the_summary, mut after_a_variant) = (0, 0, 0);
+    for (name, scene) in families().into_iter().filter(|(name, _)| names.contains(name)) {
+        let place = Place::of(serde_json::to_value(&scene).unwrap());
+        let (out, scene) = (place.argument("out"), place.scene());
+        let sweep = |out: &str, jobs: &str| {
+            let vary = ["--vary", "seed=1,2,3,4"];
+            let all = [&["sweep", &scene, "--out", out, "--quiet", "--force", "--jobs", jobs], &vary[..]].concat();
+            all.into_iter().map(str::to_owned).collect::<Vec<_>>()
+        };
+        let run = |arguments: &[String]| command(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        let begun = Instant::now();
+        assert!(run(&sweep(&place.argument("whole"), "2")).status().unwrap().success());
+        let whole = begun.elapsed();
+        let expected = sweep_results(&place.path("whole"));
+        for case in 0..each {
+            let jobs = random.random_range(1..3).to_string();
+            let mut arguments = sweep(&out, &jobs);
+            for _ in 0..random.random_range(1..4) {
+                let mut child = run(&arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+                std::thread::sleep(whole.mul_f64(random.random_range(0.0..1.1)));
+                child.kill().unwrap();
+                child.wait().unwrap();
+                kills += 1;
+                match SweepSummary::load(&place.path("out")) {
+                    Ok(summary) => {
+                        let finished = |variant: &VariantSummary| variant.state == VariantState::Finished;
+                        after_a_variant += usize::from(summary.variants.iter().any(finished));
+                        arguments = ["sweep", "--resume", &out, "--quiet", "--jobs", &jobs].map(str::to_owned).to_vec();
+                    }
+                    Err(_) => before_the_summary += 1,
+                }
+            }
+            let output = run(&arguments).output().unwrap();
+            assert!(output.status.success(), "{name}, case {case} of seed {seed}: {}", text(&output.stderr));
+            let found = sweep_results(&place.path("out"));
+            let listed = |files: &Files| files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+            assert_eq!(listed(&found), listed(&expected), "{name}, case {case} of seed {seed}");
+            for ((file, content), (_, expected)) in found.iter().zip(&expected) {
+                assert!(content == expected, "{name}, case {case} of seed {seed}: {file} differs");
+            }
+            fs::remove_dir_all(place.path("out")).unwrap();
+        }
+    }
+    println!(
+        "seed {seed}: {kills} kills of sweeps, {before_the_summary} of them before their first file and {after_a_variant} \
+         after their first run; all sweeps came to their end"
+    );
+}
+
+#[test]
+fn killed_sweeps_come_to_their_end_as_if_they_had_not_been() {
+    kill_sweeps(1, &["fluid"], 2);
+}
+
+#[test]
+#[ignore = "hundreds of kills"]
+fn hundreds_of_killed_sweeps_come_to_their_end_as_if_they_had_not_been() {
+    kill_sweeps(2, &["fluid", "melt", "noise", "water", "cells"], 16);
 }

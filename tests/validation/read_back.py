@@ -42,6 +42,7 @@ def gsd_frames(case, path):
             assert found.configuration.step == expected["step"]
             assert found.configuration.dimensions == max(dimension, 2)
             assert found.log["time"] == expected["time"]
+            assert bytes(found.log["run_id"]).decode() == case["run_id"]
             assert [particles.types[kind] for kind in particles.typeid] == expected["names"]
             size = found.configuration.box[:3].astype(float)
             close(size[:dimension], lengths[:dimension], lengths.max(), "box")
@@ -97,6 +98,7 @@ def ase_frames(case, path):
     assert len(found) == len(case["frames"])
     for atoms, expected in zip(found, case["frames"]):
         assert atoms.info["Step"] == expected["step"] and atoms.info["Time"] == expected["time"]
+        assert atoms.info["run_id"] == case["run_id"]
         close(atoms.cell.lengths(), lengths, lengths.max(), "cell")
         assert list(atoms.pbc) == [axis < dimension for axis in range(3)]
         if "species_name" in atoms.arrays:

@@ -6,8 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use mesoscope::output::TrajectoryWriter;
-use mesoscope::output::files;
+use mesoscope::output::{Id, TrajectoryWriter, files};
 use mesoscope::plan::Options;
 use mesoscope::scene::{Scene, TrajectoryFormat};
 use serde_json::{Value, json};
@@ -42,9 +41,11 @@ fn write(scene: &Scene, place: &Path) {
     fs::create_dir_all(place).unwrap();
     let (model, first) = start(scene);
     let mut engine = engine(scene, &first, Options::default());
+    let id = Id::of_run(scene);
     let mut writers = [
-        TrajectoryWriter::create(&place.join(files::TRAJECTORY_GSD), TrajectoryFormat::Gsd, &model).unwrap(),
-        TrajectoryWriter::create(&place.join(files::TRAJECTORY_XYZ), TrajectoryFormat::ExtendedXyz, &model).unwrap(),
+        TrajectoryWriter::create(&place.join(files::TRAJECTORY_GSD), TrajectoryFormat::Gsd, &model, id).unwrap(),
+        TrajectoryWriter::create(&place.join(files::TRAJECTORY_XYZ), TrajectoryFormat::ExtendedXyz, &model, id)
+            .unwrap(),
     ];
     let mut frames = Vec::new();
     for frame in 0..FRAMES {
@@ -80,6 +81,7 @@ fn write(scene: &Scene, place: &Path) {
         assert!(frame < FRAMES - 1 || state.images.iter().any(|image| *image != [0; 3]), "nothing goes round the box");
     }
     let expected: Value = json!({
+        "run_id": id,
         "lengths": model.units.lengths,
         "dimension": model.units.dimension,
         "bonds": model.bonds().map_or(0, |bonds| bonds.count() as usize),

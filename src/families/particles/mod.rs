@@ -174,7 +174,7 @@ impl Physics for Particles {
 
     fn crowd(&self) -> &'static str {
         if self.are_coupled {
-            "a particle has more neighbours than the list has room for"
+            "a particle has more neighbours than the list has places for"
         } else {
             "the particles crowd at the ends of the box"
         }

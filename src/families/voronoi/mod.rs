@@ -93,7 +93,7 @@ impl Physics for Voronoi {
     }
 
     fn crowd(&self) -> &'static str {
-        "a cell has more corners than there is room for"
+        "a cell has more corners than the buffer has places for"
     }
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {

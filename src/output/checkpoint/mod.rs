@@ -7,6 +7,7 @@
 //! format version   u32
 //! payload length   u64
 //! payload
+//!     run id       u64 length, text
 //!     scene        u64 length, JSON in UTF-8
 //!     step         u64
 //!     particles    u64 N
@@ -21,22 +22,25 @@
 
 mod read;
 
-use super::{Extent, OutputError, write_atomically};
+use super::{Extent, Id, OutputError, write_atomically};
 use crate::scene::{Scene, SceneError};
 use crate::state::State;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+pub(super) use read::id_of;
 pub use read::load;
 
 const MAGIC: [u8; 8] = *b"MESOCKPT";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const HEADER: usize = 8 + 4 + 8;
 const CHECKSUM: usize = 8;
 
-/// Everything a run needs to go on as if it had never stopped.
+/// Everything a run needs to continue as if it had never stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
+    /// The id of the run.
+    pub run_id: Id,
     /// The resolved scene.
     pub scene: Scene,
     /// The exact state.
@@ -71,7 +75,7 @@ pub enum CheckpointError {
         /// The version in the file.
         found: u32,
     },
-    /// The file ends too early, or goes on too long.
+    /// The file is too short or too long.
     #[error(
         "`{}` should have {expected} bytes and has {found}: it was cut short or altered",
         crate::printable::path(path)
@@ -108,17 +112,18 @@ pub enum CheckpointError {
     },
 }
 
-/// Writes a checkpoint of `scene` and `state`, which replaces an earlier one only when it is complete on the disk.
+/// Writes a checkpoint of a run, its scene and state, which replaces an earlier one only when it is complete on the disk.
 ///
 /// ```
-/// use mesoscope::output::checkpoint;
-/// use mesoscope::{families::Model, scene};
+/// use mesoscope::output::{Id, checkpoint};
+/// use mesoscope::families::{self, Model};
+/// use mesoscope::scene;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("checkpoint.bin");
 /// let scene = scene::load("dpd-fluid", &[])?;
 /// let state = families::initial_state(&scene, &Model::new(&scene));
-/// checkpoint::save(&path, &scene, &state, &[], &[])?;
+/// checkpoint::save(&path, Id::of_run(&scene), &scene, &state, &[], &[])?;
 /// let found = checkpoint::load(&path)?;
 /// assert!(found.scene == scene && found.state == state);
 ///
@@ -132,6 +137,7 @@ pub enum CheckpointError {
 /// [`OutputError::Io`] when the file cannot be written; an earlier checkpoint is then still there.
 pub fn save(
     path: &Path,
+    run_id: Id,
     scene: &Scene,
     state: &State,
     files: &[(String, Extent)],
@@ -141,7 +147,10 @@ pub fn save(
     let sections_length: u64 = sections.iter().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
     let mut arrays = state.arrays().to_vec();
     arrays.retain(|(_, words)| !words.is_empty());
+    let run_id = run_id.to_string();
     let length = 8
+        + run_id.len() as u64
+        + 8
         + scene.len() as u64
         + 16
         + 28 * state.len() as u64
@@ -156,6 +165,7 @@ pub fn save(
         writer.write_all(&VERSION.to_le_bytes())?;
         writer.write_all(&length.to_le_bytes())?;
         let mut payload = Payload { writer, checksum: Fnv::new(), written: 0 };
+        payload.counted(run_id.as_bytes())?;
         payload.counted(&scene)?;
         payload.number(state.step)?;
         payload.number(state.len() as u64)?;

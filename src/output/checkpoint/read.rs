@@ -2,7 +2,7 @@
 
 use super::{CHECKSUM, Checkpoint, CheckpointError, Fnv, HEADER, MAGIC, VERSION};
 use crate::families::Model;
-use crate::output::{Extent, OutputError};
+use crate::output::{Extent, Id, OutputError};
 use crate::scene::{self, Scene};
 use crate::state::State;
 use std::fs::File;
@@ -25,6 +25,16 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
         return Err(payload.malformed(format!("{} bytes follow its content", payload.left)));
     }
     Ok(checkpoint)
+}
+
+/// The id of the run that wrote a checkpoint, of which only the beginning is read; none where it cannot be.
+pub(in crate::output) fn id_of(path: &Path) -> Option<Id> {
+    let mut beginning = Vec::new();
+    open_regular_file(path).ok()?.take(BUFFER as u64).read_to_end(&mut beginning).ok()?;
+    let payload = beginning.strip_prefix(&MAGIC)?.strip_prefix(&VERSION.to_le_bytes())?.get(8..)?;
+    let (length, rest) = payload.split_first_chunk()?;
+    let text = rest.get(..usize::try_from(u64::from_le_bytes(*length)).ok()?)?;
+    Id::parse(std::str::from_utf8(text).ok()?)
 }
 
 /// Bytes read at once.
@@ -123,6 +133,7 @@ impl Payload<'_> {
     }
 
     fn checkpoint(&mut self) -> Result<Checkpoint, CheckpointError> {
+        let run_id = self.run_id()?;
         let scene = self.scene()?;
         let (step, count) = (self.number()?, self.number()?);
         let (last, asked) = (scene.time.steps, Model::new(&scene).particle_count());
@@ -160,7 +171,12 @@ impl Payload<'_> {
             let length = self.number()?;
             sections.push((name, self.elements(length)?));
         }
-        Ok(Checkpoint { scene, state, files, sections })
+        Ok(Checkpoint { run_id, scene, state, files, sections })
+    }
+
+    fn run_id(&mut self) -> Result<Id, CheckpointError> {
+        let text = self.text()?;
+        Id::parse(&text).ok_or_else(|| self.malformed("its run id is none"))
     }
 
     fn scene(&mut self) -> Result<Scene, CheckpointError> {

@@ -8,13 +8,16 @@
 //! - `masses`, `momenta`: as ASE has them, whose velocities are momenta over masses.
 //! - `map_shift`: how often the particle has gone round the box (OVITO's periodic image).
 //!
-//! All are in the units of the scene. `Lattice` has three vectors in any dimension, and `pbc` says which are real.
+//! The comment line has the id of the run. All numbers are in the units of the scene. `Lattice` has three vectors in any
+//! dimension, and `pbc` says which are real.
 
 use super::{Description, Format, Frames, elements};
 use crate::output::records::RecordFile;
-use crate::output::{Extent, OutputError, files};
+use crate::output::{Extent, Id, OutputError, files, id};
 use crate::state::State;
-use std::io::Write;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
 
 pub(super) const FORMAT: Format = Format {
     file: files::TRAJECTORY_XYZ,
@@ -22,6 +25,7 @@ pub(super) const FORMAT: Format = Format {
     bytes_per_particle: 110,
     create: |path| Ok(Box::new(ExtendedXyz::of(RecordFile::create(path)?))),
     resume: |path, written| Ok(Box::new(ExtendedXyz::of(RecordFile::resume(path, written)?))),
+    id_of,
 };
 
 #[derive(Debug)]
@@ -57,6 +61,15 @@ impl Frames for ExtendedXyz {
     }
 }
 
+/// The id in the comment line of the first frame.
+fn id_of(path: &Path) -> Option<Id> {
+    // A line that never ends is no comment of ours.
+    let mut lines = BufReader::new(File::open(path).ok()?.take(1 << 12)).lines();
+    let comment = lines.nth(1)?.ok()?;
+    let key = |word: &str| word.strip_prefix(id::RUN_KEY)?.strip_prefix('=').and_then(Id::parse);
+    comment.split(' ').find_map(key)
+}
+
 /// Names of species, each as one word of the format.
 fn words(description: &Description) -> Vec<String> {
     let word = |name: &str| -> String {
@@ -79,9 +92,11 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> 
         text,
         "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" \
          Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3:map_shift:I:3{} pbc=\"{periodic}\" Step={} \
-         Time={time}",
+         Time={time} {}={}",
         if named { ":species_name:S:1" } else { "" },
-        state.step
+        state.step,
+        description.run.key(),
+        description.run
     )?;
     for particle in 0..state.len() {
         let species = state.species[particle] as usize;

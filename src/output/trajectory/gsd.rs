@@ -3,13 +3,13 @@
 //! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
 //! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
 //! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
-//! bonds) is written in the first frame, from which readers take it for all others.
+//! bonds, the id of the run as the text `log/run_id`) is written in the first frame, from which readers take it for all others.
 
 use super::{Description, Format, Frames};
 use crate::output::extent::Checksum;
 use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
-use crate::output::{Extent, OutputError, files};
+use crate::output::{Extent, Id, OutputError, files};
 use crate::state::State;
 use bytemuck::NoUninit;
 use hoomd_gsd::file_layer::{
@@ -28,6 +28,7 @@ pub(super) const FORMAT: Format = Format {
     bytes_per_particle: 36,
     create: |path| Ok(Box::new(GsdTrajectory::create(path)?)),
     resume: |path, written| Ok(Box::new(GsdTrajectory::resume(path, written)?)),
+    id_of,
 };
 
 #[derive(Debug)]
@@ -49,6 +50,8 @@ struct GsdTrajectory {
 const APPLICATION: &str = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
 /// Other versions are as good.
 const PROGRAM: &str = "mesoscope ";
+/// The id of the run.
+const RUN: &str = "log/run_id";
 const SCHEMA: &str = "hoomd";
 const SCHEMA_VERSION: (u16, u16) = (1, 4);
 
@@ -160,6 +163,15 @@ impl Frames for GsdTrajectory {
     }
 }
 
+/// The id in the first frame.
+fn id_of(path: &Path) -> Option<Id> {
+    check_index(path).ok()?;
+    let file = GsdFile::open(path, Mode::Read).ok()?;
+    file.find_chunk(0, RUN)?;
+    let text: Vec<u8> = file.iter_scalars(0, RUN).ok()?.collect();
+    Id::parse(std::str::from_utf8(&text).ok()?)
+}
+
 fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
     GsdFile::create(path, APPLICATION, SCHEMA, SCHEMA_VERSION).map_err(|error| open_error(path, "create", error))
 }
@@ -181,6 +193,7 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
+    file.write_scalars(RUN, description.run.to_string().into_bytes())?;
     let bonds = &description.bonds;
     if bonds.is_empty() {
         return Ok(());
@@ -253,6 +266,7 @@ fn visit(path: &Path, file: &GsdFile, frame: u64, visitor: &mut impl Chunks) -> 
     chunk!(scalars u32, "particles/N");
     chunk!(arrays i8, NAME, "particles/types");
     chunk!(scalars u32, "particles/typeid");
+    chunk!(scalars u8, RUN);
     chunk!(scalars u32, "bonds/N");
     chunk!(arrays i8, NAME, "bonds/types");
     chunk!(scalars u32, "bonds/typeid");
@@ -449,6 +463,7 @@ mod tests {
     fn positions_stay_below_the_upper_face() {
         let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
         let description = Description {
+            run: Id::of_sweep([]),
             units,
             time_step: 0.1,
             species: Vec::new(),

@@ -4,7 +4,7 @@ mod elements;
 mod extended_xyz;
 mod gsd;
 
-use super::{Extent, OutputError};
+use super::{Extent, Id, OutputError, files};
 use crate::families::{Bonds, Model, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
@@ -14,7 +14,9 @@ use std::path::Path;
 /// A trajectory, open for writing. Frames reach the disk at [`flush`](Self::flush), always whole.
 ///
 /// ```
-/// use mesoscope::{families::Model, output::TrajectoryWriter, scene};
+/// use mesoscope::output::{Id, TrajectoryWriter};
+/// use mesoscope::families::{self, Model};
+/// use mesoscope::scene;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("trajectory.xyz");
@@ -22,7 +24,8 @@ use std::path::Path;
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
 /// let state = families::initial_state(&scene, &model);
-/// let mut trajectory = TrajectoryWriter::create(&path, scene::TrajectoryFormat::ExtendedXyz, &model)?;
+/// let format = scene::TrajectoryFormat::ExtendedXyz;
+/// let mut trajectory = TrajectoryWriter::create(&path, format, &model, Id::of_run(&scene))?;
 /// trajectory.append(&state)?;
 /// trajectory.flush()?;
 /// let text = std::fs::read_to_string(&path)?;
@@ -43,6 +46,8 @@ struct Format {
     bytes_per_particle: u64,
     create: fn(&Path) -> Opened,
     resume: fn(&Path, Extent) -> Opened,
+    /// The id of the run that wrote a file; none where it cannot be read.
+    id_of: fn(&Path) -> Option<Id>,
 }
 
 type Opened = Result<Box<dyn Frames>, OutputError>;
@@ -85,9 +90,10 @@ trait Frames: Debug {
     fn flush(&mut self) -> Result<(), OutputError>;
 }
 
-/// What a frame needs to know beside the state.
+/// What a frame needs to know besides the state.
 #[derive(Debug, Clone)]
 struct Description {
+    run: Id,
     units: Units,
     time_step: f64,
     species: Vec<Species>,
@@ -102,8 +108,9 @@ struct Description {
 }
 
 impl Description {
-    fn new(model: &Model) -> Self {
+    fn new(model: &Model, run: Id) -> Self {
         Self {
+            run,
             units: model.units,
             time_step: model.time_step,
             species: model.species.clone(),
@@ -144,12 +151,12 @@ impl Description {
 }
 
 impl TrajectoryWriter {
-    /// Creates the trajectory; one that exists is emptied.
+    /// Creates the trajectory of a run; one that exists is emptied.
     ///
     /// # Errors
     /// [`OutputError::Io`] when the file cannot be created.
-    pub fn create(path: &Path, format: TrajectoryFormat, model: &Model) -> Result<Self, OutputError> {
-        Ok(Self { description: Description::new(model), file: (format_of(format).create)(path)? })
+    pub fn create(path: &Path, format: TrajectoryFormat, model: &Model, run: Id) -> Result<Self, OutputError> {
+        Ok(Self { description: Description::new(model, run), file: (format_of(format).create)(path)? })
     }
 
     /// Continues the trajectory of an earlier run after what [`extent`](Self::extent) said was written of it; later frames
@@ -157,10 +164,19 @@ impl TrajectoryWriter {
     /// which takes its size once more on the disk for a moment.
     ///
     /// # Errors
-    /// [`OutputError::Altered`] when its frames are not those that were written, [`OutputError::Trajectory`] when the file
-    /// is no trajectory, [`OutputError::Io`] when it cannot be read or written.
-    pub fn resume(path: &Path, format: TrajectoryFormat, model: &Model, written: Extent) -> Result<Self, OutputError> {
-        Ok(Self { description: Description::new(model), file: (format_of(format).resume)(path, written)? })
+    /// [`OutputError::OtherRun`] when it has the id of another run, [`OutputError::Altered`] when its frames are not those that
+    /// were written, [`OutputError::Trajectory`] when the file is no trajectory, [`OutputError::Io`] when it cannot be read or
+    /// written.
+    pub fn resume(
+        path: &Path,
+        format: TrajectoryFormat,
+        model: &Model,
+        run: Id,
+        written: Extent,
+    ) -> Result<Self, OutputError> {
+        let format = format_of(format);
+        run.check(path, (format.id_of)(path), files::CHECKPOINT)?;
+        Ok(Self { description: Description::new(model, run), file: (format.resume)(path, written)? })
     }
 
     /// What has been written of the trajectory: all frames until the last [`flush`](Self::flush).
@@ -196,6 +212,12 @@ impl TrajectoryWriter {
     }
 }
 
+/// The id of the run that wrote a trajectory of this name; none for another name, or where it cannot be read.
+pub(super) fn id_of(name: &str, path: &Path) -> Option<Id> {
+    let all = [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz].map(format_of);
+    (all.iter().find(|format| format.file == name)?.id_of)(path)
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -209,9 +231,10 @@ mod tests {
             "particles": [{"species": "A", "mass": 2, "placement": {"type": "listed", "positions": [[1, 1], [4, 1], [5, 5]]},
                 "velocities": {"type": "listed", "velocities": [[1, 0], [0, 2], [-1, 0.5]]}}],
             "interactions": [{"type": "voronoi", "form": "paper", "initial_masses": "uniform-density"}]}"#;
-        let model = Model::new(&scene::parse("t", scene, &[]).unwrap());
-        let state = initial_state(&scene::parse("t", scene, &[]).unwrap(), &model);
-        let description = Description::new(&model);
+        let scene = scene::parse("t", scene, &[]).unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        let description = Description::new(&model, Id::of_run(&scene));
         assert!(description.changing_masses);
         let masses = [0, 1, 2].map(|cell| description.mass(&state, cell));
         assert!((masses.iter().sum::<f64>() - 6.0).abs() < 1e-9 && masses[0] != masses[1], "{masses:?}");
@@ -226,7 +249,7 @@ mod tests {
         let scene = scene::load("jet-instability", &[]).unwrap();
         let model = Model::new(&scene);
         let state = initial_state(&scene, &model);
-        let description = Description::new(&model);
+        let description = Description::new(&model, Id::of_run(&scene));
         let masses: Vec<f64> = (0..state.len()).map(|particle| description.mass(&state, particle)).collect();
         let nodes = 128.0 * 128.0;
         assert!((masses.iter().sum::<f64>() - nodes).abs() < 1e-9);

@@ -1,0 +1,53 @@
+//! Which run the files in a directory belong to.
+
+use super::{Id, OutputError, RunDirectory, checkpoint, files, picture, trajectory};
+use serde::Deserialize;
+use std::path::Path;
+
+impl RunDirectory {
+    /// Looks whether a file in the directory has the id of another run than this one, which is that of `reference`. Tables
+    /// and arrays have none: their lengths and checksums are in the checkpoint and the summary.
+    ///
+    /// # Errors
+    /// [`OutputError::OtherRun`] names the first such file, [`OutputError::Io`] means that the directory cannot be listed.
+    pub fn check_run(&self, run: Id, reference: &'static str) -> Result<(), OutputError> {
+        for name in self.names(files::is_of_a_run)? {
+            let path = self.file(&name);
+            run.check(&path, id_in(&name, &path), reference)?;
+        }
+        Ok(())
+    }
+
+    /// The same for the pictures of a sweep.
+    pub(crate) fn check_pictures(
+        &self,
+        sweep: Id,
+        reference: &'static str,
+        is_picture: impl Fn(&str) -> bool,
+    ) -> Result<(), OutputError> {
+        for name in self.names(is_picture)? {
+            let path = self.file(&name);
+            sweep.check(&path, picture::id_of(&path), reference)?;
+        }
+        Ok(())
+    }
+}
+
+/// The id in a file of a run; none where the format has no place for it, or where it cannot be read.
+fn id_in(name: &str, path: &Path) -> Option<Id> {
+    match name {
+        files::SUMMARY => in_summary(path),
+        files::CHECKPOINT => checkpoint::id_of(path),
+        // What is neither has no id.
+        _ => trajectory::id_of(name, path).or_else(|| picture::id_of(path)),
+    }
+}
+
+fn in_summary(path: &Path) -> Option<Id> {
+    #[derive(Deserialize)]
+    struct Part {
+        run_id: Id,
+    }
+    let part: Part = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    Some(part.run_id)
+}
