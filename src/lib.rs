@@ -38,6 +38,8 @@
 pub mod engine;
 pub mod families;
 pub mod gpu;
+#[cfg(test)]
+mod layers;
 pub mod measure;
 pub mod noise;
 pub mod numbers;

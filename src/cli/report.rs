@@ -4,12 +4,12 @@ use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
-use mesoscope::families::{self, Model};
+use mesoscope::families::{self, Model, PictureKind};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
-use mesoscope::scene::{Interaction, Scene};
+use mesoscope::scene::Scene;
 
 use super::table::{aligned, dimensions};
 use super::{Failure, SceneArguments, line, print, progress};
@@ -54,8 +54,8 @@ const BETWEEN_LINES: Duration = Duration::from_secs(1);
 
 struct Reporter {
     scene: Scene,
-    /// Whether it is of shallow water.
-    water: bool,
+    /// Whether its pictures are fields: what flows has no temperature to speak of.
+    flows: bool,
     bar: Option<ProgressBar>,
     terminal: bool,
     /// Tenths of the run already told on lines of their own, and when the last was.
@@ -67,7 +67,7 @@ struct Reporter {
 impl Reporter {
     fn new(scene: Scene) -> Self {
         Self {
-            water: is_of_water(&scene),
+            flows: flows(&scene),
             scene,
             bar: None,
             terminal: std::io::stderr().is_terminal(),
@@ -123,7 +123,7 @@ impl Reporter {
     fn advanced(&mut self, progress: &Progress) {
         if let Some(bar) = &self.bar {
             bar.set_position(progress.step);
-            bar.set_message(describe(progress, self.water));
+            bar.set_message(describe(progress, self.flows));
             return;
         }
         let steps = (progress.last_step - self.first_step).max(1);
@@ -133,21 +133,21 @@ impl Reporter {
             self.told_at = Instant::now();
             let percent = 100 * progress.step / progress.last_step.max(1);
             let (step, last) = (grouped(progress.step), grouped(progress.last_step));
-            line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress, self.water)));
+            line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress, self.flows)));
         }
     }
 }
 
-fn is_of_water(scene: &Scene) -> bool {
-    scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)))
+fn flows(scene: &Scene) -> bool {
+    Model::new(scene).picture() == PictureKind::Fields
 }
 
-fn describe(progress: &Progress, water: bool) -> String {
+fn describe(progress: &Progress, flows: bool) -> String {
     let mut parts = Vec::new();
     if progress.particle_steps_per_second > 0.0 {
         parts.push(format!("{} particle-steps/s", prefixed(progress.particle_steps_per_second)));
     }
-    if let Some(temperature) = progress.temperature.filter(|_| !water) {
+    if let Some(temperature) = progress.temperature.filter(|_| !flows) {
         parts.push(format!("kT {temperature:.3}"));
     }
     if let Some(remaining) = progress.remaining {
@@ -168,9 +168,9 @@ pub fn duration(seconds: u64) -> String {
 fn results(outcome: &Outcome, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
-    let water = is_of_water(&summary.scene);
-    // Water that flows has no temperature to speak of.
-    let columns = if water {
+    let flows = flows(&summary.scene);
+    // What flows has no temperature to speak of.
+    let columns = if flows {
         vec![
             ("kinetic_energy", "kinetic energy"),
             ("potential_energy", "potential energy"),
@@ -205,10 +205,10 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     }
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
-        let noun = if water { "pictures and arrays of each field" } else { "snapshots" };
+        let noun = if flows { "pictures and arrays of each field" } else { "snapshots" };
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
-    let momentum = if water { String::new() } else { momentum_note(&summary.not_conserved) };
+    let momentum = if flows { String::new() } else { momentum_note(&summary.not_conserved) };
     format!("{}{note}{momentum}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), files.join(", "))
 }
 

@@ -7,10 +7,12 @@ mod bath;
 mod checks;
 pub(crate) mod column;
 pub(crate) mod conservation;
+mod field;
 mod instability;
 mod model;
 mod observables;
 pub mod particles;
+pub(crate) mod pictures;
 pub mod reference;
 mod registry;
 pub mod shallow_water;
@@ -24,6 +26,7 @@ pub(crate) use checks::check;
 pub use checks::check_start;
 pub use column::Column;
 pub use conservation::{KeptQuantity, KeptSum};
+pub use field::{Field, FieldError};
 pub use instability::Instability;
 pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables};
@@ -33,16 +36,21 @@ pub use particles::model::{
     Angle, Angles, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, HarmonicChain, Jump, Likeness,
     PairForce, PositionBath, SpringChain, Strand,
 };
+pub use pictures::PictureKind;
 pub use registry::Family;
+pub(crate) use registry::{check_interactions, complete};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::initial_state;
 pub use voronoi::model::{NETWORK_VISCOSITY, Voronoi};
 pub use warnings::warnings;
 
-use crate::plan::Plan;
-use crate::scene::{ParticleGroup, Problems, Scene, Warning};
+use crate::numbers::grouped;
+use crate::plan::{Hardware, Options, Plan};
+use crate::scene::{FieldQuantity, Output, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::state::State;
+use crate::tessellation::Tessellation;
+use pictures::{CellValues, EnergyChart, MeshPictures};
 use std::ops::Range;
 
 /// What the program asks of the physics of a family.
@@ -102,6 +110,47 @@ pub(crate) trait Physics {
 
     /// Refuses a time step that is certainly unstable.
     fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
+
+    /// The plan of a run.
+    fn plan(&self, model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan;
+
+    /// The particles of a model, with their number.
+    fn particles_in_words(&self, count: u64) -> String {
+        grouped(count)
+    }
+
+    /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
+    fn description(&self, scene: &Scene, model: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)>;
+
+    /// The kind of pictures that a run draws.
+    fn picture(&self) -> PictureKind {
+        PictureKind::Particles
+    }
+
+    /// What the chart of energies is of.
+    fn energy_chart(&self, _: &Model) -> EnergyChart {
+        EnergyChart::Particles
+    }
+
+    /// Values of cells for a colour, if that is not the one of the species; of [`PictureKind::Cells`] only.
+    fn cell_values(&self, _: SnapshotColor, _: &State, _: &Tessellation, _: &Model) -> Option<CellValues> {
+        None
+    }
+
+    /// Fields of a state with such a depth on the nodes; of [`PictureKind::Fields`] only.
+    fn mesh_pictures(&self, _: &[FieldQuantity], _: &State, _: &[f64], _: &Model) -> Option<MeshPictures> {
+        None
+    }
+
+    /// Whether the device counts exchanges and iterations from the upload of a state on.
+    fn counts_exchanges(&self) -> bool {
+        false
+    }
+
+    /// Nodes of a mesh.
+    fn nodes(&self) -> u64 {
+        0
+    }
 
     /// The observables of a step from the sums of its report, those of the first sampler of a plan.
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables;

@@ -1,9 +1,10 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PositionBath,
-    ShallowWater, Voronoi,
+    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PictureKind,
+    PositionBath, ShallowWater, Voronoi,
 };
+use crate::plan::Plan;
 use crate::scene::{Distribution, Generator, Integrator, Scene, Warning};
 use crate::state::Units;
 
@@ -158,6 +159,24 @@ impl Model {
     #[must_use]
     pub(crate) fn physics(&self) -> &dyn Physics {
         self.family.physics()
+    }
+
+    /// Its particles, with their number.
+    #[must_use]
+    pub fn particles_in_words(&self) -> String {
+        self.physics().particles_in_words(self.particle_count())
+    }
+
+    /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
+    #[must_use]
+    pub fn description(&self, scene: &Scene, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+        self.physics().description(scene, self, plan, cells)
+    }
+
+    /// The kind of pictures that a run draws.
+    #[must_use]
+    pub fn picture(&self) -> PictureKind {
+        self.physics().picture()
     }
 
     /// Warnings about its scene.

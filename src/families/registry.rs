@@ -1,7 +1,7 @@
 //! All families of models.
 
-use super::{Particles, Physics, ShallowWater, Species, Voronoi};
-use crate::scene::{Interaction, Scene};
+use super::{Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
+use crate::scene::{Integrator, Interaction, Problem, Problems, Scene, SnapshotColor, SpeciesNames};
 
 /// A family, with what a model of it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,5 +35,64 @@ impl Family {
             Self::ShallowWater(water) => water,
             Self::Voronoi(cells) => cells,
         }
+    }
+}
+
+/// Checks the interactions of a scene one by one and together, and that nothing is asked for which its family does not have.
+pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
+    let of_water = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_));
+    let first_water = scene.interactions.iter().position(of_water);
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let path = format!("interactions[{index}]");
+        match interaction {
+            Interaction::ColouredNoise(noise) => {
+                particles::scene::coloured_noise::check(scene, noise, &path, problems);
+            }
+            // Of a second one all has been said.
+            Interaction::ShallowWater(_) if Some(index) != first_water => {}
+            Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
+                let accepted = "`shallow-water` as the only interaction of a scene";
+                problems.push(Problem::new(&path, "found another interaction beside it", accepted));
+            }
+            Interaction::ShallowWater(water) => {
+                shallow_water::scene::checks::check(scene, water, &path, problems);
+            }
+            Interaction::Dpd(dpd) => particles::scene::checks::check_pairs(species, dpd, &path, problems),
+            Interaction::Voronoi(voronoi) => voronoi::scene::check(scene, voronoi, &path, problems),
+            Interaction::HarmonicChain(chain) => {
+                particles::scene::harmonic_chain::check(scene, chain, &path, problems);
+            }
+            _ => {}
+        }
+        particles::scene::checks::check_interaction(scene, species, interaction, &path, problems);
+    }
+    particles::scene::checks::check_scene(scene, problems);
+    if first_water.is_none() {
+        shallow_water::scene::checks::check_absence(scene, problems);
+    }
+    if voronoi::scene::voronoi(scene).is_none() {
+        voronoi::scene::check_absence(scene, problems);
+    }
+    if particles::scene::harmonic_chain::harmonic_chain(scene).is_none() {
+        particles::scene::harmonic_chain::check_absence(scene, problems);
+    }
+}
+
+/// Completes what a scene leaves out and what depends on its interactions: the integrator, the colour of pictures.
+pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
+    let of_type = |wanted: fn(&Interaction) -> bool| scene.interactions.iter().any(wanted);
+    let water = of_type(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
+    let cells = of_type(|interaction| matches!(interaction, Interaction::Voronoi(_)));
+    if integrator && water {
+        scene.integrator = Integrator::Gyro {};
+    } else if integrator && particles::scene::checks::is_coupled(scene) {
+        scene.integrator = Integrator::CotterReich {};
+    }
+    if colour && cells {
+        // Of several species theirs.
+        let mut species = scene.particles.iter().map(|group| &group.species);
+        let first = species.next();
+        let several = species.any(|other| Some(other) != first);
+        scene.output.snapshot.color = if several { SnapshotColor::Species } else { SnapshotColor::Density };
     }
 }

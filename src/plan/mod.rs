@@ -1,24 +1,24 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
 pub(crate) mod analyses;
-mod couplings;
+pub(crate) mod couplings;
 mod failure;
 mod fit;
 mod grid;
 mod layout;
-mod pair;
+pub(crate) mod pair;
 mod pair_histogram;
 pub(crate) mod paths;
 mod precision;
 mod prefix_sum;
 mod recording;
 mod serial_memory;
-mod shallow_water;
+pub(crate) mod shallow_water;
 pub mod smoothing;
 mod species;
 mod table;
 mod texture;
-mod voronoi;
+pub(crate) mod voronoi;
 
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
@@ -52,12 +52,7 @@ use crate::state::Units;
 /// ```
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-    let mut plan = match (model.shallow_water(), model.voronoi()) {
-        (Some(water), _) => shallow_water::plan(model, water, output, hardware, options),
-        (None, Some(cells)) => voronoi::plan(model, cells, equilibration, output, options),
-        _ if model.is_coupled() || options.listed => couplings::plan(model, equilibration, output, options),
-        _ => pair::plan(model, equilibration, output, hardware, options),
-    };
+    let mut plan = model.physics().plan(model, equilibration, output, hardware, options);
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory();
     }

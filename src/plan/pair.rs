@@ -21,7 +21,7 @@ const OBSERVABLES: u64 = 9;
 const SCAN_AT_END_CELLS: u64 = 1 << 11;
 
 /// Makes the plan of a model.
-pub(super) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force().unwrap_or(&free);

@@ -35,7 +35,7 @@ const STRIP: u64 = 4;
 const FEWEST_NODES: u64 = 1 << 12;
 
 /// Makes the plan of a model of shallow water.
-pub(super) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let eights = takes_eights(water, hardware, options);
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
     let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);

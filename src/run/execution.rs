@@ -6,14 +6,13 @@ use super::energies::{self, EnergyRecorder};
 use super::exchange_tally::{self, ExchangeTally};
 use super::kept_sums::{self, KeptSums};
 use super::pace::Pace;
-use super::pictures::Pictures;
+use super::pictures::{Pictures, mesh_depth};
 use super::schedule::Schedule;
 use super::sections::Sections;
-use super::shown_field::mesh_depth;
 use super::task::Task;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, Sample};
-use crate::families::{KeptQuantity, Model};
+use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
 use crate::output::summary::AdapterSummary;
@@ -72,9 +71,10 @@ impl<'a> Run<'a> {
         // What is wrong with the checkpoint is found before a file is touched.
         let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
         analyses.continue_windows(engine, &sections)?;
-        let tally = if model.voronoi().is_some() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
+        let tally =
+            if model.physics().counts_exchanges() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
         let kept_sums = KeptSums::new(model, &start.state, &sections)?;
-        let schedule = Schedule::new(scene, analyses.state_intervals());
+        let schedule = Schedule::new(scene, model, analyses.state_intervals());
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
             // At step 0 there is nothing yet.
             _ if step == 0 => Ok(None),
@@ -181,10 +181,10 @@ impl<'a> Run<'a> {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
             }
-            if let Some(water) = self.model.shallow_water() {
-                let depth = mesh_depth(engine, water)?;
+            if self.model.picture() == PictureKind::Fields {
+                let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
-                    self.pictures.fields(number, &state, &depth, self.model, water)?;
+                    self.pictures.fields(number, &state, &depth, self.model)?;
                 }
             } else {
                 if let Some(number) = number {
@@ -219,7 +219,7 @@ impl<'a> Run<'a> {
         sections.extend(self.analyses.sections_of_states());
         sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
         sections.extend(self.pictures.sections());
-        if self.model.voronoi().is_some() {
+        if self.model.physics().counts_exchanges() {
             sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
         }
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];

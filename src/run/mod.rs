@@ -49,7 +49,6 @@ mod pilot;
 mod schedule;
 mod sections;
 mod settling;
-mod shown_field;
 mod simulation;
 mod sizes;
 mod task;

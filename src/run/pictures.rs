@@ -4,21 +4,20 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
-use super::shown_field::{ShownField, closed_loops, mesh_depth};
 use crate::engine::Engine;
-use crate::families::{Model, ShallowWater, Voronoi};
+use crate::families::pictures::{CellValues, EnergyChart, MeshPictures, ValueScale};
+use crate::families::{Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::measure::MeshFlow;
-use crate::numbers::{grouped, with_error};
+use crate::numbers::grouped;
 use crate::output::{
     Checkpoint, Extent, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy,
 };
 use crate::plan::Options;
 use crate::plot::{
-    Averages, CellPicture, Chart, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter, ShownValues,
-    averages_note, energetic_cells_chart, energies_chart, missing_glyphs, shallow_water_chart,
+    Averages, CellPicture, Chart, ColorMap, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
+    ShownValues, averages_note, energetic_cells_chart, energies_chart, missing_glyphs, shallow_water_chart,
 };
-use crate::scene::{self, AnalysisId, AnalysisTable, FieldQuantity, Scene, Snapshot, SnapshotColor};
+use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
@@ -61,9 +60,9 @@ pub fn redraw(
     let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     let state = engine.reported()?;
-    if let Some(water) = model.shallow_water() {
-        let depth = mesh_depth(&mut engine, water)?;
-        let names = pictures.fields(None, &state, &depth, &model, water)?;
+    if model.picture() == PictureKind::Fields {
+        let depth = mesh_depth(&mut engine, &model)?;
+        let names = pictures.fields(None, &state, &depth, &model)?;
         written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
     } else {
         pictures.snapshot(files::SNAPSHOT, &state, &model)?;
@@ -72,6 +71,12 @@ pub fn redraw(
         }
     }
     Ok(written)
+}
+
+/// The smoothed depth on the nodes of the mesh, right after a report.
+pub(super) fn mesh_depth(engine: &mut Engine<'_>, model: &Model) -> Result<Vec<f64>, RunError> {
+    let words = engine.words("depths")?;
+    Ok(words.iter().take(model.physics().nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
@@ -139,23 +144,15 @@ impl<'a> Pictures<'a> {
     pub(super) fn energies(&mut self, table: &Table, model: &Model, summary: &Summary) -> Result<(), RunError> {
         let averages = averages(summary);
         let (title, particles) = (&self.scene.title, model.particle_count());
-        let mut chart = if let Some(water) = model.shallow_water() {
-            let set = water.bath.is_some().then_some(model.temperature);
-            let mut chart = shallow_water_chart(title, table, set, &averages);
-            let [columns, rows] = water.mesh;
-            chart.subtitle = format!(
-                "{} particles, mesh {columns} × {rows}, wave speed {}, rotation {}",
-                grouped(water.carriers),
-                with_error(water.wave_speed, None),
-                with_error(water.rotation, None)
-            );
-            chart
-        } else if model.voronoi().is_some_and(Voronoi::keeps_energy) {
-            let mut chart = energetic_cells_chart(title, table, particles, &averages);
-            chart.subtitle = format!("{} cells", grouped(particles));
-            chart
-        } else {
-            energies_chart(title, table, particles, model.temperature, &averages)
+        let mut chart = match model.physics().energy_chart(model) {
+            EnergyChart::Mesh { subtitle, temperature } => {
+                Chart { subtitle, ..shallow_water_chart(title, table, temperature, &averages) }
+            }
+            EnergyChart::EnergeticCells => {
+                let subtitle = format!("{} cells", grouped(particles));
+                Chart { subtitle, ..energetic_cells_chart(title, table, particles, &averages) }
+            }
+            EnergyChart::Particles => energies_chart(title, table, particles, model.temperature, &averages),
         };
         chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
         let note = averages_note(&averages);
@@ -203,8 +200,8 @@ impl<'a> Pictures<'a> {
 
     pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
-        if let Some(cells) = model.voronoi() {
-            return self.cells(name, state, model, cells);
+        if model.picture() == PictureKind::Cells {
+            return self.cells(name, state, model);
         }
         // Points on a line show nothing.
         if units.dimension == 1 {
@@ -241,48 +238,29 @@ impl<'a> Pictures<'a> {
         self.save(name, drawn)
     }
 
-    /// Draws Voronoi cells.
-    fn cells(&mut self, name: &str, state: &State, model: &Model, cells: &Voronoi) -> Result<(), RunError> {
+    /// Draws the cells of a tessellation.
+    fn cells(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
         let units = model.units;
         let lengths = [units.lengths[0], units.lengths[1]];
         let positions: Vec<[f64; 2]> =
             state.positions.iter().map(|position| units.position(*position)).map(|[x, y, _]| [x, y]).collect();
         let tessellation = Tessellation::of_fractions(lengths, &state.positions);
-        let mass = |id: usize| f64::from(state.masses[id]) * cells.mass_unit;
-        let square =
-            |id: usize| units.momentum(state.momenta[id]).iter().map(|component| component * component).sum::<f64>();
-        let all = 0..state.masses.len().min(state.len());
-        let shown: Option<(&str, Vec<f64>)> = match self.scene.output.snapshot.color {
-            SnapshotColor::Species => None,
-            SnapshotColor::Speed => Some(("speed (length/time)", all.map(|id| square(id).sqrt() / mass(id)).collect())),
-            SnapshotColor::Temperature if cells.keeps_energy() => {
-                let internal =
-                    |id: usize| f64::from(state.energies[id]) * cells.energy_unit - square(id) / (2.0 * mass(id));
-                let temperature = |id: usize| cells.molecular_mass * internal(id) / mass(id);
-                Some(("temperature (energy)", all.map(temperature).collect()))
-            }
-            SnapshotColor::Density | SnapshotColor::Temperature => {
-                Some(("density (mass/area)", all.map(|id| mass(id) / tessellation.cells[id].volume).collect()))
-            }
-        };
+        let color = self.scene.output.snapshot.color;
+        let shown = model.physics().cell_values(color, state, &tessellation, model);
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
         let subtitle = at_time(state, model);
         let asked = &self.scene.output.snapshot;
         let temperature = model.temperature;
-        let cell_mass = (0..state.len()).map(mass).sum::<f64>() / state.len().max(1) as f64;
-        let begin = |label: &str, values: &[f64]| match label.split(' ').next() {
-            Some("speed") => colour_ranges::of_speeds(values, temperature, lightest(model)),
-            Some("temperature") => colour_ranges::of_temperatures(values, temperature),
-            _ => {
-                let mean = cell_mass * state.len() as f64 / units.volume();
-                colour_ranges::of_densities(values, mean, cell_mass / cells.molecular_mass, temperature > 0.0)
+        let begin = |shown: &CellValues| match shown.scale {
+            ValueScale::Speeds => colour_ranges::of_speeds(&shown.values, temperature, lightest(model)),
+            ValueScale::Temperatures => colour_ranges::of_temperatures(&shown.values, temperature),
+            ValueScale::Densities { mean, molecules } => {
+                colour_ranges::of_densities(&shown.values, mean, molecules, temperature > 0.0)
             }
         };
         // A picture alone has the colours that fit it best.
         let range = match &shown {
-            Some((label, values)) if asked.every > 0 => {
-                Some(self.ranges.of(label, asked.range, || begin(label, values)))
-            }
+            Some(shown) if asked.every > 0 => Some(self.ranges.of(shown.label, asked.range, || begin(shown))),
             _ => asked.range,
         };
         let picture = CellPicture {
@@ -291,7 +269,7 @@ impl<'a> Pictures<'a> {
             tessellation: &tessellation,
             species: &state.species,
             species_names: &names,
-            shown: shown.as_ref().map(|(label, values)| ShownValues { label, values }),
+            shown: shown.as_ref().map(|shown| ShownValues { label: shown.label, values: &shown.values }),
             title: &self.scene.title,
             subtitle: &subtitle,
         };
@@ -301,39 +279,36 @@ impl<'a> Pictures<'a> {
         self.save(name, drawn)
     }
 
-    /// Draws the fields of shallow water that the scene asks for, and writes the arrays of a run. Returns the names.
+    /// Draws the fields on the mesh that the scene asks for, and writes the arrays of a run. Returns the names.
     pub(super) fn fields(
         &mut self,
         number: Option<u64>,
         state: &State,
         depth: &[f64],
         model: &Model,
-        water: &ShallowWater,
     ) -> Result<Vec<String>, RunError> {
-        let flow = MeshFlow::new(model, water, state);
-        let loops: Vec<Vec<[f64; 2]>> = closed_loops(state, model, water);
+        let asked = self.scene.output.fields.clone().unwrap_or_default();
+        let pictures = model.physics().mesh_pictures(&asked.quantities, state, depth, model);
+        let Some(MeshPictures { fields, loops }) = pictures else { return Ok(Vec::new()) };
         let curves: Vec<PeriodicCurve<'_>> =
             loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
         let mut written = Vec::new();
-        let asked = self.scene.output.fields.clone().unwrap_or_default();
-        for quantity in asked.quantities {
-            let shown = ShownField::new(quantity, &flow, depth);
-            let field = shown.field(model, water);
+        for shown in fields {
+            let field = &shown.field;
             let subtitle = at_time(state, model);
-            let given = asked.ranges.of(quantity);
-            let from_zero = quantity == FieldQuantity::Speed;
+            let given = asked.ranges.of(shown.quantity);
             let range = if asked.every > 0 {
-                Some(self.ranges.of(shown.stem, given, || colour_ranges::of_field(field.extrema(), from_zero)))
+                Some(self.ranges.of(shown.stem, given, || colour_ranges::of_field(field.extrema(), shown.from_zero)))
             } else {
                 given
             };
             let picture = FieldPicture {
                 title: &self.scene.title,
                 subtitle: &subtitle,
-                map: shown.map,
+                map: shown.centre.map_or(ColorMap::Sequential, |centre| ColorMap::Diverging { centre }),
                 range,
                 curves: &curves,
-                ..FieldPicture::new(&field)
+                ..FieldPicture::new(field)
             };
             let name = files::field(shown.stem, number, "png");
             let drawn = {

@@ -59,7 +59,7 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
     let known = Model::new(&fluid);
     let work = |plan: &Plan| plan.operations_per_particle * plan.particles as f64;
     let relative = work(&plan) / work(&plan_for(&fluid, &known, gpu, Options::default()));
-    let nodes = model.shallow_water().map_or(0, crate::families::ShallowWater::nodes);
+    let nodes = model.physics().nodes();
     let of_scene = relative <= MOST_WORK && nodes <= MOST_NODES;
     let (step, steps) = if of_scene {
         time_of_step(scene, &model, gpu, Options::default())?

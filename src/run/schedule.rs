@@ -1,6 +1,7 @@
 //! When a run has to stop for something.
 
-use crate::scene::{Interaction, Scene};
+use crate::families::{Model, PictureKind};
+use crate::scene::Scene;
 use std::time::Duration;
 
 /// The steps of checkpoints, snapshots and frames.
@@ -17,12 +18,12 @@ pub(super) struct Schedule {
 
 impl Schedule {
     /// The schedule of a scene, with the steps between two states that its analyses take.
-    pub(super) fn new(scene: &Scene, states: Vec<u64>) -> Self {
+    pub(super) fn new(scene: &Scene, model: &Model, states: Vec<u64>) -> Self {
         let output = &scene.output;
-        let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
-        // Shallow water shows fields, all others particles.
-        let pictures =
-            if water { output.fields.as_ref().map_or(0, |fields| fields.every) } else { output.snapshot.every };
+        let pictures = match model.picture() {
+            PictureKind::Fields => output.fields.as_ref().map_or(0, |fields| fields.every),
+            PictureKind::Particles | PictureKind::Cells => output.snapshot.every,
+        };
         Self {
             last: scene.time.steps,
             checkpoint: output.checkpoint.every.max(1),

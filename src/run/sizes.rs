@@ -1,7 +1,7 @@
 //! How large the files of a run will be, before it begins.
 
 use super::analyses::{AskedAnalysis, asked_analyses};
-use crate::families::{Bonds, Model};
+use crate::families::{Bonds, Model, PictureKind};
 use crate::output::bytes_per_particle;
 use crate::plan::{Layout, Plan};
 use crate::plot::snapshot_size;
@@ -65,15 +65,15 @@ impl Sizes {
         });
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
-        let (picture, pictures, numbered) = match model.shallow_water() {
-            Some(water) => {
+        let (picture, pictures, numbered) = match model.picture() {
+            PictureKind::Fields => {
                 let fields = output.fields.clone().unwrap_or_default();
                 let count = fields.quantities.len() as u64;
                 let field = PICTURE_PIXEL * plot_pixels;
-                (field as u64 + 8 * water.nodes() + 128, count, count.saturating_mul(times(fields.every)))
+                (field as u64 + 8 * model.physics().nodes() + 128, count, count.saturating_mul(times(fields.every)))
             }
-            None if model.units.dimension == 1 => (0, 0, 0),
-            None => {
+            _ if model.units.dimension == 1 => (0, 0, 0),
+            PictureKind::Particles | PictureKind::Cells => {
                 let [width, height] =
                     snapshot_size(&output.snapshot, model.units.dimension as u32, model.units.lengths);
                 ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))

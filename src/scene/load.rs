@@ -1,12 +1,14 @@
 //! From a file or a built-in name to a checked scene.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::LazyLock;
 
 use serde_json::Value;
+
+use crate::families;
 
 use super::error::{Problem, SceneError, Warning};
 use super::nearest::nearest;
@@ -156,7 +158,7 @@ pub fn parse_for(
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
         if problems.is_empty() {
-            crate::families::check(&scene, &mut problems);
+            families::check(&scene, &mut problems);
         }
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
     }
@@ -202,14 +204,17 @@ impl Reading {
         let (mut document, mut problems) = text::parse(name, text)?;
         problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
         let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
-        default_integrator(&mut document);
-        default_colour(&mut document);
+        let left_out = |place: &str| document.pointer(place).is_none();
+        let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
         problems.append(shape::check(&SCHEMA, &mut document, substitute));
         // What the shape check has mended may be readable, and then everything can be said at once.
         if !problems.is_empty() {
             fill_in(&mut document, substitute);
         }
-        let scene = serde_json::from_value(document).map_err(|error| error.to_string());
+        let scene = serde_json::from_value(document).map_err(|error| error.to_string()).map(|mut scene| {
+            families::complete(&mut scene, integrator, colour);
+            scene
+        });
         Ok(Self { problems, scene, notices })
     }
 }
@@ -238,54 +243,6 @@ fn fill_in(document: &mut Value, substitute: Substitute) {
         if let Some(object) = document.pointer_mut(place).and_then(Value::as_object_mut) {
             object.entry(key).or_insert(number);
         }
-    }
-}
-
-/// The integrator that is left out belongs to the interactions.
-fn default_integrator(document: &mut Value) {
-    let interactions = document["interactions"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let coupled = |interaction: &Value| match interaction["type"].as_str() {
-        Some("dpd") => interaction["bath"]["type"] == "memory",
-        Some("langevin" | "coloured-noise" | "tether" | "bonds" | "angles" | "harmonic-chain") => true,
-        _ => false,
-    };
-    let line = document["space"]["box"].as_array().is_some_and(|edges| edges.len() == 1);
-    let mut groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default().iter();
-    let held = groups.any(|group| group["fixed"] == true);
-    let of_type = |name: &str| interactions.iter().any(|interaction| interaction["type"] == name);
-    let integrator = if of_type("shallow-water") {
-        "gyro"
-    } else if of_type("voronoi") {
-        "splitting"
-    } else if line || held || interactions.iter().any(coupled) {
-        "cotter-reich"
-    } else {
-        return;
-    };
-    if let Some(scene) = document.as_object_mut()
-        && !scene.contains_key("integrator")
-    {
-        scene.insert("integrator".to_owned(), serde_json::json!({"type": integrator}));
-    }
-}
-
-/// The colour that is left out for pictures of Voronoi cells: of several species theirs, else the density.
-fn default_colour(document: &mut Value) {
-    let of_type = |interaction: &Value| interaction["type"] == "voronoi";
-    if !document["interactions"].as_array().is_some_and(|interactions| interactions.iter().any(of_type)) {
-        return;
-    }
-    let groups = document["particles"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let species: BTreeSet<&str> = groups.iter().filter_map(|group| group["species"].as_str()).collect();
-    let colour = if species.len() > 1 { "species" } else { "density" };
-    let mut place = document.as_object_mut();
-    for key in ["output", "snapshot"] {
-        place = place.and_then(|object| object.entry(key).or_insert_with(|| serde_json::json!({})).as_object_mut());
-    }
-    if let Some(snapshot) = place
-        && !snapshot.contains_key("color")
-    {
-        snapshot.insert("color".to_owned(), serde_json::json!(colour));
     }
 }
 

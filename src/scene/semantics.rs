@@ -5,9 +5,8 @@ use std::collections::{HashMap, HashSet};
 use super::error::{Problem, named};
 use super::nearest::nearest;
 use super::problems::Problems;
-use super::{
-    CorrelatedQuantity, CountedQuantity, DpdInteraction, Interaction, ParticleGroup, Placement, Scene, Velocities,
-};
+use super::{CorrelatedQuantity, CountedQuantity, Interaction, ParticleGroup, Placement, Scene, Velocities};
+use crate::families;
 
 /// Bytes of device memory that a fluid without lists and analyses needs for each particle, as an upper bound.
 pub const BYTES_PER_PARTICLE: u64 = 100;
@@ -233,42 +232,7 @@ fn quantity(number: f64) -> String {
 }
 
 fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
-    let of_water = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_));
-    let first_water = scene.interactions.iter().position(of_water);
-    for (index, interaction) in scene.interactions.iter().enumerate() {
-        let path = format!("interactions[{index}]");
-        match interaction {
-            Interaction::ColouredNoise(noise) => {
-                crate::families::particles::scene::coloured_noise::check(scene, noise, &path, problems);
-            }
-            // Of a second one all has been said.
-            Interaction::ShallowWater(_) if Some(index) != first_water => {}
-            Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
-                let accepted = "`shallow-water` as the only interaction of a scene";
-                problems.push(Problem::new(&path, "found another interaction beside it", accepted));
-            }
-            Interaction::ShallowWater(water) => {
-                crate::families::shallow_water::scene::checks::check(scene, water, &path, problems);
-            }
-            Interaction::Dpd(dpd) => check_pairs(species, dpd, &path, problems),
-            Interaction::Voronoi(voronoi) => crate::families::voronoi::scene::check(scene, voronoi, &path, problems),
-            Interaction::HarmonicChain(chain) => {
-                crate::families::particles::scene::harmonic_chain::check(scene, chain, &path, problems);
-            }
-            _ => {}
-        }
-        crate::families::particles::scene::checks::check_interaction(scene, species, interaction, &path, problems);
-    }
-    crate::families::particles::scene::checks::check_scene(scene, problems);
-    if first_water.is_none() {
-        crate::families::shallow_water::scene::checks::check_absence(scene, problems);
-    }
-    if crate::families::voronoi::scene::voronoi(scene).is_none() {
-        crate::families::voronoi::scene::check_absence(scene, problems);
-    }
-    if crate::families::particles::scene::harmonic_chain::harmonic_chain(scene).is_none() {
-        crate::families::particles::scene::harmonic_chain::check_absence(scene, problems);
-    }
+    families::check_interactions(scene, species, problems);
     let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < 2.0 * cutoff {
@@ -277,22 +241,6 @@ fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut 
                 2.0 * cutoff
             );
             problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
-        }
-    }
-}
-
-fn check_pairs(species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
-    let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
-    for (index, pair) in dpd.pairs.iter().enumerate() {
-        let path = format!("{path}.pairs[{index}]");
-        for (end, name) in pair.between.iter().enumerate() {
-            species.check(name, &format!("{path}.between[{end}]"), problems);
-        }
-        let mut key = [pair.between[0].as_str(), pair.between[1].as_str()];
-        key.sort_unstable();
-        if let Some(earlier) = defined.insert(key, index) {
-            let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
-            problems.push(Problem::new(path, found, "every pair of species once, in either order"));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The files of a run, when they are written and how long they become.
 
-use mesoscope::families::Model;
+use mesoscope::families::{Model, PictureKind};
 use mesoscope::numbers::bytes;
 use mesoscope::output::files;
 use mesoscope::run::{self, Sizes};
@@ -19,7 +19,7 @@ pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
             sized(&format!("{} and at the end", interval(0, output.checkpoint.every)), sizes.checkpoint),
         ),
     ];
-    if model.shallow_water().is_some() {
+    if model.picture() == PictureKind::Fields {
         let fields = output.fields.clone().unwrap_or_default();
         for quantity in fields.quantities {
             let stem = quantity.stem();

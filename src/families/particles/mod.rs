@@ -2,6 +2,7 @@
 
 pub(crate) mod chains;
 mod conservation;
+mod description;
 pub(crate) mod model;
 mod observables;
 pub mod reference;
@@ -15,8 +16,8 @@ use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Model, Observables, PairForce, Physics,
     PositionBath, Species, units,
 };
-use crate::plan::Plan;
-use crate::scene::{BondPotential, Interaction, Problems, Scene, Warning};
+use crate::plan::{self, Hardware, Options, Plan};
+use crate::scene::{BondPotential, Interaction, Output, Problems, Scene, Warning};
 use crate::state::State;
 use model::topology;
 use reference::{CouplingsReference, Reference};
@@ -136,6 +137,20 @@ impl Physics for Particles {
         if self.are_coupled {
             stability::check(scene, model, problems);
         }
+    }
+
+    fn plan(&self, model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+        if self.are_coupled || options.listed {
+            plan::couplings::plan(model, equilibration, output, options)
+        } else {
+            plan::pair::plan(model, equilibration, output, hardware, options)
+        }
+    }
+
+    fn description(&self, _: &Scene, model: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+        let mut rows = vec![("cells", cells.to_owned())];
+        rows.extend(description::list(model, plan));
+        rows
     }
 
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {

@@ -1,5 +1,9 @@
 //! Rotating shallow water by the Hamiltonian particle-mesh method.
 
+pub mod circulation;
+mod description;
+mod fields;
+pub mod flow;
 pub(crate) mod model;
 mod observables;
 pub mod reference;
@@ -8,10 +12,14 @@ mod start;
 pub mod surface;
 mod warnings;
 
+use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
-use super::{Column, KeptQuantity, KeptSum, Model, Observables, Physics, ShallowWater, Species, conservation};
-use crate::plan::Plan;
-use crate::scene::{Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
+use super::{
+    Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, ShallowWater, Species, conservation,
+};
+use crate::numbers::{grouped, with_error};
+use crate::plan::{self, Hardware, Options, Plan};
+use crate::scene::{FieldQuantity, Integrator, Output, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::state::State;
 use reference::ShallowWaterReference;
 use std::ops::Range;
@@ -54,6 +62,47 @@ impl Physics for ShallowWater {
 
     fn complete_start(&self, state: &mut State, _: &Scene, model: &Model, thermal: &[usize]) {
         start::complete(self, state, model, thermal);
+    }
+
+    fn plan(&self, model: &Model, _: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+        plan::shallow_water::plan(model, self, output, hardware, options)
+    }
+
+    fn particles_in_words(&self, count: u64) -> String {
+        description::particles(self, count)
+    }
+
+    fn description(&self, scene: &Scene, _: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+        description::mesh(self, scene, plan, cells)
+    }
+
+    fn picture(&self) -> PictureKind {
+        PictureKind::Fields
+    }
+
+    fn energy_chart(&self, model: &Model) -> EnergyChart {
+        let [columns, rows] = self.mesh;
+        let subtitle = format!(
+            "{} particles, mesh {columns} × {rows}, wave speed {}, rotation {}",
+            grouped(self.carriers),
+            with_error(self.wave_speed, None),
+            with_error(self.rotation, None)
+        );
+        EnergyChart::Mesh { subtitle, temperature: self.bath.is_some().then_some(model.temperature) }
+    }
+
+    fn mesh_pictures(
+        &self,
+        quantities: &[FieldQuantity],
+        state: &State,
+        depth: &[f64],
+        model: &Model,
+    ) -> Option<MeshPictures> {
+        Some(fields::pictures(self, quantities, state, depth, model))
+    }
+
+    fn nodes(&self) -> u64 {
+        Self::nodes(self)
     }
 
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {

@@ -1,17 +1,23 @@
 //! Voronoi DPD: particles that are the cells of a tessellation.
 
+mod description;
 pub(crate) mod model;
 mod observables;
+mod pictures;
 pub mod reference;
 pub(crate) mod scene;
 mod start;
 mod warnings;
 
+use super::pictures::{CellValues, EnergyChart};
 use super::reference::Stepper;
-use super::{Column, KeptQuantity, KeptSum, Model, Observables, Physics, Species, Voronoi, conservation, units};
-use crate::plan::Plan;
-use crate::scene::{InitialMasses, ParticleGroup, Problems, Scene, Warning};
+use super::{
+    Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, Species, Voronoi, conservation, units,
+};
+use crate::plan::{self, Hardware, Options, Plan};
+use crate::scene::{InitialMasses, Output, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::state::State;
+use crate::tessellation::Tessellation;
 use reference::VoronoiReference;
 use std::ops::Range;
 
@@ -57,6 +63,38 @@ impl Physics for Voronoi {
 
     fn check_start(&self, scene: &Scene, _: &Model, state: &State, problems: &mut Problems) {
         start::check_masses(scene, self, &state.masses, problems);
+    }
+
+    fn plan(&self, model: &Model, equilibration: u64, output: &Output, _: Hardware, options: Options) -> Plan {
+        plan::voronoi::plan(model, self, equilibration, output, options)
+    }
+
+    fn description(&self, _: &Scene, model: &Model, _: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+        let mut rows = vec![("search grid", cells.to_owned())];
+        rows.extend(description::fluid(self, model));
+        rows
+    }
+
+    fn counts_exchanges(&self) -> bool {
+        true
+    }
+
+    fn energy_chart(&self, _: &Model) -> EnergyChart {
+        if self.keeps_energy() { EnergyChart::EnergeticCells } else { EnergyChart::Particles }
+    }
+
+    fn cell_values(
+        &self,
+        color: SnapshotColor,
+        state: &State,
+        tessellation: &Tessellation,
+        model: &Model,
+    ) -> Option<CellValues> {
+        pictures::cell_values(self, color, state, tessellation, model)
+    }
+
+    fn picture(&self) -> PictureKind {
+        PictureKind::Cells
     }
 
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {

@@ -17,7 +17,7 @@ use crate::noise::stream;
 use crate::scene::{Generator, Integrator, Output, VoronoiForm};
 
 /// Makes the plan of a model of Voronoi cells.
-pub(super) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &Output, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &Output, options: Options) -> Plan {
     let particles = model.particle_count();
     let grid = grid(model, particles);
     let layout = Layout::Cells { energies: cells.keeps_energy() };

@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::scene::{
-    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
-    ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
+    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
+    LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
 };
 
 /// Checks one interaction by itself.
@@ -26,11 +26,7 @@ pub(crate) fn check_interaction(
         Interaction::Langevin(langevin) => check_langevin(names, langevin, path, problems),
         Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
         Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
-        Interaction::ColouredNoise(_)
-        | Interaction::Tether(_)
-        | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_)
-        | Interaction::Voronoi(_) => {}
+        _ => {}
     }
 }
 
@@ -383,4 +379,20 @@ fn check_presence(
     };
     let accepted = format!("`{key}` of particle numbers, or particles with a `chain` of at least {length} `beads`");
     problems.push(Problem::new(path, found, accepted));
+}
+
+pub(crate) fn check_pairs(species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
+    let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
+    for (index, pair) in dpd.pairs.iter().enumerate() {
+        let path = format!("{path}.pairs[{index}]");
+        for (end, name) in pair.between.iter().enumerate() {
+            species.check(name, &format!("{path}.between[{end}]"), problems);
+        }
+        let mut key = [pair.between[0].as_str(), pair.between[1].as_str()];
+        key.sort_unstable();
+        if let Some(earlier) = defined.insert(key, index) {
+            let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
+            problems.push(Problem::new(path, found, "every pair of species once, in either order"));
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The flow of shallow water on the nodes of its mesh.
 
-use crate::families::shallow_water::reference::mesh_splines;
+use super::reference::mesh_splines;
 use crate::families::{Model, ShallowWater};
 use crate::state::State;
 

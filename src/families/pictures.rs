@@ -1,0 +1,72 @@
+//! What pictures of a state show, as data.
+
+use super::Field;
+use crate::scene::FieldQuantity;
+
+/// What pictures of a state are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureKind {
+    /// Particles, where there are two or three dimensions.
+    Particles,
+    /// Cells of a tessellation.
+    Cells,
+    /// Fields on the nodes of a mesh.
+    Fields,
+}
+
+/// What the chart of energies is of.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum EnergyChart {
+    /// Particles at a temperature.
+    Particles,
+    /// Cells with internal energies.
+    EnergeticCells,
+    /// Particles on a mesh: a subtitle, and the temperature of a bath if there is one.
+    Mesh { subtitle: String, temperature: Option<f64> },
+}
+
+/// Values of cells that colours show.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CellValues {
+    /// What they are, with their unit.
+    pub label: &'static str,
+    /// One for each cell.
+    pub values: Vec<f64>,
+    /// What leads one to expect their range.
+    pub scale: ValueScale,
+}
+
+/// What the range of values follows from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ValueScale {
+    /// Speeds at the temperature of the scene.
+    Speeds,
+    /// Temperatures about that of the scene.
+    Temperatures,
+    /// Densities about a mean, of so many molecules a cell.
+    Densities { mean: f64, molecules: f64 },
+}
+
+/// Fields on a mesh, and closed curves on top of them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MeshPictures {
+    /// The fields.
+    pub fields: Vec<ShownField>,
+    /// Points of the curves.
+    pub loops: Vec<Vec<[f64; 2]>>,
+}
+
+/// A field on the nodes of a mesh, ready to be named and drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ShownField {
+    /// What it is.
+    pub quantity: FieldQuantity,
+    /// What its files are called.
+    pub stem: &'static str,
+    /// The value in the middle of its colours, if they diverge from one.
+    pub centre: Option<f64>,
+    /// Whether its range begins at zero.
+    pub from_zero: bool,
+    /// Its values.
+    pub field: Field,
+}

@@ -1,0 +1,63 @@
+//! The fields of shallow water, what they are called and how they are shown.
+
+use super::circulation::largest_gap;
+use super::flow::MeshFlow;
+use crate::families::pictures::{MeshPictures, ShownField};
+use crate::families::{Field, Model, ShallowWater};
+use crate::scene::FieldQuantity;
+use crate::state::State;
+
+/// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
+pub(super) fn pictures(
+    water: &ShallowWater,
+    quantities: &[FieldQuantity],
+    state: &State,
+    depth: &[f64],
+    model: &Model,
+) -> MeshPictures {
+    let flow = MeshFlow::new(model, water, state);
+    let fields = quantities.iter().map(|quantity| field(*quantity, &flow, depth, model, water)).collect();
+    MeshPictures { fields, loops: closed_loops(state, model, water) }
+}
+
+/// A field of a flow with a smoothed depth.
+fn field(quantity: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model, water: &ShallowWater) -> ShownField {
+    let (name, label, centre, values) = match quantity {
+        FieldQuantity::Depth => ("depth", "Depth h (mean depths)", None, depth.to_vec()),
+        FieldQuantity::PotentialVorticity => (
+            "potential vorticity",
+            "Potential vorticity (ζ + f_{0})/h (1/time units)",
+            None,
+            flow.potential_vorticity(depth),
+        ),
+        FieldQuantity::Vorticity => ("vorticity", "Vorticity ζ (1/time units)", Some(0.0), flow.vorticity()),
+        FieldQuantity::Speed => ("speed", "Speed (length units/time units)", None, flow.speed()),
+    };
+    // Of an array the first index is that of x.
+    let nodes = water.mesh.map(|nodes| nodes as usize);
+    let places = (0..nodes[0]).flat_map(|k| (0..nodes[1]).map(move |l| k + l * nodes[0]));
+    let field = Field {
+        name: name.to_owned(),
+        label: label.to_owned(),
+        nodes,
+        lengths: [model.units.lengths[0], model.units.lengths[1]],
+        values: places.map(|place| values[place]).collect(),
+    };
+    ShownField { stem: quantity.stem(), centre, from_zero: quantity == FieldQuantity::Speed, quantity, field }
+}
+
+/// The points of every closed loop of tracers that is still a curve.
+fn closed_loops(state: &State, model: &Model, water: &ShallowWater) -> Vec<Vec<[f64; 2]>> {
+    let spacing = water.spacing(model.units.lengths);
+    let loops = water.closed_loops();
+    loops
+        .filter(|(_, range)| largest_gap(&model.units, &state.positions[range.clone()]) < spacing)
+        .map(|(_, range)| {
+            state.positions[range]
+                .iter()
+                .map(|position| model.units.position(*position))
+                .map(|[x, y, _]| [x, y])
+                .collect()
+        })
+        .collect()
+}

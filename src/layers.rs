@@ -1,0 +1,100 @@
+//! Which top module may use which: only those below it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The modules of the library, from the bottom up.
+const LAYERS: [&str; 18] = [
+    "printable",
+    "numbers",
+    "table",
+    "prediction",
+    "noise",
+    "state",
+    "tessellation",
+    "gpu",
+    "scene",
+    "plan",
+    "families",
+    "engine",
+    "measure",
+    "output",
+    "plot",
+    "run",
+    "self_test",
+    "sweep",
+];
+
+/// Arrows that point upward still, file by file. This list may only become shorter.
+const EXCEPTIONS: &[(&str, &str)] = &[
+    ("plan/analyses.rs", "families"),
+    ("plan/couplings/bonds.rs", "families"),
+    ("plan/couplings/list.rs", "families"),
+    ("plan/couplings/mod.rs", "families"),
+    ("plan/couplings/pairs.rs", "families"),
+    ("plan/fit.rs", "families"),
+    ("plan/layout.rs", "families"),
+    ("plan/mod.rs", "families"),
+    ("plan/pair.rs", "families"),
+    ("plan/shallow_water.rs", "families"),
+    ("plan/smoothing.rs", "families"),
+    ("plan/species.rs", "families"),
+    ("plan/table.rs", "families"),
+    ("plan/voronoi/mod.rs", "families"),
+    ("scene/interaction.rs", "families"),
+    ("scene/load.rs", "families"),
+    ("scene/semantics.rs", "families"),
+];
+
+/// Rust files of a directory and those below it.
+fn files(directory: &Path, found: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(directory).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// Top modules that code names, without those of its tests and comments.
+fn named(text: &str) -> BTreeSet<&str> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let names = lines.flat_map(|line| line.split("crate::").skip(1));
+    names.filter_map(|rest| rest.split(|letter: char| !letter.is_ascii_lowercase() && letter != '_').next()).collect()
+}
+
+#[test]
+fn modules_use_only_those_below_them() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let height = |module: &str| LAYERS.iter().position(|layer| *layer == module);
+    let mut found = Vec::new();
+    files(&root, &mut found);
+    let mut upward = BTreeSet::new();
+    for path in found {
+        let place = path.strip_prefix(&root).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+        let module = place.split(['/', '.']).next().unwrap_or_default();
+        let Some(own) = height(module) else {
+            // The command line is a program of its own.
+            assert!(["cli", "main", "lib", "layers"].contains(&module), "`{module}` belongs into the list of layers");
+            continue;
+        };
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        upward.extend(
+            named(&text)
+                .into_iter()
+                .filter(|name| height(name).is_some_and(|other| other > own))
+                .map(|name| (place.clone(), name.to_owned())),
+        );
+    }
+    let known = EXCEPTIONS.iter().map(|(file, module)| ((*file).to_owned(), (*module).to_owned())).collect();
+    let new: Vec<_> = upward.difference(&known).collect();
+    assert!(new.is_empty(), "arrows upward that were not there: {new:#?}");
+    let gone: Vec<_> = known.difference(&upward).collect();
+    assert!(gone.is_empty(), "exceptions that are none any more, to be taken from the list: {gone:#?}");
+}
