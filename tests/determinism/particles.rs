@@ -69,44 +69,72 @@ fn a_rerun_gives_the_same_bytes() {
     }
 }
 
+/// Choices of how a step is computed, and how many values each has.
+const CHOICES: [usize; 6] = [2, 3, 2, 3, 2, 3];
+
+/// The values of the choices with these numbers.
+fn way([traversal, segments, scan, workgroup, copies, pairs]: [usize; 6]) -> Options {
+    let traversals = traversals();
+    Options {
+        traversal: Some(traversals[traversal % traversals.len()]),
+        segments: Some([1, 2, 7][segments]),
+        many_level_scan: scan == 1,
+        workgroup_size: [None, Some(32), Some(128)][workgroup],
+        serial_memory: (workgroup == 1).then_some(false),
+        copies: [None, Some(u64::from(u32::MAX))][copies],
+        // Distances counted by a hundred dispatches, and by two.
+        pairs_in_dispatch: [None, Some(10_000), Some(500_000)][pairs],
+        ..Options::default()
+    }
+}
+
+/// Few ways for each scene, which between them have every value of a choice with every value of every other one.
+fn few_ways(scene: usize) -> impl Iterator<Item = [usize; 6]> {
+    (0..4).map(move |n| [n % 2, (n + scene) % 3, n / 2, scene % 3, (n + n / 2 + scene) % 2, (n + scene / 3) % 3])
+}
+
+#[test]
+fn few_ways_have_every_two_values_together() {
+    let ways: Vec<[usize; 6]> = (0..scenes().len()).flat_map(few_ways).collect();
+    for (first, a) in CHOICES.iter().enumerate() {
+        for (second, b) in CHOICES.iter().enumerate().filter(|(second, _)| *second != first) {
+            let together: HashSet<[usize; 2]> = ways.iter().map(|way| [way[first], way[second]]).collect();
+            assert_eq!(together.len(), a * b, "choices {first} and {second}: {together:?}");
+        }
+    }
+}
+
+/// All ways to visit pairs and to scan; copies and distances are counted as they are by default.
+fn all_ways() -> impl Iterator<Item = [usize; 6]> {
+    let values = [CHOICES[0], CHOICES[1], CHOICES[2], CHOICES[3]];
+    (0..values.iter().product::<usize>()).map(move |mut number| {
+        let [traversal, segments, scan, workgroup] = values.map(|values| {
+            let value = number % values;
+            number /= values;
+            value
+        });
+        [traversal, segments, scan, workgroup, 0, 0]
+    })
+}
+
+fn gives_the_bytes_of(plain: &Bytes, scene: &Scene, ways: impl Iterator<Item = [usize; 6]>) {
+    for options in ways.map(way) {
+        assert!(*plain == run(scene, options, 8), "{options:?}");
+    }
+}
+
 #[test]
 fn traversals_segments_scans_and_workgroup_sizes_give_the_same_bytes() {
+    for (number, scene) in scenes().into_iter().enumerate() {
+        gives_the_bytes_of(&run(&scene, Options::default(), 8), &scene, few_ways(number));
+    }
+}
+
+#[test]
+#[ignore = "minutes"]
+fn all_traversals_segments_scans_and_workgroup_sizes_together_give_the_same_bytes() {
     for scene in scenes() {
-        let plain = run(&scene, Options { traversal: Some(Traversal::Rows), ..Options::default() }, 8);
-        for traversal in traversals() {
-            for segments in [1, 2, 7] {
-                for many_level_scan in [false, true] {
-                    let options = Options {
-                        traversal: Some(traversal),
-                        segments: Some(segments),
-                        many_level_scan,
-                        ..Options::default()
-                    };
-                    assert!(plain == run(&scene, options, 8), "{options:?}");
-                }
-            }
-        }
-        for workgroup_size in [32, 128] {
-            for traversal in traversals() {
-                for many_level_scan in [false, true] {
-                    let options = Options {
-                        traversal: Some(traversal),
-                        workgroup_size: Some(workgroup_size),
-                        serial_memory: (workgroup_size == 32).then_some(false),
-                        many_level_scan,
-                        ..Options::default()
-                    };
-                    assert!(plain == run(&scene, options, 8), "{options:?}");
-                }
-            }
-        }
-        let roomy = Options { copies: Some(u64::from(u32::MAX)), ..Options::default() };
-        assert!(plain == run(&scene, roomy, 8), "room for copies");
-        // Distances counted by a hundred dispatches, and by two.
-        for pairs in [10_000, 500_000] {
-            let options = Options { pairs_in_dispatch: Some(pairs), ..Options::default() };
-            assert!(plain == run(&scene, options, 8), "{options:?}");
-        }
+        gives_the_bytes_of(&run(&scene, Options::default(), 8), &scene, all_ways());
     }
 }
 

@@ -54,11 +54,7 @@ fn scenes() -> Vec<(&'static str, Scene, Vec<Options>)> {
         (
             "split",
             fluid(&small),
-            vec![
-                serial(true),
-                serial(false),
-                Options { traversal: Some(Traversal::Rows), workgroup_size: Some(32), ..Options::default() },
-            ],
+            vec![serial(true), Options { traversal: Some(Traversal::Rows), workgroup_size: Some(32), ..serial(false) }],
         ),
         (
             "plane",
@@ -75,12 +71,7 @@ fn scenes() -> Vec<(&'static str, Scene, Vec<Options>)> {
         (
             "water",
             water(&jet),
-            vec![
-                stored(Storage::Sorted, false),
-                stored(Storage::Sorted, true),
-                stored(Storage::Bins, false),
-                stored(Storage::Bins, true),
-            ],
+            vec![stored(Storage::Sorted, false), stored(Storage::Sorted, true), stored(Storage::Bins, true)],
         ),
     ]
 }

@@ -205,8 +205,9 @@ fn two_particles_collide_elastically() {
 /// du = -2γ/m ω dr for the relative velocity u, and ∫ω dr from -rc to rc is 2 rc / (s + 1).
 #[test]
 fn friction_takes_the_integral_of_its_weight() {
-    for integrator in INTEGRATORS {
-        for exponent in [0.0, 1.0, 2.0, 10.0] {
+    // Every integrator with a jump at the cutoff or a straight weight, and with a smooth or a narrow one.
+    for (integrator, exponents) in INTEGRATORS.iter().zip([[0.0, 10.0], [1.0, 2.0]].into_iter().cycle()) {
+        for exponent in exponents {
             let friction = 0.5 * (exponent + 1.0);
             let scene = fluid(&[
                 integrator,
@@ -245,11 +246,9 @@ fn friction_from_none_to_too_much() {
     for integrator in INTEGRATORS {
         agrees(&[integrator, "interactions.0.friction=1e-12"], 3, 100);
     }
-    for integrator in INTEGRATORS {
-        for friction in ["1e4", "1e30"] {
-            let scene = fluid(&[integrator, &format!("interactions.0.friction={friction}")]);
-            unstable(&scene, 50);
-        }
+    for (integrator, friction) in INTEGRATORS.iter().zip(["1e4", "1e30"].into_iter().cycle()) {
+        let scene = fluid(&[integrator, &format!("interactions.0.friction={friction}")]);
+        unstable(&scene, 50);
     }
 }
 
@@ -283,11 +282,10 @@ fn unstable(scene: &Scene, batch: u64) {
 
 #[test]
 fn an_exploding_time_step_is_caught_within_a_batch() {
-    for integrator in INTEGRATORS {
-        for step in ["0.5", "1e6"] {
-            unstable(&fluid(&[integrator, &format!("time.step={step}")]), 50);
-        }
+    for (integrator, step) in INTEGRATORS.iter().zip(["0.5", "1e6"].into_iter().cycle()) {
+        unstable(&fluid(&[integrator, &format!("time.step={step}")]), 50);
     }
+    unstable(&fluid(&[SPLITTING, "time.step=1e6"]), 50);
     // A step that would be fine, for a particle that is too fast.
     let scene = fluid(&[GROOT_WARREN, &listed("[[1,1,1],[3,3,3]]", "[[200,0,0],[0,0,0]]")]);
     unstable(&scene, 4);
@@ -426,10 +424,10 @@ fn without_heat_energy_only_falls() {
 #[test]
 fn a_thousand_neighbours() {
     // 4π/3 · 239 and π · 318 neighbours within the cutoff.
-    for (box_, particles) in [("space.box=[2,2,2]", 1910), ("space.box=[3,3]", 2865)] {
-        for integrator in [SPLITTING, COTTER_REICH] {
-            agrees(&[integrator, box_, &count(particles), "time.step=0.0005"], 2, 300);
-        }
+    for (box_, particles, integrator) in
+        [("space.box=[2,2,2]", 1910, SPLITTING), ("space.box=[3,3]", 2865, COTTER_REICH)]
+    {
+        agrees(&[integrator, box_, &count(particles), "time.step=0.0005"], 2, 300);
     }
 }
 
@@ -437,7 +435,8 @@ fn a_thousand_neighbours() {
 fn a_dilute_gas_and_one_pair_across_a_corner() {
     let pair = r#"{"species":"A","placement":{"type":"listed","positions":[[99.8,0.1,99.9],[0.1,99.9,0.2]]}}"#;
     let gas = format!(r#"particles=[{{"species":"A","count":98}},{pair}]"#);
-    for integrator in INTEGRATORS {
+    // One that visits the pairs once a step, and one that visits them twice.
+    for integrator in [GROOT_WARREN, SPLITTING] {
         let changes = [integrator, "space.box=[100,100,100]", gas.as_str()];
         agrees(&changes, 5, 100);
         let (_, state) = start(&fluid(&changes));
@@ -524,24 +523,23 @@ fn a_box_of_a_million_cutoffs() {
         "[[1,0,0],[0,1,0],[0,0,1],[-1,0,0],[0,-1,-1]]",
     );
     let square = listed("[[0.1,10],[999999.7,10],[500000,0.2],[500000.3,999999.9]]", "[[1,0],[0,1],[0,1],[-1,-1]]");
-    for integrator in INTEGRATORS {
-        for (box_, particles) in [("space.box=[1e6,1e6,1e6]", &cube), ("space.box=[1e6,1e6]", &square)] {
-            let changes = [*integrator, box_, particles.as_str()];
-            agrees(&changes, 5, 100);
-            let scene = fluid(&changes);
-            let (_, state) = start(&scene);
-            assert_eq!(reference(&scene, &state).radial_distribution(1.0, 1), [2], "pairs within reach");
-        }
+    let boxes = [("space.box=[1e6,1e6,1e6]", &cube), ("space.box=[1e6,1e6]", &square)];
+    for (integrator, (box_, particles)) in INTEGRATORS.iter().zip(boxes.into_iter().cycle()) {
+        let changes = [*integrator, box_, particles.as_str()];
+        agrees(&changes, 5, 100);
+        let scene = fluid(&changes);
+        let (_, state) = start(&scene);
+        assert_eq!(reference(&scene, &state).radial_distribution(1.0, 1), [2], "pairs within reach");
     }
 }
 
 #[test]
 fn elongated_boxes() {
-    for box_ in ["[1000,2,2]", "[2,1000,2]", "[2,2,1000]", "[1000,3,3]", "[1000,2]", "[2,1000]"] {
-        let box_ = format!("space.box={box_}");
-        for integrator in [SPLITTING, PREDICTED] {
-            agrees(&[integrator, &box_, &count(6000)], 1, 100);
-        }
+    let boxes = ["[1000,2,2]", "[2,1000,2]", "[2,2,1000]", "[1000,3,3]", "[1000,2]", "[2,1000]"];
+    // One that visits the pairs twice a step, and one that predicts momenta: each in boxes along every axis and in both dimensions.
+    for (box_, integrator) in boxes.into_iter().zip([SPLITTING, PREDICTED, SPLITTING, PREDICTED, PREDICTED, SPLITTING])
+    {
+        agrees(&[integrator, &format!("space.box={box_}"), &count(3000)], 1, 100);
     }
 }
 
@@ -650,7 +648,7 @@ fn a_crowd_at_the_end_of_the_rows_is_right_or_refused() {
         let (momentum, position) = largest_difference(&found, expected.state());
         assert!(momentum <= 300 && position <= 300, "{traversal:?}: {momentum} {position}");
         assert_eq!(found.total_momentum(), state.total_momentum());
-        for missing in [1, 2, 10, 100, 2999] {
+        for missing in [1, 2999] {
             assert!(matches!(with_room(3000 - missing), Err(EngineError::Crowded { step: 0 })), "{missing} too few");
         }
     }
