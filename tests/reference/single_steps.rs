@@ -138,12 +138,10 @@ fn forces_left_out() {
     both(&[LEAPFROG, "interactions=[]"]);
 }
 
+/// Boxes of two and three cutoffs exactly, and very long ones, are in `extremes`.
 #[test]
 fn boxes_of_every_shape() {
-    for lengths in ["[2,2,2]", "[2.5,3.5,6]", "[12,2,3]", "[3,3,3]", "[2,11,4]", "[40,2.2,2.2]"] {
-        both(&[LEAPFROG, &format!("space.box={lengths}")]);
-    }
-    for lengths in ["[2,2]", "[3,17]", "[30,2.9]", "[2.9,30]", "[64,3]"] {
+    for lengths in ["[2.5,3.5,6]", "[2,11,4]", "[40,2.2,2.2]", "[3,17]", "[30,2.9]"] {
         both(&[LEAPFROG, &format!("space.box={lengths}")]);
     }
 }
