@@ -272,8 +272,8 @@ fn the_pressure_is_the_published_one() {
 #[test]
 fn cotter_reich_has_the_temperature_and_the_published_pressure() {
     let mut run =
-        Device::new(&fluid(&["space.box=[10,10,10]", "output.energies.every=5", COTTER_REICH, "time.step=0.02"]));
-    run.step(600);
+        Device::new(&fluid(&["space.box=[10,10,10]", "output.energies.every=5", COTTER_REICH, "time.step=0.01"]));
+    run.step(800);
     let [kinetic, configurational, pressure] = equilibrium(&run.series(5, 500));
     kinetic.assert("kinetic", 1.0, 0.01, 0.004);
     configurational.assert("configurational", 1.0, 0.01, 0.004);

@@ -282,11 +282,11 @@ fn without_smoothing_the_depths_are_the_deviations() {
 fn fourier_solves_are_those_of_double_precision() {
     let meshes =
         [[2, 2], [2, 8], [8, 2], [4, 4], [8, 4], [16, 16], [32, 128], [64, 64], [64, 256], [1024, 8], [8, 1024]];
-    for mesh in meshes {
+    // The same butterflies whatever a mode is multiplied by: every mesh with both powers and both symbols, half of the combinations.
+    for (index, mesh) in meshes.into_iter().enumerate() {
         for power in [1, 2] {
-            for solver in [FIVE_POINT, SPECTRAL] {
-                check(&water(mesh, 4.0, power, solver), rounding(mesh), 0.0);
-            }
+            let solver = if (index + power as usize).is_multiple_of(2) { FIVE_POINT } else { SPECTRAL };
+            check(&water(mesh, 4.0, power, solver), rounding(mesh), 0.0);
         }
     }
 }
