@@ -5,7 +5,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use mesoscope::gpu::AdapterDescription;
 
-/// A list of what a reader needs to judge the numbers, with a line about what is measured beside.
+/// A list of what a reader needs to judge the numbers, with a line about what is measured for comparison.
 pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let mut lines = vec![

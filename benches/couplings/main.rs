@@ -1,4 +1,4 @@
-//! What couplings and their baths cost: memory on pairs beside the same fluid without, the list beside the search in cells,
+//! What couplings and their baths cost: memory on pairs compared with the same fluid without, the list compared with the search in cells,
 //! its margins, and many small systems at once.
 //!
 //! `cargo bench --bench couplings` prints tables in Markdown. A variant and what it is compared with are measured in turns

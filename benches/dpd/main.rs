@@ -1,4 +1,4 @@
-//! What a particle-step of the DPD fluid costs: beside LAMMPS, by stage, in small runs, by integrator, and computed otherwise.
+//! What a particle-step of the DPD fluid costs: compared with LAMMPS, by stage, in small runs, by integrator, and computed otherwise.
 //!
 //! `cargo bench --bench dpd` prints tables in Markdown and takes some minutes; `cargo bench --bench dpd -- --quick` is a
 //! look that proves nothing. All that is compared is measured in turns within one run, and ratios are taken round by
@@ -83,7 +83,7 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The adapter, with room for the largest box.
+/// The adapter, with buffers for the largest box.
 fn open(settings: &Settings) -> Result<Gpu, Failure> {
     let mut largest_buffer = 0;
     for &edge in &settings.edges {

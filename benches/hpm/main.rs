@@ -1,4 +1,4 @@
-//! What a particle-step of shallow water costs: beside a plain compiled loop, by stage, and against the time that memory
+//! What a particle-step of shallow water costs: compared with a plain compiled loop, by stage, and against the time that memory
 //! alone would take.
 //!
 //! `cargo bench --bench hpm` prints tables in Markdown and takes some minutes; `-- --quick` is a look that proves nothing,
@@ -82,7 +82,7 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The adapter with room for the largest size, and the sizes.
+/// The adapter with buffers for the largest size, and the sizes.
 fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     let with_room = |sizes: &[Size]| {
         let (mut needed, mut wished) = (0, 0);

@@ -1,4 +1,4 @@
-//! What Voronoi DPD costs: the tessellation by itself, beside a Delaunay triangulation on one core, and whole steps.
+//! What Voronoi DPD costs: the tessellation by itself, compared with a Delaunay triangulation on one core, and whole steps.
 //!
 //! `cargo bench --bench voronoi` prints tables in Markdown. What is compared is measured in turns within one run, and ratios
 //! are taken round by round. The adapter is the best, or the one that `MESOSCOPE_ADAPTER` names.
@@ -67,7 +67,7 @@ fn main() -> Result<(), Failure> {
         compare(&gpu, size, &settings)?;
     }
     println!(
-        "\nMillion cell-steps/s from a jittered lattice, dt = .002, and the tessellation by itself beside them.\n"
+        "\nMillion cell-steps/s from a jittered lattice, dt = .002, and the tessellation by itself for comparison.\n"
     );
     println!("| cells | step | rate | tessellation / step |");
     println!("|--:|:--|--:|--:|");
@@ -161,7 +161,7 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A whole step, beside the tessellation of the same cells.
+/// A whole step, compared with the tessellation of the same cells.
 fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, settings: &Settings) -> Result<(), Failure> {
     let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
     let scene = cells(size, &[&[lattice], *changes].concat())?;

@@ -12,7 +12,7 @@ use super::{AdapterArgument, Failure, print};
 Examples:
   mesoscope adapters
   mesoscope adapters --check                   whether the best adapter computes as it should, in ten seconds
-  mesoscope adapters --check --adapter nvidia  the same of another; paste what it prints into a report of a fault
+  mesoscope adapters --check --adapter nvidia  the same for another adapter; paste the output into a bug report
   mesoscope run dpd-fluid --adapter 1          by number
   mesoscope run dpd-fluid --adapter nvidia     by part of the name")]
 pub struct Arguments {
@@ -79,7 +79,7 @@ fn check(choice: &AdapterChoice) -> Result<(), Failure> {
     conclusion(name, failed)
 }
 
-/// An adapter that fails a check is none to use.
+/// An adapter that fails a check should not be used.
 fn conclusion(name: &str, failed: usize) -> Result<(), Failure> {
     match failed {
         0 => Ok(()),

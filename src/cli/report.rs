@@ -58,9 +58,9 @@ struct Reporter {
     flows: bool,
     bar: Option<ProgressBar>,
     terminal: bool,
-    /// Tenths of the run already told on lines of their own, and when the last was.
-    told: u64,
-    told_at: Instant,
+    /// Tenths of the run already reported on lines of their own, and when the last was.
+    reported: u64,
+    reported_at: Instant,
     first_step: u64,
 }
 
@@ -71,8 +71,8 @@ impl Reporter {
             scene,
             bar: None,
             terminal: std::io::stderr().is_terminal(),
-            told: 0,
-            told_at: Instant::now(),
+            reported: 0,
+            reported_at: Instant::now(),
             first_step: 0,
         }
     }
@@ -105,7 +105,7 @@ impl Reporter {
             }
             Event::Advanced(progress) => self.advanced(&progress),
             Event::Repeating { from, reason } => {
-                let text = format!("note: {reason}; going on from step {} with more memory", grouped(from));
+                let text = format!("note: {reason}; continuing from step {} with more memory", grouped(from));
                 match &self.bar {
                     Some(bar) => bar.suspend(|| line(&text)),
                     None => line(&text),
@@ -128,9 +128,9 @@ impl Reporter {
         }
         let steps = (progress.last_step - self.first_step).max(1);
         let tenth = 10 * (progress.step - self.first_step) / steps;
-        if tenth > self.told && progress.step < progress.last_step && self.told_at.elapsed() > BETWEEN_LINES {
-            self.told = tenth;
-            self.told_at = Instant::now();
+        if tenth > self.reported && progress.step < progress.last_step && self.reported_at.elapsed() > BETWEEN_LINES {
+            self.reported = tenth;
+            self.reported_at = Instant::now();
             let percent = 100 * progress.step / progress.last_step.max(1);
             let (step, last) = (grouped(progress.step), grouped(progress.last_step));
             line(&format!("step {step} of {last} ({percent} %)  {}", describe(progress, self.flows)));

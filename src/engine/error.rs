@@ -14,15 +14,15 @@ pub enum EngineError {
     #[error("the run became unstable at step {}", .0.step)]
     Unstable(Failure),
     /// More particles at the ends of rows than there is room to copy, or in a bin than it holds.
-    #[error("at step {step} the particles crowd so much that they do not fit the memory planned for them")]
+    #[error("capacity exceeded at step {step}: more particles crowd in one place than the plan has memory for")]
     Crowded {
         /// The first step at which it was seen.
         step: u64,
     },
     /// The adapter left a loop before its end, as software adapters do after some 65 000 turns.
     #[error(
-        "at step {step} so many particles crowd in one place, or make one chain, that the adapter {adapter} gave up looking \
-         through them; another adapter, particles further apart, or shorter chains, will do"
+        "the adapter {adapter} gave up at step {step}: too many particles crowd in one place or form one chain; use another \
+         adapter, particles further apart, or shorter chains"
     )]
     GaveUp {
         /// The first step at which it was seen.

@@ -212,7 +212,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Replaces the state: positions, momenta and step. Samples of the old state that have not been taken are lost, and
-    /// so are its failures: the engine begins anew.
+    /// so are its failures: the engine starts again.
     ///
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan.

@@ -143,7 +143,7 @@ impl Engine<'_> {
     fn time_by_host(&mut self, kernels: &[usize]) -> Result<Vec<f64>, EngineError> {
         let mut times = Vec::with_capacity(kernels.len());
         for &kernel in kernels {
-            // An empty submission beside every kernel: what one costs drifts with the load of the host.
+            // An empty submission after every kernel: what one costs drifts with the load of the host.
             let empty = self.time_alone(None)?;
             times.push((self.time_alone(Some(kernel))? - empty).max(0.0));
         }

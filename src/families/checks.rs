@@ -1,4 +1,4 @@
-//! What can be told only of a scene without any other mistake: whether its time step can be stable, and its start.
+//! What can be checked only in a scene without any other mistake: whether its time step can be stable, and its start.
 
 use super::{Model, initial_state};
 use crate::scene::{Problems, Scene, SceneError};

@@ -30,11 +30,9 @@ impl Instability {
             (FailureKind::Depth, &|| format!("the depth at {}, is negative", node(plan, place))),
             (FailureKind::Bond, &|| format!("bond {place} is stretched beyond the extent of its potential")),
             (FailureKind::Mass, &|| {
-                format!(
-                    "cell {place} has given away all of its mass, or has gathered 64 times that of the heaviest species"
-                )
+                format!("the mass of cell {place} fell to zero or exceeded 64 times that of the heaviest species")
             }),
-            (FailureKind::Energy, &|| format!("the internal energy of cell {place} is less than none")),
+            (FailureKind::Energy, &|| format!("the internal energy of cell {place} became negative")),
             (FailureKind::Impulse, &|| "the impulses on a particle are too large or not a number".to_owned()),
             (FailureKind::Displacement, &|| {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()

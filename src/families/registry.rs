@@ -52,7 +52,7 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
             Interaction::ShallowWater(_) if Some(index) != first_water => {}
             Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
                 let accepted = "`shallow-water` as the only interaction of a scene";
-                problems.push(Problem::new(&path, "found another interaction beside it", accepted));
+                problems.push(Problem::new(&path, "found together with another interaction", accepted));
             }
             Interaction::ShallowWater(water) => {
                 shallow_water::scene::checks::check(scene, water, &path, problems);

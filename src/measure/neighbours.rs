@@ -3,7 +3,7 @@
 use super::statistics::{Estimate, estimate};
 use crate::tessellation::Tessellation;
 
-/// Numbers of neighbours that are told apart; the last one is that or more.
+/// Numbers of neighbours that are counted separately; the last one is that or more.
 pub const MOST_NEIGHBOURS: usize = 32;
 
 /// Fractions of the cells of random points that have 0, 1, 2 … neighbours, to a few units of the last digit: from 4 million

@@ -4,7 +4,7 @@ use super::chart::{Axis, AxisFit, Panel, Scale, Series, SeriesStyle};
 use super::ticks::AxisMap;
 use crate::numbers::short;
 
-/// Values beyond this cannot be told from infinity once margins are added.
+/// Values beyond this cannot be distinguished from infinity once margins are added.
 const LARGEST: f64 = 1e300;
 const SMALLEST: f64 = 1e-300;
 /// Part of a panel at its start whose values do not set the range of a settled axis.

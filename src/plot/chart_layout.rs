@@ -282,7 +282,7 @@ fn shortened(name: &str, room: f64, width: &dyn Fn(&str) -> f64) -> String {
     String::new()
 }
 
-/// Whether a line of the panel goes up and down so much that dashes could not be told from noise.
+/// Whether a line of the panel goes up and down so much that dashes could not be distinguished from noise.
 fn is_rough(panel: &super::chart::Panel, place: &Placed) -> bool {
     panel.series.iter().filter(|series| series.style != SeriesStyle::Markers).any(|series| {
         let pieces = runs(&series.points, |point| place.pixel(point));

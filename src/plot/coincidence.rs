@@ -20,7 +20,7 @@ pub(super) fn covered_by(
     let over = |under: usize, above: usize| {
         let (one, other) = (&panel.series[under], &panel.series[above]);
         let painted_later = if marked(one) { above < under } else { above > under };
-        // What has the same colour could not be told apart by its width.
+        // What has the same colour could not be distinguished by its width.
         painted_later
             && marked(one) == marked(other)
             && colour(under) != colour(above)

@@ -4,7 +4,7 @@ use super::palette::{Colour, linear, scale_colour};
 use super::ticks::AxisMap;
 use crate::plot::Scale;
 
-/// Values beyond this cannot be told from infinity once differences are taken.
+/// Values beyond this cannot be distinguished from infinity once differences are taken.
 const LARGEST: f64 = 1e300;
 const SMALLEST: f64 = 1e-300;
 /// Colours of a map: neighbours differ by less than can be seen.

@@ -1,4 +1,4 @@
-//! How the series of a panel are told from each other: colours, dashes, markers.
+//! How the series of a panel are distinguished: colours, dashes, markers.
 
 #[cfg(test)]
 use super::chart::SeriesStyle;
@@ -6,7 +6,7 @@ use super::chart::{Panel, Series, SeriesInk};
 use super::palette::{Colour, Inks, line_colour};
 use crate::scene::Theme;
 
-/// How a series is told from the others.
+/// How a series is distinguished from the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Look {
     pub colour: Colour,

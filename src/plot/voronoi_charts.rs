@@ -33,7 +33,7 @@ pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, av
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
 }
 
-/// The histogram of the numbers of neighbours of cells, beside that of random points, with the mean of 6 that every
+/// The histogram of the numbers of neighbours of cells, compared with that of random points, with the mean of 6 that every
 /// tessellation has.
 ///
 /// The columns are `neighbours`, `fraction`, `fraction_error` and `random_points`.

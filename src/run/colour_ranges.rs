@@ -18,7 +18,7 @@ const SECTION: &str = "colour_range.";
 impl ColourRanges {
     /// Those that a checkpoint kept.
     pub(super) fn restored(sections: &[(String, Vec<u8>)]) -> Self {
-        // One that makes no sense begins anew with the next picture.
+        // One that makes no sense is replaced with the next picture.
         let range = |(name, section): &(String, Vec<u8>)| {
             let (words, _) = section.as_chunks();
             match words.iter().map(|word| f64::from_le_bytes(*word)).collect::<Vec<f64>>()[..] {

@@ -91,7 +91,7 @@ impl EnergyRecorder {
         Ok(Self { file, columns, rows, configuration, time_step, equilibration, is_about_equilibrium })
     }
 
-    /// What a checkpoint has to keep beside the table itself.
+    /// What a checkpoint has to keep besides the table itself.
     pub(super) fn section(&self) -> Vec<u8> {
         bytes(self.configuration.iter().flatten().copied())
     }

@@ -79,7 +79,7 @@ impl<'a> Run<'a> {
             // At step 0 there is nothing yet.
             _ if step == 0 => Ok(None),
             Some((_, extent)) => Ok(Some(*extent)),
-            None => Err(sections.malformed(format!("it does not know `{name}`"))),
+            None => Err(sections.malformed(format!("it does not list `{name}`"))),
         };
         let table = directory.file(files::ENERGIES);
         let energies = EnergyRecorder::open(&table, scene, model, written(files::ENERGIES)?, &sections)?;

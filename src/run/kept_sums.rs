@@ -96,7 +96,7 @@ impl KeptSums {
     pub(super) fn warning(&self) -> Option<String> {
         let (sum, change) = self.changed().min_by_key(|(_, change)| change.step)?;
         Some(format!(
-            "the {}{} was to be kept to the last bit, and at step {} had changed by {}: a defect of this driver's compiler or \
+            "the {}{} should be constant to the last bit, but at step {} it had changed by {}: a defect of this driver's compiler or \
              of mesoscope; please report it with the name of the adapter",
             sum.quantity.name(),
             sum.direction,
@@ -176,14 +176,14 @@ mod tests {
             sums.compare(&sample);
             let warning = sums.warning().unwrap();
             assert!(warning.starts_with(&format!("the {name}")) && warning.contains("(1 unit)"), "{warning}");
-            assert!(warning.contains("at step 40 had changed"), "{warning}");
+            assert!(warning.contains("at step 40 it had changed"), "{warning}");
             let lost = sums.lost();
             let kept: Vec<KeptQuantity> = lost.iter().map(|(quantity, _)| *quantity).collect();
             let found = conserved(&model, &kept);
             assert!(!found.contains(&claim) && found.len() == others, "{found:?}");
             let entry = not_conserved(&model, &lost);
-            let told = format!("{name}: on this driver changed by -");
-            assert!(entry.iter().any(|entry| entry.starts_with(&told) && entry.contains("(3 units)")), "{entry:?}");
+            let text = format!("{name}: on this driver changed by -");
+            assert!(entry.iter().any(|entry| entry.starts_with(&text) && entry.contains("(3 units)")), "{entry:?}");
 
             // An interruption changes nothing of that.
             let section = [(SECTION.to_owned(), sums.section())];

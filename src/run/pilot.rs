@@ -37,7 +37,7 @@ pub struct ExpectedTime {
 
 /// Times some steps on an adapter: of the scene if it is small, else of a small fluid.
 ///
-/// It takes a quarter of a second, or three steps where these are longer, beside what it takes to make the kernels.
+/// It takes a quarter of a second, or three steps where these are longer, in addition to what it takes to make the kernels.
 ///
 /// ```
 /// use mesoscope::gpu::AdapterChoice;

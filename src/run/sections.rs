@@ -8,7 +8,7 @@ pub(super) fn bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
     values.flat_map(f64::to_le_bytes).collect()
 }
 
-/// The sections of the checkpoint that a run goes on from. A run that begins at step 0 has measured nothing before, and
+/// The sections of the checkpoint that a run continues from. A run that begins at step 0 has measured nothing before, and
 /// needs none.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sections<'a> {

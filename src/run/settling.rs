@@ -86,11 +86,11 @@ mod tests {
         assert_eq!(mean.quantity, "temperature");
         assert!((mean.mean_from_there - 1.0).abs() < 0.05 && found.steps.is_none(), "{found:?}");
         assert!((300..1000).contains(&found.equilibration), "{found:?}");
-        let told = format!(
+        let text = format!(
             "the mean of `temperature` includes the way to equilibrium: leave it out with `--set time.equilibration={}`",
             found.equilibration
         );
-        assert_eq!(found.to_string(), told);
+        assert_eq!(found.to_string(), text);
         // Which indeed leaves it out.
         assert_eq!(unequilibrated(&table, found.equilibration), None);
     }
@@ -99,8 +99,8 @@ mod tests {
     fn a_run_that_never_settles_is_to_be_longer() {
         let found = unequilibrated(&table(100, 60.0), 0).unwrap();
         assert_eq!((found.equilibration, found.steps, found.means[0].settled_from), (990, Some(1980), None));
-        let told = found.to_string();
-        assert!(told.ends_with("run longer, as with `--set time.equilibration=990 --steps 1980`"), "{told}");
+        let text = found.to_string();
+        assert!(text.ends_with("run longer, as with `--set time.equilibration=990 --steps 1980`"), "{text}");
     }
 
     #[test]

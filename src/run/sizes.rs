@@ -102,7 +102,7 @@ impl Sizes {
     }
 }
 
-/// Bytes of a checkpoint: the state of every particle, what a layout keeps beside, open windows, and the scene.
+/// Bytes of a checkpoint: the state of every particle, what else a layout keeps, open windows, and the scene.
 fn checkpoint(model: &Model, plan: &Plan) -> u64 {
     const SCENE: u64 = 4096;
     // Position, momentum and species.
@@ -119,7 +119,7 @@ fn checkpoint(model: &Model, plan: &Plan) -> u64 {
             let words = [(predicted, 12), (position_baths, 12), (holds, 24), (tethers, 12)];
             particle += words.iter().filter(|(has, _)| *has).map(|(_, bytes)| bytes).sum::<u64>();
             if let Some(listed) = listed.filter(|listed| listed.memory) {
-                // Where it was when it was listed, and its pairs: the list has room for half again as many and twelve.
+                // Where it was when it was listed, and its pairs: the capacity of the list is half as many again and twelve.
                 particle += 12 + 20 * ((listed.capacity as u64).saturating_sub(12) * 2 / 3);
             }
             beside += 4 * model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);

@@ -46,7 +46,7 @@ fn cut(phrase: String) -> String {
     }
 }
 
-/// Names of a list that are told.
+/// Names of a list that are shown.
 const NAMES: usize = 24;
 
 /// Names as a list that may be read; what is beyond some is counted.

@@ -89,7 +89,7 @@ fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(LONGEST_TEXT + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LONGEST_TEXT {
-        let message = format!("it is longer than {} MiB, which no scene is", LONGEST_TEXT >> 20);
+        let message = format!("it exceeds the limit of {} MiB", LONGEST_TEXT >> 20);
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
     }
     Ok(bytes)

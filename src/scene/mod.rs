@@ -25,10 +25,7 @@ mod shorten;
 mod text;
 
 pub use crate::noise::Generator;
-pub use analyses::{
-    AnalysisId, AnalysisTable, Autocorrelation, Axis, ChainSizes, CorrelatedQuantity, CountedQuantity, DecayFit,
-    Diffusion, Frame, Histogram, RadialDistribution, Viscosity,
-};
+pub use analyses::*;
 pub use bath::{Bath, BathScheme};
 pub use builtin::{Builtin, builtin};
 pub use document::{Distribution, Noise, Scene, Space, Time};

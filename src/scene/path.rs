@@ -36,7 +36,7 @@ impl fmt::Display for Path<'_> {
     }
 }
 
-/// Characters of a key that are told; no key of a scene is as long.
+/// Characters of a key that are shown; no key of a scene is as long.
 const LONGEST_KEY: usize = 60;
 
 fn shortened(key: &str) -> Cow<'_, str> {

@@ -142,7 +142,7 @@ impl<'a> Walker<'a> {
         })
     }
 
-    /// One of several kinds of object, told apart by the text of `type`.
+    /// One of several kinds of object, distinguished by the text of `type`.
     fn check_tagged(
         &mut self,
         schema: &'a Value,

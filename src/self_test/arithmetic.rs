@@ -22,8 +22,8 @@ pub(super) fn contraction(gpu: &Gpu) -> Result<(Finding, bool), GpuError> {
         _ => "products are contracted into sums",
     };
     let mirror = match unlike {
-        0 => "mirrored expressions are alike",
-        _ => "mirrored expressions are not alike",
+        0 => "mirrored expressions agree",
+        _ => "mirrored expressions differ",
     };
     let found = format!("{contraction}; {mirror} ({unlike} of {POINTS} differ)");
     Ok((Finding::noted("contraction", found), contracted > 0))

@@ -13,7 +13,7 @@ struct Case {
     name: &'static str,
     scene: &'static str,
     changes: &'static [&'static str],
-    /// Whether the plan for any adapter is run beside that of the adapter, where they are two.
+    /// Whether the plan for any adapter is run in addition to that of the adapter, where they differ.
     twice: bool,
 }
 
@@ -142,7 +142,7 @@ impl Case {
 /// The state after one step of the reference.
 fn reference_step(model: &Model, start: &State) -> Result<State, String> {
     let words = |error: crate::families::reference::Unstable| format!("the reference: {error}");
-    let missing = || "the reference does not know this scene".to_owned();
+    let missing = || "the reference does not support this scene".to_owned();
     let mut reference = model.physics().reference(model, start).ok_or_else(missing)?;
     reference.step().map_err(words)?;
     Ok(reference.state().clone())

@@ -81,7 +81,7 @@ fn circulations_of_nothing() {
 fn a_large_mesh_is_planned_for_the_adapter_that_is_there() {
     let place = place().with("/interactions/0/mesh", json!([2048, 2048]));
     let said = succeeds(&["check", &place.scene()]);
-    assert!(said.contains("2048 × 2048 nodes") && !said.contains("none that could run it"), "{said}");
+    assert!(said.contains("2048 × 2048 nodes") && !said.contains("none that can run it"), "{said}");
 }
 
 #[test]
@@ -271,7 +271,9 @@ fn a_crowd_makes_the_run_go_on_with_more_memory() {
         let said = text(&output.stderr);
         assert!(output.status.success(), "{said}");
         assert!(
-            said.contains("note: the particles crowd in one cell of the mesh; going on from step 0 with more memory"),
+            said.contains(
+                "note: too many particles are in one cell of the mesh; continuing from step 0 with more memory"
+            ),
             "{said}"
         );
         let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();

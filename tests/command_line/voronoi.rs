@@ -247,7 +247,7 @@ fn check_says_what_the_scene_requires() {
         "search grid",
         "gradient: constant masses",
         "ideal gas, 125 molecules a cell",
-        "kept account of in every cell, heat conductivity 1000",
+        "tracked in every cell, heat conductivity 1000",
         "5 of friction at faces, about 6.175 of the network of cells",
         "conjugate gradients, at most",
         "neighbours.csv, neighbours.png",

@@ -232,7 +232,7 @@ fn a_changed_momentum_is_told() {
     state.momenta[7][1] += 2;
     checkpoint::save(&path, run_id, &scene, &state, &written, &sections).unwrap();
     let summary = resume(directory.path()).unwrap().summary;
-    let told = "the total momentum along y was to be kept to the last bit, and at step 20 had changed by";
+    let told = "the total momentum along y should be constant to the last bit, but at step 20 it had changed by";
     let warned = summary.warnings.iter().filter(|warning| warning.starts_with(told) && warning.contains("(2 units)"));
     assert_eq!(warned.count(), 1, "{:?}", summary.warnings);
     assert_eq!(summary.conserved_exactly, ["mass"]);

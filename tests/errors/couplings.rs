@@ -82,12 +82,12 @@ fn names_and_numbers() {
     CHAINS.refused_with(
         &[r#"interactions.1.species=["water"]"#],
         &[
-            "interactions[1]: found no chains of these species; accepted: `pairs` of particle numbers, or particles with a `chain`",
+            "interactions[1]: found no chains of these species; accepted: `pairs` of particle ids, or particles with a `chain`",
         ],
     );
     CHAINS.refused_with(
         &["interactions.1.pairs=[[2,400]]"],
-        &["interactions[1].pairs[0][1]: found 400; accepted: the number of a particle, 0 to 399"],
+        &["interactions[1].pairs[0][1]: found 400; accepted: a particle id from 0 to 399"],
     );
     CHAINS.refused_with(
         &["interactions.1.pairs=[[0,1],[3,3]]"],
@@ -103,7 +103,7 @@ fn names_and_numbers() {
     );
     CHAINS.refused_with(
         &["interactions.1.pairs=[[0,1]]", r#"interactions.1.species=["polymer"]"#],
-        &["interactions[1].species: found beside `pairs`"],
+        &["interactions[1].species: found together with `pairs`"],
     );
     let many: Vec<[u32; 2]> = (0..9).map(|index| [index, 1000]).collect();
     let found = CHAINS.problems(&[&format!("interactions.1.pairs={}", json!(many))]);
@@ -128,9 +128,9 @@ fn interactions_without_anything_to_act_on() {
     assert_eq!(
         found,
         [
-            "interactions[1]: found neither chains nor a list; accepted: `pairs` of particle numbers, or particles with a \
+            "interactions[1]: found neither chains nor a list; accepted: `pairs` of particle ids, or particles with a \
              `chain` of at least 2 `beads`",
-            "interactions[2]: found neither chains nor a list; accepted: `triples` of particle numbers, or particles with a \
+            "interactions[2]: found neither chains nor a list; accepted: `triples` of particle ids, or particles with a \
              `chain` of at least 3 `beads`",
         ]
     );
@@ -169,7 +169,7 @@ fn baths() {
     CHAINS.parse(&[memory]).unwrap();
     CHAINS.refused_with(
         &[memory, "interactions.0.bath.coupling=45"],
-        &["interactions[0].friction: found 4.5; accepted: no friction beside interactions[0].bath.coupling"],
+        &["interactions[0].friction: found 4.5; accepted: either friction or interactions[0].bath.coupling"],
     );
     CHAINS.refused_with(
         &[memory, "interactions.0.bath.rate=0"],
@@ -199,7 +199,7 @@ fn baths() {
             "interactions.0.friction=0",
             r#"interactions.0.pairs=[{"between":["water","water"],"friction":3}]"#,
         ],
-        &["interactions[0].pairs[0].friction: found 3; accepted: no friction beside interactions[0].bath.coupling"],
+        &["interactions[0].pairs[0].friction: found 3; accepted: either friction or interactions[0].bath.coupling"],
     );
 }
 
@@ -208,14 +208,15 @@ fn integrators() {
     CHAINS.refused_with(
         &[r#"integrator={"type":"splitting"}"#],
         &[
-            "integrator.type: found `splitting`, which relaxes pairs only, beside bonds in interactions[1]; accepted: `cotter-reich`",
+            "integrator.type: found `splitting`, which relaxes pairs only, together with bonds in interactions[1]; accepted: `cotter-reich`",
         ],
     );
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
-    CHAINS.refused_with(&[fluid, LINE, r#"integrator={"type":"splitting"}"#], &["beside a box of one dimension"]);
+    CHAINS
+        .refused_with(&[fluid, LINE, r#"integrator={"type":"splitting"}"#], &["together with a box of one dimension"]);
     CHAINS.refused_with(
         &[fluid, "particles.1.fixed=true", r#"integrator={"type":"splitting"}"#],
-        &["beside particles[1], which are fixed"],
+        &["together with particles[1], which are fixed"],
     );
     for water in ["gyro", "rotate"] {
         CHAINS.refused_with(

@@ -313,7 +313,7 @@ fn another_interaction_beside_it() {
     let error = scene::parse("test.json", &document.to_string(), &[]).unwrap_err().to_string();
     assert!(
         error.contains(
-            "interactions[0]: found another interaction beside it; accepted: `shallow-water` as the only interaction"
+            "interactions[0]: found together with another interaction; accepted: `shallow-water` as the only interaction"
         ),
         "{error}"
     );

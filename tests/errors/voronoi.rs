@@ -59,7 +59,7 @@ fn colours_follow_the_species_where_there_are_several_and_the_scene_where_it_say
 fn cells_are_alone_and_in_a_plane() {
     CELLS.refused(
         &[r#"interactions=[{"type":"voronoi"},{"type":"langevin","friction":1}]"#, "integrator.type=euler"],
-        "interactions[0]: found another interaction beside it; accepted: `voronoi` as the only interaction of a scene",
+        "interactions[0]: found together with another interaction; accepted: `voronoi` as the only interaction of a scene",
     );
     CELLS.refused(
         &["space.box=[6,6,6]"],
@@ -135,7 +135,7 @@ fn masses_of_uniform_pressure_need_temperatures() {
         "interactions[0].initial_masses: found `uniform-pressure` without `energy`; accepted: `uniform-density` in a scene \
          without `energy`: at one temperature it is the same",
     );
-    let zero = "interactions[0].initial_masses: found `uniform-pressure` beside a temperature of 0, at which there is no \
+    let zero = "interactions[0].initial_masses: found `uniform-pressure` with a temperature of 0, at which there is no \
                 pressure; accepted: temperatures above 0 everywhere, or masses `equal` or of `uniform-density`";
     CELLS.refused(&[uniform, "interactions.0.energy={}", "temperature=0"], zero);
     let cold = r#"interactions.0.energy={"initial_temperatures":[{"center":[1,1],"radius":1,"temperature":0}]}"#;

@@ -12,7 +12,7 @@ use crate::cli::table::aligned;
 
 /// All kernels, stage by stage, and the buffers.
 pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
-    let tidying = format!("Every {TIDYING} steps: put them in order in memory too");
+    let tidying = format!("Every {TIDYING} steps: sort them in memory too");
     let stages = [
         ("Once, before the first step", &plan.prepare),
         ("Every step: order the particles by cell", &plan.sort),

@@ -58,8 +58,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let time = trial.as_ref().map(|trial| expected_time(&scene, trial));
     let adapter = match &opened {
         Ok(gpu) => gpu.description().name.clone(),
-        Err(RunError::Gpu(GpuError::NoAdapter)) => "none here; the plan is the one for any adapter".to_owned(),
-        Err(_) => "none that could run it; the plan is the one for any adapter".to_owned(),
+        Err(RunError::Gpu(GpuError::NoAdapter)) => "none found; this is the plan for any adapter".to_owned(),
+        Err(_) => "none that can run it; this is the plan for any adapter".to_owned(),
     };
     let sizes = Sizes::of(&scene, &model, &plan);
     let mut text = overview(&scene, &model, &plan, &adapter, time, &sizes);
@@ -86,7 +86,7 @@ fn expected_time(scene: &Scene, trial: &Result<ExpectedTime, RunError>) -> Strin
         Err(error) => return format!("unknown: a trial of the first steps ended with: {error}"),
     };
     let basis = if expected.of_scene {
-        format!("{} steps of it were timed", grouped(expected.steps))
+        format!("{} of its steps were timed", grouped(expected.steps))
     } else {
         "from its arithmetic and the speed of a small fluid".to_owned()
     };

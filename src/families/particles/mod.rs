@@ -188,11 +188,7 @@ impl Physics for Particles {
     }
 
     fn crowd(&self) -> &'static str {
-        if self.are_coupled {
-            "a particle has more neighbours than the list has places for"
-        } else {
-            "the particles crowd at the ends of the box"
-        }
+        if self.are_coupled { "the neighbour list overflowed" } else { "too many particles are at the ends of the box" }
     }
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {

@@ -65,12 +65,12 @@ pub(super) fn check_extents(scene: &Scene, model: &Model, state: &State, problem
     let places: Vec<usize> = (0..scene.interactions.len())
         .filter(|index| matches!(scene.interactions[*index], Interaction::Bonds(_)))
         .collect();
-    let mut told = HashSet::new();
+    let mut reported = HashSet::new();
     for bond in bonds.iter() {
         let Some((extent, length)) = finite(bond.kind) else { continue };
         let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
-        if (distance - length).abs() >= extent && told.insert(bond.kind) {
+        if (distance - length).abs() >= extent && reported.insert(bond.kind) {
             let path = format!("interactions[{}].potential.extent", places[bond.kind as usize]);
             let found = format!(
                 "found {extent}, and a distance of {distance:.6} between particles {} and {} at the start",

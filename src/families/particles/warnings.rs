@@ -105,7 +105,7 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     } else {
         "choose masses that are nearer to each other"
     };
-    let told = |name: &str, value: f64| {
+    let lost = |name: &str, value: f64| {
         format!(
             "{name} is {} units of the integer momenta, which follow the largest of the scene, and is lost in rounding below \
              some {FEWEST_UNITS}: results will be wrong; {advice}",
@@ -114,12 +114,12 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     };
     let warmth = thermal(lightest);
     if warmth > 0.0 && warmth < FEWEST_UNITS {
-        warn(warnings, "particles", told(&format!("the thermal momentum of `{}`", lightest.name), warmth));
+        warn(warnings, "particles", lost(&format!("the thermal momentum of `{}`", lightest.name), warmth));
     }
     let Some(force) = model.pair_force() else { return };
     let impulse = units(force.largest_repulsion() * model.time_step);
     if impulse > 0.0 && impulse < FEWEST_UNITS {
-        warn(warnings, "interactions", told("the impulse of the repulsion in a step", impulse));
+        warn(warnings, "interactions", lost("the impulse of the repulsion in a step", impulse));
     }
 }
 

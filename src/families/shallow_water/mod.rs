@@ -145,7 +145,7 @@ impl Physics for ShallowWater {
     }
 
     fn crowd(&self) -> &'static str {
-        "the particles crowd in one cell of the mesh"
+        "too many particles are in one cell of the mesh"
     }
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {

@@ -67,7 +67,7 @@ fn warn_of_mesh_noise(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Wa
         format!("the depth is smoothed over {cells:.2} cells")
     };
     let message = format!(
-        "{what}: the noise of particles on the mesh grows into the flow, which drowns in it within {} turnover times; a length of {:.3}, {SMOOTH_CELLS} cells, keeps it below a hundredth of the variance of the depth, and twice that is better",
+        "{what}: the noise of particles on the mesh grows into the flow, which is lost in it within {} turnover times; a length of {:.3}, {SMOOTH_CELLS} cells, keeps it below a hundredth of the variance of the depth, and twice that is better",
         if cells < 0.75 { "one or two" } else { "some ten" },
         SMOOTH_CELLS * cell
     );
@@ -85,7 +85,7 @@ fn warn_of_sparse_loops(scene: &Scene, water: &ShallowWater, model: &Model, warn
         let gap = 2.0 * radius * (PI / points as f64).sin();
         if group.tracer && points > 0 && (points < 3 || gap >= spacing) {
             let message = format!(
-                "the {points} points of the loop `{}` are {} apart, nodes {}: its circulation cannot be told; give at least {:.0}",
+                "the {points} points of the loop `{}` are {} apart, nodes {}: its circulation cannot be resolved; give at least {:.0}",
                 group.species,
                 brief(gap),
                 brief(spacing),

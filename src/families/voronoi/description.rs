@@ -14,7 +14,7 @@ pub(super) fn fluid(cells: &Voronoi, model: &Model) -> Vec<(&'static str, String
     let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
     let molecules = mass / model.particle_count().max(1) as f64 / cells.molecular_mass;
     let energy = match cells.conductivity {
-        Some(conductivity) => format!("kept account of in every cell, heat conductivity {}", six_digits(conductivity)),
+        Some(conductivity) => format!("tracked in every cell, heat conductivity {}", six_digits(conductivity)),
         None => "all cells at the temperature of the scene".to_owned(),
     };
     let mut rows = vec![
@@ -25,7 +25,7 @@ pub(super) fn fluid(cells: &Voronoi, model: &Model) -> Vec<(&'static str, String
     if cells.viscosity > 0.0 {
         let network = NETWORK_VISCOSITY * cells.viscosity;
         let text = format!(
-            "{} of friction at faces, about {} of the network of cells; what cells carry by moving comes on top",
+            "{} of friction at faces, about {} of the network of cells, plus the transport by moving cells",
             six_digits(cells.viscosity),
             six_digits(network)
         );

@@ -131,7 +131,7 @@ impl Physics for Voronoi {
     }
 
     fn crowd(&self) -> &'static str {
-        "a cell has more corners than the buffer has places for"
+        "a cell has more corners than its capacity"
     }
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {

@@ -88,7 +88,7 @@ impl ThermalSeries {
         products
     }
 
-    /// All numbers of the series, to go on from with [`ThermalSeries::restored`].
+    /// All numbers of the series, to continue from with [`ThermalSeries::restored`].
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         [&self.momenta, &self.separations, self.history.as_flattened()].concat()

@@ -81,7 +81,7 @@ impl Correlation {
             }
             Err(error) => {
                 let warning =
-                    format!("nothing was fitted to the {} autocorrelation: {error}", self.asked.quantity.name());
+                    format!("no curve was fitted to the {} autocorrelation: {error}", self.asked.quantity.name());
                 (None, Value::Null, vec![warning])
             }
         }

@@ -124,7 +124,7 @@ impl Decay {
         WaveDecay::of(&amplitudes, self.times()[0])
     }
 
-    /// Viscosities from the rate νk² of the decay, beside that of the network of cells alone.
+    /// Viscosities from the rate νk² of the decay, and that of the network of cells alone for comparison.
     fn result(&self, decay: &WaveDecay) -> Value {
         let (wave_number, density) = (self.wave_number, self.density);
         let scaled = |factor: f64| {

@@ -2,7 +2,7 @@
 
 /// Beads in a row, joined by springs and dashpots, between two fixed ends.
 ///
-/// With x the displacements from the places at rest and A the Rouse matrix (2 on the diagonal, -1 beside it; the paper's
+/// With x the displacements from the places at rest and A the Rouse matrix (2 on the diagonal, -1 next to it; the paper's
 /// equation (4) prints +1),
 ///
 /// dx = p/m dt, dp = -κ A x dt - (γ/m) A p dt + √(2kTγ) (dW on the right - dW on the left).
@@ -16,7 +16,7 @@ pub struct SpringChain {
     pub mass: f64,
     /// Stiffness κ of a spring; there are N + 1.
     pub stiffness: f64,
-    /// Friction γ of the dashpot beside each spring.
+    /// Friction γ of the dashpot parallel to each spring.
     pub friction: f64,
 }
 

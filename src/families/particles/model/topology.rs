@@ -38,7 +38,7 @@ pub enum Alike<'a, const LENGTH: usize> {
 }
 
 impl<const LENGTH: usize> Runs<LENGTH> {
-    /// Adds the neighbours along the chains of some species; of all where none are named. A closed chain goes on from its
+    /// Adds the neighbours along the chains of some species; of all where none are named. A closed chain continues from its
     /// last particle to its first, if it is long enough that no particle is its own neighbour and no run is met twice.
     pub fn add_chains(
         &mut self,

@@ -41,7 +41,7 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     }
     if scene.space.lengths.len() == 1 && scene.output.viscosity.is_some() {
         let found = "found in a scene of one dimension";
-        problems.push(Problem::new("output.viscosity", found, "two or three dimensions: on a line nothing shears"));
+        problems.push(Problem::new("output.viscosity", found, "two or three dimensions: there is no shear on a line"));
     }
 }
 
@@ -166,7 +166,7 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
     match scene.integrator {
         Integrator::Splitting {} => {
-            let found = format!("found `splitting`, which relaxes pairs only, beside {}", reason(scene));
+            let found = format!("found `splitting`, which relaxes pairs only, together with {}", reason(scene));
             let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
             problems.push(Problem::new("integrator.type", found, accepted));
         }
@@ -221,8 +221,7 @@ fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: 
     for (place, friction) in given {
         let found = format!("found {friction}");
         if coupling.is_some() {
-            let accepted =
-                format!("no friction beside {path}.bath.coupling, or no coupling: one follows from the other");
+            let accepted = format!("either friction or {path}.bath.coupling: each follows from the other");
             problems.push(Problem::new(place, found, accepted));
         } else if rate == 0.0 {
             let found = format!("{found}, which at a rate of 0 is no coupling at all: λ = αγ");
@@ -290,7 +289,7 @@ fn check_angles(
     }
 }
 
-/// Mistakes of a list that are told one by one; more are counted.
+/// Mistakes of a list that are reported one by one; more are counted.
 const LISTED: usize = 5;
 
 /// Species that are named, or particles that are listed, have to exist.
@@ -304,8 +303,8 @@ fn check_members<const LENGTH: usize>(
     problems: &mut Problems,
 ) {
     if species.is_some() && !members.is_empty() {
-        let found = format!("found beside `{key}`");
-        let accepted = format!("either the species whose chains are meant, or {key} of particle numbers");
+        let found = format!("found together with `{key}`");
+        let accepted = format!("either `species`, or {key} of particle ids");
         problems.push(Problem::new(format!("{path}.species"), found, accepted));
     }
     for (index, name) in species.unwrap_or_default().iter().enumerate() {
@@ -332,8 +331,8 @@ fn check_members<const LENGTH: usize>(
         problems.push(match (beyond, earlier) {
             (Some(at), _) => {
                 let accepted = match total {
-                    0 => "no number: there are no particles".to_owned(),
-                    _ => format!("the number of a particle, 0 to {}", total - 1),
+                    0 => "no id: there are no particles".to_owned(),
+                    _ => format!("a particle id from 0 to {}", total - 1),
                 };
                 Problem::new(format!("{}[{at}]", place()), format!("found {}", numbers[at]), accepted)
             }
@@ -377,7 +376,7 @@ fn check_presence(
         None if species.is_some() => "found no chains of these species".to_owned(),
         None => "found neither chains nor a list".to_owned(),
     };
-    let accepted = format!("`{key}` of particle numbers, or particles with a `chain` of at least {length} `beads`");
+    let accepted = format!("`{key}` of particle ids, or particles with a `chain` of at least {length} `beads`");
     problems.push(Problem::new(path, found, accepted));
 }
 

@@ -95,7 +95,7 @@ impl HarmonicChainInteraction {
 pub(crate) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str, problems: &mut Problems) {
     if scene.interactions.len() > 1 {
         let accepted = "`harmonic-chain` as the only interaction of a scene";
-        problems.push(Problem::new(path, "found another interaction beside it", accepted));
+        problems.push(Problem::new(path, "found together with another interaction", accepted));
     }
     if !scene.particles.is_empty() {
         let accepted = "an empty list: the chains make their own particles";
@@ -111,7 +111,7 @@ pub(crate) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str,
     let thermal = LONGEST_EXTENSION * (scene.temperature / chain.stiffness).sqrt();
     let needed = thermal.max(chain.extension(scene.temperature) / size);
     if chain.spacing < needed {
-        let accepted = format!("at least {needed:.4}, so that no spring turns over");
+        let accepted = format!("at least {needed:.4}, so that no spring is inverted");
         problems.push(Problem::new(format!("{path}.spacing"), format!("found {}", chain.spacing), accepted));
     }
     let shortest = 2.0 * (size * chain.spacing + chain.extension(scene.temperature));

@@ -30,7 +30,7 @@ pub struct DpdInteraction {
     /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
     pub bath: Bath,
-    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, or beside couplings
+    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, or together with couplings
     /// other than pairs. A wide one is built less often and holds more pairs; no result but the noise depends on it.
     #[serde(default = "default_skin")]
     #[schemars(extend("exclusiveMinimum" = 0))]

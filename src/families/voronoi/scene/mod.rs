@@ -185,7 +185,7 @@ pub(crate) const LIGHTEST: f64 = 1e-4;
 pub(crate) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Problems) {
     if scene.interactions.len() > 1 {
         let accepted = "`voronoi` as the only interaction of a scene";
-        problems.push(Problem::new(path, "found another interaction beside it", accepted));
+        problems.push(Problem::new(path, "found together with another interaction", accepted));
     }
     if scene.space.lengths.len() != 2 {
         let found = format!("found {} edges", scene.space.lengths.len());
@@ -214,7 +214,7 @@ fn check_fluid(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems
             let path = format!("{path}.initial_masses");
             problems.push(Problem::new(path, "found `uniform-pressure` without `energy`", accepted));
         } else if scene.temperature == 0.0 || regions.into_iter().any(|region| region.temperature == 0.0) {
-            let found = "found `uniform-pressure` beside a temperature of 0, at which there is no pressure";
+            let found = "found `uniform-pressure` with a temperature of 0, at which there is no pressure";
             let accepted = "temperatures above 0 everywhere, or masses `equal` or of `uniform-density`";
             problems.push(Problem::new(format!("{path}.initial_masses"), found, accepted));
         }
