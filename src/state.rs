@@ -82,12 +82,11 @@ pub struct State {
     pub species: Vec<u32>,
     /// Momenta that the friction sees, where the integrator predicts them (`groot-warren` with λ ≠ ½); else empty.
     pub predicted: Vec<[i32; 3]>,
-    /// Masses of particles that each have their own; else empty. In shallow water in units of
-    /// [`crate::families::ShallowWater::mass_unit`], zero for tracers; in Voronoi DPD of
-    /// [`crate::families::Voronoi::mass_unit`].
+    /// Masses of particles that each have their own; else empty. In units that the
+    /// model chooses; zero for tracers, which have none.
     pub masses: Vec<u32>,
-    /// Kinetic and internal energy together of Voronoi cells that keep account of it, in units of
-    /// [`crate::families::Voronoi::energy_unit`]; else empty.
+    /// Kinetic and internal energy together of particles that keep account of it, in units that the model chooses; else
+    /// empty.
     pub energies: Vec<i32>,
     /// Mass on each mesh node one step before, in the same units, where a bath on the mesh remembers it; empty at step 0.
     pub node_masses: Vec<u32>,

@@ -4,7 +4,7 @@ use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
-use mesoscope::families::{self, Model, PictureKind};
+use mesoscope::families::{Model, PictureKind};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
@@ -21,12 +21,12 @@ pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, 
         simulation.execute(choice, &mut |_| {})?;
         return Ok(());
     }
-    let mut reporter = Reporter::new(simulation.scene().clone());
+    let mut reporter = Reporter::new(&simulation);
     let mut known = simulation.notices().to_vec();
     for notice in &known {
         line(&format!("note: {notice}"));
     }
-    for warning in families::warnings(simulation.scene()) {
+    for warning in simulation.model().warnings(simulation.scene()) {
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }
@@ -56,6 +56,7 @@ struct Reporter {
     scene: Scene,
     /// Whether its pictures are fields: what flows has no temperature to speak of.
     flows: bool,
+    particles: u64,
     bar: Option<ProgressBar>,
     terminal: bool,
     /// Tenths of the run already reported on lines of their own, and when the last was.
@@ -65,10 +66,12 @@ struct Reporter {
 }
 
 impl Reporter {
-    fn new(scene: Scene) -> Self {
+    fn new(simulation: &Simulation) -> Self {
+        let model = simulation.model();
         Self {
-            flows: flows(&scene),
-            scene,
+            flows: model.picture() == PictureKind::Fields,
+            particles: model.particle_count(),
+            scene: simulation.scene().clone(),
             bar: None,
             terminal: std::io::stderr().is_terminal(),
             reported: 0,
@@ -86,7 +89,7 @@ impl Reporter {
     fn tell(&mut self, event: Event<'_>) {
         match event {
             Event::Started { adapter, first_step, last_step } => {
-                let particles = Model::new(&self.scene).particle_count();
+                let particles = self.particles;
                 let noun = if particles == 1 { "particle" } else { "particles" };
                 let dimensions = dimensions(self.scene.space.lengths.len());
                 let (name, driver) = (&adapter.name, &adapter.driver);

@@ -21,7 +21,7 @@ pub(crate) const HISTOGRAM_FARTHEST: f64 = 8.0;
 const RANGE: f64 = 6.0;
 
 /// What a path of integration leaves after a report.
-pub(super) struct Reported<'a> {
+pub(crate) struct Reported<'a> {
     /// The model.
     pub model: &'a Model,
     /// The first step sampled.
@@ -44,19 +44,19 @@ pub(super) struct Reported<'a> {
 }
 
 /// Whether an analysis asks for the forces of a report.
-pub(super) fn needs_forces(output: &Output) -> bool {
+pub(crate) fn needs_forces(output: &Output) -> bool {
     output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Force)
         || output.histograms.iter().any(|asked| asked.quantity == CountedQuantity::Acceleration)
 }
 
 /// Whether an analysis asks for the velocities of a report.
-pub(super) fn needs_velocities(output: &Output) -> bool {
+pub(crate) fn needs_velocities(output: &Output) -> bool {
     output.autocorrelations.iter().any(|asked| asked.quantity == CorrelatedQuantity::Velocity)
         || output.histograms.iter().any(|asked| asked.quantity != CountedQuantity::Acceleration)
 }
 
 /// Adds everything a scene asks for about reported particles to a plan.
-pub(super) fn add(plan: &mut Plan, reported: &Reported<'_>, output: &Output) {
+pub(crate) fn add(plan: &mut Plan, reported: &Reported<'_>, output: &Output) {
     let mut builder = Builder { plan, reported, centre: None };
     if let Some(asked) = &output.diffusion {
         builder.diffusion(asked);

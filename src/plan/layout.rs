@@ -5,7 +5,7 @@ use crate::prediction;
 use crate::state::{Hold, PairBath, State};
 
 /// Bytes of a particle of [`Layout::Particles`] and [`Layout::Coupled`].
-pub(super) const PARTICLE: u64 = 32;
+pub(crate) const PARTICLE: u64 = 32;
 
 /// How the integer state lies in buffers and textures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

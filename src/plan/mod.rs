@@ -1,24 +1,19 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
 pub(crate) mod analyses;
-pub(crate) mod couplings;
 mod failure;
 mod fit;
 mod grid;
-mod layout;
-pub(crate) mod pair;
-mod pair_histogram;
+pub(crate) mod layout;
+pub(crate) mod pair_histogram;
 pub(crate) mod paths;
 mod precision;
-mod prefix_sum;
-mod recording;
-mod serial_memory;
-pub(crate) mod shallow_water;
-pub mod smoothing;
-mod species;
+pub(crate) mod prefix_sum;
+pub(crate) mod recording;
+pub(crate) mod serial_memory;
+pub(crate) mod species;
 mod table;
 mod texture;
-pub(crate) mod voronoi;
 
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
@@ -60,7 +55,7 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
 }
 
 /// Modules that put particles into the cells of a grid, and note nothing beside.
-const ARRANGE: [&str; 8] = [
+pub(crate) const ARRANGE: [&str; 8] = [
     "common/cells_plain",
     "common/cells_buffer",
     "common/ranks",
@@ -383,7 +378,7 @@ pub struct Plan {
 }
 
 /// Modules of the noise of a pair or a mesh node, beside those of the random words.
-fn noise_modules(distribution: Distribution) -> &'static [&'static str] {
+pub(crate) fn noise_modules(distribution: Distribution) -> &'static [&'static str] {
     match distribution {
         Distribution::Uniform => &["common/noise_uniform"],
         Distribution::Gaussian => &["common/noise_gaussian", "common/gaussian", "common/elementary"],
@@ -392,18 +387,18 @@ fn noise_modules(distribution: Distribution) -> &'static [&'static str] {
 
 impl Kernel {
     /// A kernel of at least one workgroup, without constants of its own.
-    fn new(name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> Self {
+    pub(crate) fn new(name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> Self {
         let workgroups = workgroups.max(1) as u32;
         Self { name, modules, workgroups, demand: None, constants: Vec::new(), renamed: Vec::new(), takes_long: false }
     }
 
     /// The same with constants of its own.
-    fn with(self, constants: Vec<(&'static str, f64)>) -> Self {
+    pub(crate) fn with(self, constants: Vec<(&'static str, f64)>) -> Self {
         Self { constants, ..self }
     }
 
     /// The same with variables whose buffers have other names.
-    fn renamed(self, renamed: Vec<(&'static str, &'static str)>) -> Self {
+    pub(crate) fn renamed(self, renamed: Vec<(&'static str, &'static str)>) -> Self {
         Self { renamed, ..self }
     }
 }
@@ -441,7 +436,7 @@ impl Sampler {
 
 impl Plan {
     /// A plan of a model that does nothing yet; its noise is of the stream.
-    fn new(model: &Model, cells: [u32; 3], layout: Layout, quanta: Quanta, stream: u32) -> Self {
+    pub(crate) fn new(model: &Model, cells: [u32; 3], layout: Layout, quanta: Quanta, stream: u32) -> Self {
         Self {
             particles: model.particle_count(),
             units: model.units,
@@ -472,33 +467,39 @@ impl Plan {
     }
 
     /// Adds a kernel, and says which it is.
-    fn add_kernel(&mut self, kernel: Kernel) -> usize {
+    pub(crate) fn add_kernel(&mut self, kernel: Kernel) -> usize {
         self.kernels.push(kernel);
         self.kernels.len() - 1
     }
 
     /// Adds a kernel unless one of its name and modules is there already, and says which it is.
-    fn add_kernel_once(&mut self, kernel: Kernel) -> usize {
+    pub(crate) fn add_kernel_once(&mut self, kernel: Kernel) -> usize {
         let same = |known: &Kernel| known.name == kernel.name && known.modules == kernel.modules;
         self.kernels.iter().position(same).unwrap_or_else(|| self.add_kernel(kernel))
     }
 
     /// Adds a buffer of zeros.
-    fn add_buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
+    pub(crate) fn add_buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
         self.add_buffer_with(name, purpose, bytes, Contents::Zeros);
     }
 
     /// Adds a buffer of these bytes.
-    fn add_table(&mut self, name: &'static str, purpose: &'static str, contents: Vec<u8>) {
+    pub(crate) fn add_table(&mut self, name: &'static str, purpose: &'static str, contents: Vec<u8>) {
         self.add_buffer_with(name, purpose, contents.len() as u64, Contents::Bytes(contents));
     }
 
     /// Adds a buffer of a table that grows with the number of particles.
-    fn add_long_table(&mut self, name: &'static str, purpose: &'static str, table: Table) {
+    pub(crate) fn add_long_table(&mut self, name: &'static str, purpose: &'static str, table: Table) {
         self.add_buffer_with(name, purpose, table.length(), Contents::Table(table));
     }
 
-    fn add_buffer_with(&mut self, name: &'static str, purpose: &'static str, bytes: u64, contents: Contents) {
+    pub(crate) fn add_buffer_with(
+        &mut self,
+        name: &'static str,
+        purpose: &'static str,
+        bytes: u64,
+        contents: Contents,
+    ) {
         self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
     }
 

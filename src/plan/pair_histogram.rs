@@ -23,7 +23,7 @@ const MOST_DISPATCHES: u64 = 1 << 12;
 const ENOUGH: u64 = 8192;
 
 /// What the kernel that counts pairs has to know.
-pub(super) struct PairHistogram<'a> {
+pub(crate) struct PairHistogram<'a> {
     pub units: &'a Units,
     pub grid: &'a Grid,
     pub options: Options,

@@ -34,7 +34,7 @@ impl Paths {
 impl Plan {
     /// Has these kernels follow the particles; none goes further in a step than a share of the box of `stride` along any
     /// axis.
-    pub(super) fn follow(&mut self, kernels: impl IntoIterator<Item = Kernel>, stride: f64) {
+    pub(crate) fn follow(&mut self, kernels: impl IntoIterator<Item = Kernel>, stride: f64) {
         let kernels = kernels.into_iter().map(|kernel| self.add_kernel(kernel)).collect();
         // Strictly less than half a box, whatever the rounding.
         let every = (0.499_999 / stride).floor().clamp(1.0, LONGEST) as u64;

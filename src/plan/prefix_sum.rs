@@ -6,7 +6,7 @@ use super::{Kernel, Options};
 const SINGLE_SCAN_CELLS: u64 = 1 << 14;
 
 /// What the kernels of a prefix sum are made of.
-pub(super) struct PrefixSum<'a> {
+pub(crate) struct PrefixSum<'a> {
     /// Modules of every kernel, those that know rows and cells among them.
     pub modules: Vec<&'static str>,
     /// Modules that sum up a row.
@@ -39,13 +39,13 @@ impl PrefixSum<'_> {
 }
 
 /// Whether so many cells are summed in several levels.
-pub(super) fn needs_levels(cells: u64, options: Options) -> bool {
+pub(crate) fn needs_levels(cells: u64, options: Options) -> bool {
     cells > SINGLE_SCAN_CELLS || options.many_level_scan
 }
 
 impl super::Plan {
     /// Adds the buffer of the sums between the levels of a prefix sum, if there are any.
-    pub(super) fn add_row_sums(&mut self, rows: u64, cells: u64, options: Options) {
+    pub(crate) fn add_row_sums(&mut self, rows: u64, cells: u64, options: Options) {
         if needs_levels(cells, options) {
             self.add_buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
         }

@@ -3,23 +3,23 @@
 use super::{Kernel, Plan, Sampler, SamplerId};
 
 /// Rows of samples kept on the device between two readbacks.
-pub(super) const SAMPLE_ROWS: u64 = 1024;
+pub(crate) const SAMPLE_ROWS: u64 = 1024;
 
 /// The kernel that adds up the sums of all workgroups and records them.
-pub(super) fn record_sums(name: &'static str, quantities: u64, groups: u64) -> Kernel {
+pub(crate) fn record_sums(name: &'static str, quantities: u64, groups: u64) -> Kernel {
     Kernel::new(name, vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"], 1)
         .with(vec![("QUANTITIES", quantities as f64), ("GROUPS", groups as f64)])
 }
 
 /// The kernel that records a histogram and clears it.
-pub(super) fn record_histogram(bins: u64) -> Kernel {
+pub(crate) fn record_histogram(bins: u64) -> Kernel {
     Kernel::new("record_histogram", vec!["common/control", "common/dispatch", "kernels/record_histogram"], 1)
         .with(vec![("BINS", bins as f64)])
 }
 
 impl Plan {
     /// Adds the sampler of the observables that the workgroups of the report leave, so many each.
-    pub(super) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
+    pub(crate) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
         let record = self.add_kernel(record_sums("record_observables", quantities, groups));
         self.samplers.push(Sampler {
             id: SamplerId::Observables,

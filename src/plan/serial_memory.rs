@@ -6,7 +6,7 @@
 use super::{Buffer, Kernel, Layout, Plan, Texture};
 
 /// Turns of all loops together that an invocation is given on average: software adapters leave loops after 65 535 of them.
-pub(super) const TURNS: u64 = 1 << 14;
+pub(crate) const TURNS: u64 = 1 << 14;
 
 /// A buffer that may be held in a texture instead.
 struct Candidate {
@@ -72,7 +72,7 @@ const SUITED: [(&str, &str, &str); 9] = [
 
 impl Plan {
     /// Suits kernels and buffers to lanes that are taken one after the other.
-    pub(super) fn suit_serial_memory(&mut self) {
+    pub(crate) fn suit_serial_memory(&mut self) {
         let neighbourhoods = matches!(self.layout, Layout::Coupled { .. } | Layout::Cells { .. });
         // Where the hits of a split step share the buffer of the particles, it stays one.
         let shared = self.kernels.iter().any(|kernel| kernel.modules.contains(&"common/found"));

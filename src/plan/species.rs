@@ -4,7 +4,7 @@ use crate::families::Model;
 
 /// The modules that know the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Species {
+pub(crate) struct Species {
     count: usize,
     /// The mass that all particles have; nothing if they differ or some are held.
     mass: Option<f64>,

@@ -56,12 +56,12 @@ impl Texture {
 
 impl Plan {
     /// Adds a texture that can hold the texels.
-    pub(super) fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
+    pub(crate) fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
         self.add_texture_with(name, purpose, words, texels, Contents::Zeros);
     }
 
     /// The same with contents.
-    pub(super) fn add_texture_with(
+    pub(crate) fn add_texture_with(
         &mut self,
         name: &'static str,
         purpose: &'static str,

@@ -6,25 +6,26 @@ use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::Scene;
 
-/// Opens an adapter that allows the buffers of a scene.
+/// Opens an adapter that allows the buffers of a scene, for which it makes the plan.
 pub(super) fn open_adapter(
     scene: &Scene,
     model: &Model,
     choice: &AdapterChoice,
     options: Options,
-) -> Result<Gpu, RunError> {
+) -> Result<(Gpu, Plan), RunError> {
     let open = |hardware| {
         let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
-        Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() }).map_err(
-            |error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
-                Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
-                    RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
-                }
-                _ => error.into(),
-            },
-        )
+        let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
+        let gpu = opened.map_err(|error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
+            Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
+                RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
+            }
+            _ => error.into(),
+        })?;
+        let plan = if Hardware::from(&gpu) == hardware { plan } else { plan_for(scene, model, &gpu, options) };
+        Ok((gpu, plan))
     };
     match open(Hardware::default()) {
         // What the plan for any adapter needs this one may not: some get by with smaller buffers.
@@ -47,7 +48,7 @@ pub(super) fn open_adapter(
 /// # Errors
 /// [`RunError::Gpu`] without an adapter that allows its buffers, [`RunError::Scene`] if its numbers are beyond single precision.
 pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
-    open_adapter(scene, &Model::new(scene), choice, Options::default())
+    Ok(open_adapter(scene, &Model::new(scene), choice, Options::default())?.0)
 }
 
 /// The plan of a scene on an adapter.

@@ -47,7 +47,7 @@ pub fn redraw(
     }
     summary.check_tables(directory)?;
     let model = Model::new(&checkpoint.scene);
-    let gpu = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
+    let (gpu, _) = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
     let mut pictures = Pictures::again(&gpu, directory, &scene, &checkpoint);
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, &model, &summary)?;

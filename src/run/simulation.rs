@@ -1,6 +1,6 @@
 //! Runs that are started, resumed, and executed from their first step to their summary.
 
-use super::adapter::{open_adapter, plan_for};
+use super::adapter::open_adapter;
 use super::execution::{NOTICES, Outcome, Run};
 use super::interrupt::Interrupt;
 use super::pace::Pace;
@@ -12,7 +12,7 @@ use crate::families::{self, Instability, Model};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
-use crate::plan::{self, Hardware, Options};
+use crate::plan::{self, Hardware, Options, Plan};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -20,6 +20,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scene: Scene,
+    model: Model,
     beginning: Beginning,
     interrupt: Interrupt,
     /// What was done to the scene before the run, for its summary.
@@ -48,7 +49,8 @@ impl Simulation {
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
         let id = Id::of_run(&scene);
-        Self { scene, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id }
+        let model = Model::new(&scene);
+        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -99,7 +101,7 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self { scene, beginning, interrupt: Interrupt::default(), notices, id })
+        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id })
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -124,6 +126,12 @@ impl Simulation {
     #[must_use]
     pub fn until(self, interrupt: &Interrupt) -> Self {
         Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// The model of the scene.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// The scene, with every default filled in.
@@ -163,11 +171,10 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, beginning, interrupt, notices, id } = self;
-        let model = Model::new(&scene);
+        let Self { scene, model, beginning, interrupt, notices, id } = self;
         let mut options = Options::default();
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
-        let mut gpu = open_adapter(&scene, &model, choice, options)?;
+        let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
         let (directory, mut start, earlier) = match beginning {
             Beginning::New { directory, force } => {
                 let state = families::initial_state(&scene, &model);
@@ -183,14 +190,14 @@ impl Simulation {
         let mut pace = Pace::new(model.particle_count());
         let task = Task { id, scene, model, directory, interrupt, notices, earlier };
         loop {
-            match attempt(&task, &gpu, options, &start, &mut pace, observer) {
+            match attempt(&task, &gpu, plan, &start, &mut pace, observer) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
                     // Too rare for every run to pay for it in memory or time.
                     options = options.with_room(task.model.particle_count());
                     start = task.last_checkpoint(start)?;
                     let reason = task.model.physics().crowd();
                     observer(Event::Repeating { from: start.state.step, reason });
-                    gpu = open_adapter(&task.scene, &task.model, choice, options)?;
+                    (gpu, plan) = open_adapter(&task.scene, &task.model, choice, options)?;
                 }
                 ended => return ended,
             }
@@ -202,12 +209,11 @@ impl Simulation {
 fn attempt(
     task: &Task,
     gpu: &Gpu,
-    options: Options,
+    plan: Plan,
     start: &Checkpoint,
     pace: &mut Pace,
     observer: &mut dyn FnMut(Event<'_>),
 ) -> Result<Outcome, RunError> {
-    let plan = plan_for(&task.scene, &task.model, gpu, options);
     let mut engine = Engine::new(gpu, plan, &start.state)?;
     let mut run = Run::open(task, gpu, &mut engine, start)?;
     run.notices = &task.notices;

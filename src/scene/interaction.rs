@@ -52,6 +52,12 @@ impl Interaction {
 }
 
 impl Interaction {
+    /// Whether it acts on particles, beside others; else it is alone in a scene of another family.
+    #[must_use]
+    pub fn is_of_particles(&self) -> bool {
+        !matches!(self, Self::ShallowWater(_) | Self::Voronoi(_))
+    }
+
     /// Temperature of the heat bath, in a scene of a temperature; that of the scene without one.
     pub(crate) fn bath_temperature(&self, scene: f64) -> f64 {
         match self {

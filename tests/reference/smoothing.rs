@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use std::sync::mpsc;
 
 use mesoscope::families::ShallowWater;
+use mesoscope::families::shallow_water::smoothing::{SmoothingPlan, iterations, smoothing, transfer};
 use mesoscope::gpu::link;
 use mesoscope::plan::Options;
-use mesoscope::plan::smoothing::{SmoothingPlan, iterations, smoothing, transfer};
 use mesoscope::scene::{LaplacianSymbol, Smoothing, SmoothingSolver};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -5,6 +5,7 @@ mod conservation;
 mod description;
 pub(crate) mod model;
 mod observables;
+pub(crate) mod plan;
 pub mod reference;
 pub(crate) mod scene;
 pub(crate) mod stability;
@@ -16,7 +17,7 @@ use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Model, Observables, PairForce, Physics,
     PositionBath, Species, units,
 };
-use crate::plan::{self, Hardware, Options, Plan};
+use crate::plan::{Hardware, Options, Plan};
 use crate::scene::{BondPotential, Interaction, Output, Problems, Scene, Warning};
 use crate::state::State;
 use model::topology;
@@ -141,9 +142,9 @@ impl Physics for Particles {
 
     fn plan(&self, model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
         if self.are_coupled || options.listed {
-            plan::couplings::plan(model, equilibration, output, options)
+            self::plan::couplings::plan(model, equilibration, output, options)
         } else {
-            plan::pair::plan(model, equilibration, output, hardware, options)
+            self::plan::pair::plan(model, equilibration, output, hardware, options)
         }
     }
 

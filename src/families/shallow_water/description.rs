@@ -1,8 +1,8 @@
 //! What `check` says of shallow water.
 
+use super::plan::smoothing::iterations;
 use crate::families::ShallowWater;
 use crate::numbers::{grouped, six_digits};
-use crate::plan::smoothing::iterations;
 use crate::plan::{Layout, Plan};
 use crate::scene::{BathRate, BathScheme, Interaction, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
 

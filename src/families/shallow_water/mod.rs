@@ -6,11 +6,14 @@ mod fields;
 pub mod flow;
 pub(crate) mod model;
 mod observables;
+mod plan;
 pub mod reference;
 pub(crate) mod scene;
 mod start;
 pub mod surface;
 mod warnings;
+
+pub use plan::smoothing;
 
 use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
@@ -18,7 +21,7 @@ use super::{
     Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, ShallowWater, Species, conservation,
 };
 use crate::numbers::{grouped, with_error};
-use crate::plan::{self, Hardware, Options, Plan};
+use crate::plan::{Hardware, Options, Plan};
 use crate::scene::{FieldQuantity, Integrator, Output, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::state::State;
 use reference::ShallowWaterReference;
@@ -65,7 +68,7 @@ impl Physics for ShallowWater {
     }
 
     fn plan(&self, model: &Model, _: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-        plan::shallow_water::plan(model, self, output, hardware, options)
+        self::plan::plan(model, self, output, hardware, options)
     }
 
     fn particles_in_words(&self, count: u64) -> String {

@@ -4,6 +4,7 @@ mod description;
 pub(crate) mod model;
 mod observables;
 mod pictures;
+mod plan;
 pub mod reference;
 pub(crate) mod scene;
 mod start;
@@ -14,7 +15,7 @@ use super::reference::Stepper;
 use super::{
     Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, Species, Voronoi, conservation, units,
 };
-use crate::plan::{self, Hardware, Options, Plan};
+use crate::plan::{Hardware, Options, Plan};
 use crate::scene::{InitialMasses, Output, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::state::State;
 use crate::tessellation::Tessellation;
@@ -66,7 +67,7 @@ impl Physics for Voronoi {
     }
 
     fn plan(&self, model: &Model, equilibration: u64, output: &Output, _: Hardware, options: Options) -> Plan {
-        plan::voronoi::plan(model, self, equilibration, output, options)
+        self::plan::plan(model, self, equilibration, output, options)
     }
 
     fn description(&self, _: &Scene, model: &Model, _: &Plan, cells: &str) -> Vec<(&'static str, String)> {

@@ -40,12 +40,7 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
                     Some(BondPotential::Fene { stiffness, extent, length }) => 2.0 * spring(stiffness, length, extent),
                 }
             }
-            Interaction::Dpd(_)
-            | Interaction::Langevin(_)
-            | Interaction::ColouredNoise(_)
-            | Interaction::HarmonicChain(_)
-            | Interaction::ShallowWater(_)
-            | Interaction::Voronoi(_) => 0.0,
+            _ => 0.0,
         });
     }
     most

@@ -49,12 +49,9 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
-        Interaction::ShallowWater(_) | Interaction::Voronoi(_) => false,
         _ => true,
     };
-    let alone =
-        |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_) | Interaction::Voronoi(_));
-    !scene.interactions.iter().any(alone)
+    scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(|group| group.fixed)
             || scene.interactions.iter().any(coupled))
@@ -81,11 +78,7 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
             "ties the same particles again",
             "one `tether` interaction; two springs to the same place are one of their summed stiffness",
         )),
-        Interaction::Bonds(_)
-        | Interaction::Angles(_)
-        | Interaction::HarmonicChain(_)
-        | Interaction::ShallowWater(_)
-        | Interaction::Voronoi(_) => None,
+        _ => None,
     };
     let mut seen = HashSet::new();
     for (index, interaction) in scene.interactions.iter().enumerate() {
@@ -98,18 +91,9 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
 }
 
 fn check_groups(scene: &Scene, problems: &mut Problems) {
-    let water = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
     let mut fixed: HashMap<&str, (usize, bool)> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
-        if water && group.fixed {
-            let accepted = "particles that move: in shallow water all of them carry the depth along";
-            problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
-        }
-        if water && group.chain.is_some() {
-            let accepted = "no chains in shallow water: its particles have no forces between them";
-            problems.push(Problem::new(format!("{path}.chain"), "found a chain", accepted));
-        }
         let (known, held) = *fixed.entry(&group.species).or_insert((index, group.fixed));
         if held != group.fixed {
             let accepted = format!(
@@ -181,13 +165,13 @@ fn reason(scene: &Scene) -> String {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let what = match interaction {
             Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
-            Interaction::Dpd(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => continue,
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::ColouredNoise(_) => "a coloured noise",
             Interaction::Tether(_) => "tethers",
             Interaction::Bonds(_) => "bonds",
             Interaction::Angles(_) => "angles",
             Interaction::HarmonicChain(_) => "harmonic chains",
+            _ => continue,
         };
         return format!("{what} in interactions[{index}]");
     }

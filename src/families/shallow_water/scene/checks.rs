@@ -102,6 +102,14 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut P
             let accepted = "no `mass` in shallow water: it follows from the depth";
             problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
         }
+        if group.fixed {
+            let accepted = "particles that move: in shallow water all of them carry the depth along";
+            problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+        }
+        if group.chain.is_some() {
+            let accepted = "no chains in shallow water: its particles have no forces between them";
+            problems.push(Problem::new(format!("{path}.chain"), "found a chain", accepted));
+        }
         if let Some(first) = first_tracer.filter(|first| *first < index && !group.tracer) {
             let found = format!("found water after the tracers of particles[{first}]");
             problems.push(Problem::new(&path, found, "tracers after all other groups"));

@@ -37,7 +37,7 @@ pub struct SmoothingPlan {
 /// With [`SmoothingSolver::Fft`] and a smoothing length the edges of the mesh have to be powers of two, at least 2.
 ///
 /// ```
-/// use mesoscope::plan::{Options, smoothing};
+/// use mesoscope::{families::shallow_water::smoothing, plan::Options};
 /// use mesoscope::{families::Model, scene};
 ///
 /// let iterated = [r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#.to_owned()];
@@ -75,7 +75,7 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 /// box: what the kernels compute, but for rounding.
 ///
 /// ```
-/// use mesoscope::plan::smoothing::transfer;
+/// use mesoscope::families::shallow_water::smoothing::transfer;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
 /// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");
@@ -102,7 +102,7 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 /// Number of iterations of [`SmoothingSolver::Chebyshev`], in which (1 - Λ²∇²)⁻¹ is a polynomial of that degree less one.
 ///
 /// ```
-/// use mesoscope::plan::smoothing::iterations;
+/// use mesoscope::families::shallow_water::smoothing::iterations;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
 /// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");

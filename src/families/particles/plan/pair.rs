@@ -68,7 +68,7 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
 /// are counted in 2⁻³² of a typical one, which leaves room for 2³¹ times as much, and the squares of forces and the
 /// curvatures, which are hundreds of times as large as the scales they are made from, in 2⁻²⁴.
-pub(super) fn quanta(model: &Model) -> Quanta {
+pub(crate) fn quanta(model: &Model) -> Quanta {
     let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
     let lightest = if lightest.is_finite() { lightest } else { 1.0 };
     let heaviest = model.species.iter().map(|species| species.mass).fold(lightest, f64::max);

@@ -11,9 +11,10 @@ mod motion;
 mod report;
 mod tessellation;
 
-use super::{Grid, Kernel, Layout, Options, Plan, Quanta, pair};
+use crate::families::particles::plan::pair;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
+use crate::plan::{Grid, Kernel, Layout, Options, Plan, Quanta};
 use crate::scene::{Generator, Integrator, Output, VoronoiForm};
 
 /// Makes the plan of a model of Voronoi cells.

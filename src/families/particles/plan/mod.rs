@@ -1,0 +1,9 @@
+//! Plans of particles: of pairs without memory, in one or two traversals a step, and of all couplings one by one.
+
+pub(crate) mod couplings;
+pub(crate) mod pair;
+
+use crate::plan::{
+    Grid, Hardware, Kernel, Layout, Listed, Options, Plan, Quanta, Texture, Traversal, analyses, layout, noise_modules,
+    pair_histogram, prefix_sum, serial_memory, species,
+};
