@@ -11,12 +11,12 @@
 //! ```
 //! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 //! use mesoscope::plan::{Hardware, Options, plan};
-//! use mesoscope::{engine::Engine, families, families::Model, measure, scene};
+//! use mesoscope::{engine::Engine, families::Model, measure, scene};
 //!
 //! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
 //! let scene = scene::load("dpd-fluid", &small)?;
 //! let model = Model::new(&scene);
-//! let state = families::initial_state(&scene, &model);
+//! let state = mesoscope::families::initial_state(&scene, &model);
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
 //! let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());

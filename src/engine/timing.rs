@@ -49,7 +49,7 @@ impl Engine<'_> {
     /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
     /// # let scene = scene::load("dpd-fluid", &small)?;
     /// # let model = Model::new(&scene);
-    /// # let start = families::initial_state(&scene, &model);
+    /// # let start = mesoscope::families::initial_state(&scene, &model);
     /// # let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
     /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
     /// let mut engine = Engine::new(&gpu, plan, &start)?;

@@ -9,7 +9,7 @@ use crate::scene::{Bath, BathScheme};
 /// Every scheme is one choice of e and λₑ. Without coupling, ⟨s²⟩ = kT λₑ.
 ///
 /// ```
-/// use mesoscope::{model::BathStep, scene::BathScheme};
+/// use mesoscope::{families::BathStep, scene::BathScheme};
 ///
 /// let step = BathStep::with_memory(BathScheme::Exponential, 3.0, 2.0, 0.1);
 /// assert!((step.persistence - (-0.2_f64).exp()).abs() < 1e-12);

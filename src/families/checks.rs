@@ -27,7 +27,7 @@ pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
 /// let set = [spring.to_owned(), "particles.0.count=40000".to_owned(), "space.box=[40,40,40]".to_owned()];
 /// let scene = scene::load("polymer-melt", &set)?;
 /// let model = Model::new(&scene);
-/// let refusal = families::check_start(&scene, &model, &families::initial_state(&scene, &model)).unwrap_err();
+/// let refusal = families::check_start(&scene, &model, &mesoscope::families::initial_state(&scene, &model)).unwrap_err();
 /// assert!(refusal.to_string().contains("potential.extent: found 0.9, and a distance of "));
 /// # Ok::<(), scene::SceneError>(())
 /// ```

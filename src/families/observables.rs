@@ -9,7 +9,7 @@
 ///
 /// let scene = scene::load("ideal-dissipative-gas", &["space.box=[4,4,4]".to_owned(), "output={}".to_owned()])?;
 /// let model = Model::new(&scene);
-/// let state = families::initial_state(&scene, &model);
+/// let state = mesoscope::families::initial_state(&scene, &model);
 /// let found = Reference::new(model, state).observe()?;
 /// assert_eq!((found.potential_energy, found.total_energy()), (0.0, found.kinetic_energy));
 /// // Without forces that have a potential, pressure is density times temperature.

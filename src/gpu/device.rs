@@ -127,7 +127,7 @@ impl Gpu {
     /// let gpu = Gpu::open_rewriting(&AdapterChoice::Best, Requirements::default(), rewriting)?;
     /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]", "output={}"].map(str::to_owned))?;
     /// # let model = Model::new(&scene);
-    /// # let start = families::initial_state(&scene, &model);
+    /// # let start = mesoscope::families::initial_state(&scene, &model);
     /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
     /// let engine = Engine::new(&gpu, plan, &start)?;
     /// assert!(*seen.lock().unwrap() > 0);

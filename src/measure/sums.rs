@@ -16,7 +16,7 @@ use crate::plan::Plan;
 /// let small = ["space.box=[3,3,3]", r#"output={"energies":{"every":10}}"#].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
-/// let start = families::initial_state(&scene, &model);
+/// let start = mesoscope::families::initial_state(&scene, &model);
 /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
 /// let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
 /// let mut engine = Engine::new(&gpu, plan, &start)?;

@@ -12,7 +12,7 @@ impl Plan {
     /// ```
     /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options, plan};
-    /// use mesoscope::scene, families::initial_state;
+    /// use mesoscope::{families::initial_state, scene};
     ///
     /// let scene = scene::load("langevin-gas", &["interactions.1.bath={\"type\":\"memory\",\"rate\":1}".to_owned()])?;
     /// let model = Model::new(&scene);

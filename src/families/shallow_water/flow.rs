@@ -16,7 +16,7 @@ use crate::state::State;
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
 /// let model = Model::new(&scene);
-/// let mut state = families::initial_state(&scene, &model);
+/// let mut state = mesoscope::families::initial_state(&scene, &model);
 /// state.momenta.fill([3_000_000, 4_000_000, 0]);
 /// let water = model.shallow_water().ok_or("no shallow water")?;
 /// let flow = MeshFlow::new(&model, water, &state);

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 /// The normal modes of a chain between fixed ends: sin(πik/(N+1)), bead i = 1 … N, mode k = 1 … N.
 ///
 /// ```
-/// use mesoscope::{measure::harmonic_chain::NormalModes, model::SpringChain};
+/// use mesoscope::{measure::harmonic_chain::NormalModes, families::SpringChain};
 ///
 /// // One bead between two walls swings with frequency √2, in units of √(κ/m).
 /// let bead = SpringChain { beads: 1, mass: 1.0, stiffness: 1.0, friction: 0.0 };

@@ -122,7 +122,7 @@ pub enum CheckpointError {
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("checkpoint.bin");
 /// let scene = scene::load("dpd-fluid", &[])?;
-/// let state = families::initial_state(&scene, &Model::new(&scene));
+/// let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
 /// checkpoint::save(&path, Id::of_run(&scene), &scene, &state, &[], &[])?;
 /// let found = checkpoint::load(&path)?;
 /// assert!(found.scene == scene && found.state == state);

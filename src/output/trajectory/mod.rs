@@ -23,7 +23,7 @@ use std::path::Path;
 /// let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
-/// let state = families::initial_state(&scene, &model);
+/// let state = mesoscope::families::initial_state(&scene, &model);
 /// let format = scene::TrajectoryFormat::ExtendedXyz;
 /// let mut trajectory = TrajectoryWriter::create(&path, format, &model, Id::of_run(&scene))?;
 /// trajectory.append(&state)?;

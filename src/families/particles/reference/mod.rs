@@ -36,7 +36,7 @@ struct Report {
 /// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
 /// let model = Model::new(&scene);
-/// let start = families::initial_state(&scene, &model);
+/// let start = mesoscope::families::initial_state(&scene, &model);
 /// let mut reference = Reference::new(model, start.clone());
 /// reference.run(20)?;
 /// assert_eq!(reference.state().step, 20);

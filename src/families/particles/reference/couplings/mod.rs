@@ -48,7 +48,7 @@ use motion::Motion;
 /// let scene = scene::load("langevin-gas", &["space.box=[4,4,4]".to_owned()])?;
 /// let model = Model::new(&scene);
 /// assert!(model.is_coupled() && !model.conserves_momentum());
-/// let start = families::initial_state(&scene, &model);
+/// let start = mesoscope::families::initial_state(&scene, &model);
 /// let mut reference = CouplingsReference::new(model, start.clone());
 /// reference.run(10)?;
 /// assert_ne!(reference.state().total_momentum(), start.total_momentum());
