@@ -10,15 +10,9 @@ const CHAINS: [(&str, &str); 3] =
 
 const REDUCED_TIME: &str = "Reduced time τ = ω_{0}t/n";
 
-/// The numbers of a column; not numbers where there is no such column.
-fn column(table: &Table, name: &str) -> Vec<f64> {
-    let index = table.columns.iter().position(|column| column == name);
-    let cell = |row: &Vec<f64>| index.and_then(|index| row.get(index)).copied().unwrap_or(f64::NAN);
-    table.rows.iter().map(cell).collect()
-}
-
+/// Points of two columns; not numbers where there is no such column.
 fn points(table: &Table, x: &str, y: &str) -> Vec<[f64; 2]> {
-    column(table, x).into_iter().zip(column(table, y)).map(|(x, y)| [x, y]).collect()
+    table.values(x).into_iter().zip(table.values(y)).map(|(x, y)| [x, y]).collect()
 }
 
 /// Markers of a series are this many at most, so that they stay apart.
@@ -32,7 +26,7 @@ fn compared(table: &Table, quantity: &str) -> Vec<Series> {
         let mut series = Series::markers(name, points.into_iter().step_by(every).collect());
         let errors = format!("{chain}_{quantity}_error");
         if table.columns.contains(&errors) {
-            series = series.with_errors(column(table, &errors).into_iter().step_by(every).collect());
+            series = series.with_errors(table.values(&errors).into_iter().step_by(every).collect());
         }
         series
     });
@@ -52,17 +46,17 @@ fn compared(table: &Table, quantity: &str) -> Vec<Series> {
 /// use mesoscope::plot::chain_profile_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["tau", "cluster", "micro", "dpd", "frictionless"].map(str::to_owned).to_vec();
-/// let chart = chain_profile_chart("A chain", "", &Table { columns, rows: vec![vec![0.0, 0.0, 1.0, 1.0, 1.0], vec![2.0, 0.0, 0.5, 0.5, 0.6]] });
+/// let columns = ["tau", "cluster", "micro", "dpd", "frictionless"];
+/// let chart = chain_profile_chart("A chain", "", &Table::new(columns, vec![vec![0.0, 0.0, 1.0, 1.0, 1.0], vec![2.0, 0.0, 0.5, 0.5, 0.6]]));
 /// // A panel for each time, with a line for each chain.
 /// assert_eq!((chart.panels.len(), chart.panels[0].series.len()), (2, 3));
 /// ```
 #[must_use]
 pub fn chain_profile_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let mut chart = Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: Vec::new() };
-    let taus = column(table, "tau");
+    let taus = table.values("tau");
     let (clusters, all): (Vec<f64>, Vec<Vec<[f64; 2]>>) =
-        (column(table, "cluster"), CHAINS.iter().map(|(chain, _)| points(table, "cluster", chain)).collect());
+        (table.values("cluster"), CHAINS.iter().map(|(chain, _)| points(table, "cluster", chain)).collect());
     let last = clusters.iter().copied().fold(0.0, f64::max);
     let mut first = 0;
     for moment in taus.chunk_by(|a, b| a == b) {
@@ -89,9 +83,9 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &Table) -> Chart 
 /// use mesoscope::plot::chain_pulse_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["tau", "micro_peak", "micro_variance", "micro_energy"].map(str::to_owned).to_vec();
+/// let columns = ["tau", "micro_peak", "micro_variance", "micro_energy"];
 /// let rows = vec![vec![0.0, 1.0, 4.0, 1.0], vec![2.0, 0.5, 4.1, 0.99]];
-/// let chart = chain_pulse_chart("A chain", "", &Table { columns, rows });
+/// let chart = chain_pulse_chart("A chain", "", &Table::new(columns, rows));
 /// let points = |panel: usize| chart.panels[panel].series[0].points.clone();
 /// assert_eq!(points(0), [[0.0, 1.0], [2.0, 0.5]], "the peak");
 /// assert_eq!(points(1), [[0.0, 4.0], [2.0, 4.1]], "the variance");
@@ -125,9 +119,9 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
 /// use mesoscope::plot::chain_correlation_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["tau", "limit", "dpd_correlation"].map(str::to_owned).to_vec();
+/// let columns = ["tau", "limit", "dpd_correlation"];
 /// let rows = vec![vec![0.0, 1.0, 1.0], vec![0.5, 0.5, 0.48]];
-/// let chart = chain_correlation_chart("A chain", "", &Table { columns, rows });
+/// let chart = chain_correlation_chart("A chain", "", &Table::new(columns, rows));
 /// let limit = chart.panels[0].series.last().map(|series| series.points.as_slice());
 /// assert_eq!(limit, Some(&[[0.0, 1.0], [0.5, 0.5]][..]));
 /// ```
@@ -149,9 +143,9 @@ pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &Table) -> Ch
 /// use mesoscope::plot::chain_memory_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "running_friction_10", "running_friction_20"].map(str::to_owned).to_vec();
+/// let columns = ["time", "running_friction_10", "running_friction_20"];
 /// let rows = vec![vec![0.0, 0.0, 0.0], vec![1.0, 0.4, 0.45]];
-/// let chart = chain_memory_chart("A chain", "", &Table { columns, rows });
+/// let chart = chain_memory_chart("A chain", "", &Table::new(columns, rows));
 /// // On a logarithmic axis there is no place for time 0.
 /// assert_eq!(chart.panels[0].series[1].points, [[1.0, 0.45]]);
 /// ```
@@ -186,9 +180,9 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
 /// use mesoscope::plot::chain_equilibrium_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["tau", "dpd_momentum_variance", "dpd_separation_variance"].map(str::to_owned).to_vec();
+/// let columns = ["tau", "dpd_momentum_variance", "dpd_separation_variance"];
 /// let rows = vec![vec![0.0, 1.01, 0.99], vec![1.0, 0.99, 1.02]];
-/// let chart = chain_equilibrium_chart("A chain", "", &Table { columns, rows });
+/// let chart = chain_equilibrium_chart("A chain", "", &Table::new(columns, rows));
 /// assert_eq!(chart.panels[0].references[0].value, 1.0);
 /// ```
 #[must_use]
@@ -206,7 +200,7 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Ch
     // One legend is enough.
     separations.series.iter_mut().for_each(|series| series.name.clear());
     for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {
-        let exact = column(table, &format!("{chain}_exact_separation_variance"));
+        let exact = table.values(&format!("{chain}_exact_separation_variance"));
         if let Some(value) = exact.first() {
             separations = separations.with_reference(&format!("{name}: {value:.3}"), *value);
         }
@@ -219,10 +213,7 @@ mod tests {
     use super::*;
 
     fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
-        Table {
-            columns: columns.iter().map(ToString::to_string).collect(),
-            rows: rows.iter().map(|row| row.to_vec()).collect(),
-        }
+        Table::new(columns.to_vec(), rows.iter().map(|row| row.to_vec()).collect())
     }
 
     #[test]

@@ -16,8 +16,8 @@ use crate::table::Table;
 /// use mesoscope::plot::{Averages, energies_chart};
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "kinetic_energy", "temperature"].map(str::to_owned).to_vec();
-/// let table = Table { columns, rows: vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]] };
+/// let columns = ["time", "kinetic_energy", "temperature"];
+/// let table = Table::new(columns, vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]]);
 /// let chart = energies_chart("A fluid", &table, 20, 1.0, &Averages::default());
 /// // There is no pressure in the table, and no panel for it.
 /// assert_eq!(chart.panels.len(), 2);
@@ -61,9 +61,9 @@ fn dimension(table: &Table) -> usize {
 /// use mesoscope::plot::{Averages, shallow_water_chart};
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
+/// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"];
 /// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
-/// let chart = shallow_water_chart("A vortex", &Table { columns, rows }, None, &Averages::default());
+/// let chart = shallow_water_chart("A vortex", &Table::new(columns, rows), None, &Averages::default());
 /// let change = &chart.panels[1].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
@@ -90,8 +90,8 @@ pub fn shallow_water_chart(title: &str, table: &Table, temperature: Option<f64>,
 /// use mesoscope::plot::circulation_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "loop_0"].map(str::to_owned).to_vec();
-/// let chart = circulation_chart("A loop", &Table { columns, rows: vec![vec![0.0, 2.0], vec![1.0, 2.002]] });
+/// let columns = ["time", "loop_0"];
+/// let chart = circulation_chart("A loop", &Table::new(columns, vec![vec![0.0, 2.0], vec![1.0, 2.002]]));
 /// let change = &chart.panels[0].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
@@ -230,10 +230,7 @@ mod tests {
     use super::*;
 
     fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
-        Table {
-            columns: columns.iter().map(ToString::to_string).collect(),
-            rows: rows.iter().map(|row| row.to_vec()).collect(),
-        }
+        Table::new(columns.to_vec(), rows.iter().map(|row| row.to_vec()).collect())
     }
 
     #[test]

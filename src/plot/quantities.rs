@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn a_quantity_looks_the_same_beside_all_others_and_alone() {
-        let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"].map(str::to_owned).to_vec();
-        let table = Table { columns, rows: vec![vec![0.0, 1.0, 2.0, 3.0]] };
+        let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"];
+        let table = Table::new(columns, vec![vec![0.0, 1.0, 2.0, 3.0]]);
         let all =
             panel("E", &table, &["kinetic_energy", "potential_energy", "total_energy"], 1.0, &Averages::default());
         let ideal = panel("E", &table, &["kinetic_energy", "total_energy"], 1.0, &Averages::default());
@@ -173,8 +173,8 @@ mod tests {
 
     #[test]
     fn means_are_those_of_the_panel() {
-        let columns = ["time", "kinetic_energy"].map(str::to_owned).to_vec();
-        let table = Table { columns, rows: vec![vec![0.0, 30.0]] };
+        let columns = ["time", "kinetic_energy"];
+        let table = Table::new(columns, vec![vec![0.0, 30.0]]);
         let mean = Mean { value: 30.0, standard_error: Some(2.0), from_few_samples: true, unequilibrated: true };
         let averages = Averages { from: Some(4.0), means: vec![("kinetic_energy".to_owned(), mean)] };
         let panel = panel("E", &table, &["kinetic_energy"], 20.0, &averages);

@@ -21,10 +21,10 @@ pub type Found = (f64, Option<f64>);
 /// use mesoscope::plot::diffusion_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "mean_squared_displacement"].map(str::to_owned).to_vec();
+/// let columns = ["time", "mean_squared_displacement"];
 /// // ⟨Δr²⟩ = 6 D t - 0.1 with D = ½.
 /// let rows = (0..20).map(|lag| vec![0.1 * f64::from(lag), 0.3 * f64::from(lag) - 0.1]).collect();
-/// let chart = diffusion_chart("A fluid", &Table { columns, rows }, 3, Some((0.5, Some(0.02))), None);
+/// let chart = diffusion_chart("A fluid", &Table::new(columns, rows), 3, Some((0.5, Some(0.02))), None);
 /// let fit = &chart.panels[0].series[1];
 /// assert!(fit.name.contains("D = 0.500 ± 0.020"), "{}", fit.name);
 /// assert!((fit.points[0][1] - 2.9).abs() < 1e-9);
@@ -85,9 +85,9 @@ fn displacement_line(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
 /// use mesoscope::plot::viscosity_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
+/// let columns = ["wave_number", "time", "autocorrelation", "fit"];
 /// let rows = vec![vec![0.5, 0.0, 1.0, f64::NAN], vec![0.5, 1.0, 0.8, 0.79], vec![0.9, 0.0, 1.0, f64::NAN]];
-/// let chart = viscosity_chart("Waves", &Table { columns, rows }, &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
+/// let chart = viscosity_chart("Waves", &Table::new(columns, rows), &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
 /// assert_eq!(chart.panels[0].series[0].name, "k = 0.5/length unit, η = 0.90 ± 0.10");
 /// assert_eq!(chart.subtitle, "shear viscosity η = 0.90 ± 0.10");
 /// ```
@@ -138,8 +138,8 @@ pub struct ChainKind {
 /// use mesoscope::plot::{ChainKind, Mean, chain_sizes_chart};
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
-/// let table = Table { columns, rows: vec![vec![0.0, 6.1, 1.0], vec![1.0, 5.9, 1.1]] };
+/// let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"];
+/// let table = Table::new(columns, vec![vec![0.0, 6.1, 1.0], vec![1.0, 5.9, 1.1]]);
 /// let end_to_end = Some(Mean { value: 6.0, ..Mean::default() });
 /// let kind = ChainKind { species: "decamer".to_owned(), beads: 10, end_to_end, ..ChainKind::default() };
 /// let chart = chain_sizes_chart("A melt", &table, &[kind]);
@@ -181,10 +181,10 @@ mod tests {
 
     #[test]
     fn every_wave_is_a_series_with_its_fit() {
-        let columns = ["wave_number", "time", "autocorrelation", "fit"].map(str::to_owned).to_vec();
+        let columns = ["wave_number", "time", "autocorrelation", "fit"];
         let row = |wave: f64, lag: f64, fit: f64| vec![wave, lag, (-lag).exp(), fit];
         let rows = vec![row(0.5, 0.0, f64::NAN), row(0.5, 1.0, 0.4), row(0.9, 0.0, f64::NAN), row(0.9, 1.0, 0.3)];
-        let chart = viscosity_chart("waves", &Table { columns, rows }, &[], None);
+        let chart = viscosity_chart("waves", &Table::new(columns, rows), &[], None);
         let series: Vec<(&str, usize)> =
             chart.panels[0].series.iter().map(|series| (series.name.as_str(), series.points.len())).collect();
         assert_eq!(
@@ -193,15 +193,15 @@ mod tests {
         );
         assert_all_told_apart(&chart);
         // A table without fits.
-        let columns = ["wave_number", "time", "autocorrelation"].map(str::to_owned).to_vec();
-        let chart = viscosity_chart("waves", &Table { columns, rows: vec![vec![0.5, 0.0, 1.0]] }, &[], None);
+        let columns = ["wave_number", "time", "autocorrelation"];
+        let chart = viscosity_chart("waves", &Table::new(columns, vec![vec![0.5, 0.0, 1.0]]), &[], None);
         assert_eq!(chart.panels[0].series.len(), 1);
     }
 
     #[test]
     fn rings_have_no_ends() {
-        let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"].map(str::to_owned).to_vec();
-        let table = Table { columns, rows: vec![vec![0.0, 1.0, 2.0]] };
+        let columns = ["time", "end_to_end_squared_0", "radius_of_gyration_squared_0"];
+        let table = Table::new(columns, vec![vec![0.0, 1.0, 2.0]]);
         let ring = ChainKind { gyration: Some(Mean::default()), ..ChainKind::default() };
         let chart = chain_sizes_chart("rings", &table, &[ring]);
         assert_eq!(chart.panels.len(), 1);

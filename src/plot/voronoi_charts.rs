@@ -15,7 +15,7 @@ use crate::table::Table;
 ///
 /// let columns = ["time", "temperature", "internal_temperature", "kinetic_energy", "internal_energy", "total_energy"];
 /// let rows = vec![vec![0.0, 1.0, 1.0, 100.0, 500.0, 650.0], vec![0.1, 1.1, 0.98, 110.0, 490.0, 650.0]];
-/// let table = Table { columns: columns.map(str::to_owned).to_vec(), rows };
+/// let table = Table::new(columns, rows);
 /// let chart = energetic_cells_chart("Hot and cold", &table, 100, &Averages::default());
 /// // What each cell has gained.
 /// assert_eq!(chart.panels[1].series[0].points[1], [0.1, 1.1 - 1.0]);
@@ -42,21 +42,15 @@ pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, av
 /// use mesoscope::plot::neighbours_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["neighbours", "fraction", "fraction_error", "random_points"].map(str::to_owned).to_vec();
+/// let columns = ["neighbours", "fraction", "fraction_error", "random_points"];
 /// let rows = vec![vec![5.0, 0.26, 0.01, 0.26], vec![6.0, 0.29, 0.01, 0.30]];
-/// let chart = neighbours_chart("Cells", &Table { columns, rows });
+/// let chart = neighbours_chart("Cells", &Table::new(columns, rows));
 /// assert!(chart.panels[0].series.iter().any(|series| series.points == [[5.0, 0.26], [6.0, 0.29]]));
 /// ```
 #[must_use]
 pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
-    let index = |name: &str| table.columns.iter().position(|column| column == name);
-    let column = |name: &str| -> Vec<f64> {
-        let index = index(name);
-        let cell = |row: &Vec<f64>| index.and_then(|index| row.get(index)).copied().unwrap_or(f64::NAN);
-        table.rows.iter().map(cell).collect()
-    };
     let [numbers, fractions, errors, random] =
-        ["neighbours", "fraction", "fraction_error", "random_points"].map(column);
+        ["neighbours", "fraction", "fraction_error", "random_points"].map(|name| table.values(name));
     let highest = fractions.iter().chain(&random).copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
     let mut steps: Vec<[f64; 2]> =
         numbers.iter().zip(&fractions).flat_map(|(n, f)| [[n - 0.5, *f], [n + 0.5, *f]]).collect();
@@ -95,9 +89,9 @@ const MAGNITUDE: &str = "Its magnitude (length units/time unit)";
 /// use mesoscope::plot::shear_wave_chart;
 /// use mesoscope::table::Table;
 ///
-/// let columns = ["time", "amplitude", "fit"].map(str::to_owned).to_vec();
+/// let columns = ["time", "amplitude", "fit"];
 /// let rows = vec![vec![0.0, 0.5, 0.5], vec![1.0, -0.02, 0.01]];
-/// let chart = shear_wave_chart("A wave", "", "exponential decay", &Table { columns, rows });
+/// let chart = shear_wave_chart("A wave", "", "exponential decay", &Table::new(columns, rows));
 /// // A logarithmic axis shows the magnitude.
 /// assert_eq!(chart.panels[1].series[0].points[1], [1.0, 0.02]);
 /// ```
@@ -127,10 +121,7 @@ mod tests {
     use super::*;
 
     fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
-        Table {
-            columns: columns.iter().map(ToString::to_string).collect(),
-            rows: rows.iter().map(|row| row.to_vec()).collect(),
-        }
+        Table::new(columns.to_vec(), rows.iter().map(|row| row.to_vec()).collect())
     }
 
     #[test]

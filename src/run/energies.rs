@@ -155,7 +155,7 @@ impl EnergyRecorder {
     /// The table for a plot.
     pub(super) fn table(&self) -> Table {
         let names = std::iter::once("step").chain(self.columns.iter().map(|column| column.name));
-        Table { columns: names.map(str::to_owned).collect(), rows: self.rows.clone() }
+        Table::new(names, self.rows.clone())
     }
 }
 

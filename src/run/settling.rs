@@ -75,7 +75,7 @@ mod tests {
             vec![10.0 * index as f64, 1.0 + far + noise(1), 20.0 + noise(2), 0.1 * index as f64]
         };
         let columns = ["step", "temperature", "pressure", "limited_exchanges"].map(str::to_owned).to_vec();
-        Table { columns, rows: (0..rows).map(row).collect() }
+        Table::new(columns, (0..rows).map(row).collect())
     }
 
     #[test]

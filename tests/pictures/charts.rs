@@ -96,7 +96,7 @@ fn energies() -> Table {
             pressure - 3.0 + 0.03 * noise(&mut rng),
         ]);
     }
-    Table { columns: columns.split(',').map(String::from).collect(), rows }
+    Table::new(columns.split(','), rows)
 }
 
 #[test]
@@ -286,10 +286,10 @@ fn ready_made_charts() {
     let lag: Vec<f64> = (0..200).map(|i| f64::from(i) * 0.05).collect();
     let msd: Vec<f64> = lag.iter().map(|t| 6.0 * 0.3 * (t - 0.3 * (1.0 - (-t / 0.3).exp()))).collect();
     let vacf: Vec<f64> = lag.iter().map(|t| 3.0 * (-t / 0.3_f64).exp() - 0.02 * (-(t - 2.0).powi(2)).exp()).collect();
-    let columns = ["time", "mean_squared_displacement", "velocity_autocorrelation"].map(str::to_owned).to_vec();
+    let columns = ["time", "mean_squared_displacement", "velocity_autocorrelation"];
     let rows = (0..lag.len()).map(|i| vec![lag[i], msd[i], vacf[i]]).collect();
     let (einstein, kubo) = (Some((0.3, Some(0.01))), Some((0.29, Some(0.03))));
-    let chart = diffusion_chart("DPD fluid", &Table { columns, rows }, 3, einstein, kubo);
+    let chart = diffusion_chart("DPD fluid", &Table::new(columns, rows), 3, einstein, kubo);
     let picture = chart_picture("correlation", &chart, &PlotStyle::default());
     assert_eq!(chart.panels.len(), 2);
     assert!(bounds(&picture, BLUE).is_some());

@@ -180,7 +180,7 @@ impl Chains {
         }
         // Without heat there is nothing to correlate.
         rows.retain(|row| row.len() == columns.len());
-        Table { columns, rows }
+        Table::new(columns, rows)
     }
 
     /// Variances of each chain over time, relative to nmkT and to nkT/κ, with what is exact.
