@@ -88,7 +88,7 @@ mod hangup {
 
     use signal_hook::consts::SIGHUP;
 
-    /// Whether the program was started to go on when its terminal is closed, as by `nohup`.
+    /// Whether the program was started to keep running when its terminal is closed, as by `nohup`.
     pub fn is_ignored() -> bool {
         listed().or_else(tried).unwrap_or(false)
     }

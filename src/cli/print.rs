@@ -20,6 +20,6 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// A message on standard error, without what acts on a terminal.
 pub fn line(text: &str) {
-    // Nobody is left to tell if standard error is closed.
+    // There is nobody to inform if standard error is closed.
     let _ = writeln!(std::io::stderr().lock(), "{}", printable::message(text));
 }

@@ -1,4 +1,4 @@
-//! What a run tells its user: a line at the start, progress, a table at the end.
+//! What a run prints for its user: a line at the start, progress, a table at the end.
 
 use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
@@ -30,7 +30,7 @@ pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, 
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }
-    let result = simulation.execute(choice, &mut |event| reporter.tell(event));
+    let result = simulation.execute(choice, &mut |event| reporter.show(event));
     reporter.clear();
     let outcome = result?;
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
@@ -86,7 +86,7 @@ impl Reporter {
         }
     }
 
-    fn tell(&mut self, event: Event<'_>) {
+    fn show(&mut self, event: Event<'_>) {
         match event {
             Event::Started { adapter, first_step, last_step } => {
                 let particles = self.particles;

@@ -95,7 +95,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         let mut reporter = Reporter::new(run.sweep().clone());
         reporter.warn();
-        let executed = run.execute(&choice, jobs, &mut |event| reporter.tell(event));
+        let executed = run.execute(&choice, jobs, &mut |event| reporter.show(event));
         reporter.clear();
         let outcome = executed?;
         reporter.warn_of_results(&outcome);

@@ -1,4 +1,4 @@
-//! What a sweep tells its user: a line at the start, progress, a table at the end.
+//! What a sweep prints for its user: a line at the start, progress, a table at the end.
 
 use std::io::IsTerminal as _;
 use std::time::Duration;
@@ -19,7 +19,7 @@ use super::{line, print, progress};
 /// Columns of the table at the end, where a variant has them.
 const SHOWN: [&str; 4] = ["total_energy", "temperature", "configurational_temperature", "pressure"];
 
-/// Tells how far a sweep is: a bar on a terminal, otherwise a line for every variant.
+/// Shows how far a sweep is: a bar on a terminal, otherwise a line for every variant.
 pub struct Reporter {
     sweep: Sweep,
     bar: Option<ProgressBar>,
@@ -43,7 +43,7 @@ impl<'a> Texts<'a> {
         }
     }
 
-    fn tell(self, variants: usize) {
+    fn print(self, variants: usize) {
         for (text, names) in self.0 {
             let place = if names.len() == variants { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
             line(&format!("{text}{place}"));
@@ -67,7 +67,7 @@ impl Reporter {
                 texts.add(format!("warning: {warning}"), &variant.name);
             }
         }
-        texts.tell(self.sweep.variants().len());
+        texts.print(self.sweep.variants().len());
     }
 
     /// What the runs themselves gave rise to; means that include the way to equilibrium are marked in the table.
@@ -81,7 +81,7 @@ impl Reporter {
                 texts.add(format!("warning: {warning}"), &variant.name);
             }
         }
-        texts.tell(self.sweep.variants().len());
+        texts.print(self.sweep.variants().len());
     }
 
     pub fn clear(&mut self) {
@@ -90,7 +90,7 @@ impl Reporter {
         }
     }
 
-    pub fn tell(&mut self, event: SweepEvent<'_>) {
+    pub fn show(&mut self, event: SweepEvent<'_>) {
         match event {
             SweepEvent::Started { adapter, waiting, jobs } => {
                 let keys: Vec<&str> = self.sweep.variations().iter().map(|variation| variation.key.as_str()).collect();

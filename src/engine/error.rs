@@ -13,7 +13,7 @@ pub enum EngineError {
     /// The simulation left the range where its numbers mean anything; [`crate::families::Instability`] says how.
     #[error("the run became unstable at step {}", .0.step)]
     Unstable(Failure),
-    /// More particles at the ends of rows than there is room to copy, or in a bin than it holds.
+    /// More particles at the ends of rows than their copies have capacity for, or more in a bin than it holds.
     #[error("capacity exceeded at step {step}: more particles crowd in one place than the plan has memory for")]
     Crowded {
         /// The first step at which it was seen.

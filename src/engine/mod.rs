@@ -138,7 +138,7 @@ fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
     Ok(words)
 }
 
-/// Batches that may wait on the device while the host goes on.
+/// Batches that may wait on the device while the host continues.
 const BATCHES_IN_FLIGHT: usize = 2;
 
 impl From<&Gpu> for Hardware {
@@ -268,7 +268,7 @@ impl<'a> Engine<'a> {
         self.first_step = state.step;
         self.record(&mut encoder, &self.plan.prepare);
         for sampler in &self.plan.samplers {
-            // Neither rows nor windows of the state before go on.
+            // Rows and windows of the state before are discarded.
             encoder.clear_buffer(&self.buffers[sampler.samples], 0, Some(8));
         }
         self.gpu.queue.submit([encoder.finish()]);

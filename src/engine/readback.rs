@@ -78,7 +78,7 @@ impl Readback {
                 samples.push(Sample { sampler, step: words[0] as u64, sums: words[1..].to_vec() });
             }
         }
-        // By step and not by sampler, so that the order does not tell how steps were batched.
+        // By step and not by sampler, so that the order does not depend on how steps were batched.
         samples.sort_by_key(|sample| (sample.step, sample.sampler));
         Ok((control, samples))
     }

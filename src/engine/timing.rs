@@ -14,7 +14,7 @@ pub struct StageTime {
     pub seconds: f64,
 }
 
-/// How a device tells the time.
+/// How a device measures time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StageClock {
     /// The device writes down when each kernel begins and ends.

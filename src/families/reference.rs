@@ -110,7 +110,7 @@ pub(crate) fn narrow(momenta: &[[i64; 3]], step: u64) -> Result<Vec<[i32; 3]>, U
     }
 }
 
-/// Momenta with room for sums.
+/// Momenta wide enough for sums.
 pub(crate) fn widen(momenta: &[[i32; 3]]) -> Vec<[i64; 3]> {
     momenta.iter().map(|momentum| momentum.map(i64::from)).collect()
 }

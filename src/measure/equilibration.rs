@@ -16,7 +16,7 @@ pub struct Transient {
 /// The transient at the beginning of a series of finite samples in the order of time; none where the series may as well be
 /// stationary, or its mean is the same within its error whether the beginning is left out or not.
 ///
-/// How a system relaxes tells as little as how it fluctuates, since both follow the same law (Onsager): what gives a transient
+/// How a system relaxes reveals as little as how it fluctuates, since both follow the same law (Onsager): what gives a transient
 /// away is that the series begins where it never is later. The series is averaged in blocks, 10, 20 and 40 of them. To all blocks
 /// after the first (and after the second, the third) a process y' = c + φy + ξ is fitted, which says where the series
 /// is stationary, and how far it strays from there. A block that lies further out than that by a limit, which grows with φ,
@@ -25,7 +25,7 @@ pub struct Transient {
 ///
 /// Of stationary autoregressive series that are ten or more correlation times long, fewer than 2 in 1000 are taken for a transient,
 /// and of shorter ones fewer than 6 in 1000: one shorter than its correlation begins somewhere as well. Series of fewer than 10
-/// samples tell nothing.
+/// samples say nothing.
 ///
 /// The transient ends where the mean of the rest is known best: the rule of White, doi:10.1177/003754979706900601,
 /// for batches of five samples (MSER-5), of one below a hundred samples. Where that leaves out half of the series or

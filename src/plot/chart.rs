@@ -74,7 +74,7 @@ impl Axis {
         Self { label: label.to_owned(), ..Self::default() }
     }
 
-    /// An axis of names, with the same room for each.
+    /// An axis of names, with the same width for each.
     #[must_use]
     pub fn categories(label: &str, names: Vec<String>) -> Self {
         let range = Some([-0.5, names.len().max(1) as f64 - 0.5]);
@@ -184,7 +184,7 @@ pub enum SeriesStyle {
 /// What a series is drawn with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum SeriesInk {
-    /// A colour, dashes and markers that tell it from the series around it (default).
+    /// A colour, dashes and markers that distinguish it from the series around it (default).
     #[default]
     Own,
     /// The colour, dashes and markers of a number, whichever series stand around it: for a quantity that looks the same

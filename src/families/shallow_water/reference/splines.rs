@@ -85,7 +85,7 @@ mod tests {
                         [-7.0, 0.0, 7.0].iter().map(|turn| recursive(order, place + turn - node as f64)).sum()
                     };
                     assert!((weights[node] - value(place)).abs() < 1e-14, "order {order} at {place}");
-                    // From the side on which the piece at this place goes on.
+                    // From the side on which the piece at this place continues.
                     let slope = (4.0 * value(place + 1e-5) - 3.0 * value(place) - value(place + 2e-5)) / 2e-5;
                     assert!((slopes[node] - slope).abs() < 1e-6, "order {order} at {place}");
                 }

@@ -12,7 +12,7 @@ use crate::scene::{
 /// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
 const MOST_ITERATIONS: f64 = 10_000.0;
 
-/// Lengths of smoothing, in edges of the box, whose square single precision can still tell from 1.
+/// Lengths of smoothing, in edges of the box, whose square single precision can still distinguish from 1.
 const LARGEST_SMOOTHING: f64 = 1e6;
 
 /// Points on each axis at which the depth at the start is tried, where that takes no more than so many terms.
@@ -163,7 +163,7 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
         .map(|point| (surface.unsmoothed(point, water.smoothing.length, water.smoothing.power), point))
         .collect();
     let mean = depths.iter().map(|(depth, _)| depth).sum::<f64>() / depths.len() as f64;
-    // Masses are integers with room for so much; NaN is no depth.
+    // Masses are integers of limited range; NaN is no depth.
     let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
     if let Some((depth, [x, y])) = depths.iter().find(|(depth, _)| !fits(*depth)) {
         let found = format!(

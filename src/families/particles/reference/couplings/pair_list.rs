@@ -1,7 +1,7 @@
 //! Which pairs have a bath that remembers: those on a list of all pairs within the cutoff and a skin.
 //!
 //! The list is rebuilt when some particle is further than half the skin from where it was when the list was made, its
-//! *anchor*. A pair on both lists goes on with what its bath remembers. Beyond the cutoff the coupling function is
+//! *anchor*. A pair on both lists keeps what its bath remembers. Beyond the cutoff the coupling function is
 //! constant, so that a bath follows the law at rest after some time there: a pair that is new to the list draws from it.
 
 use crate::families::particles::reference::pairs::{dot, find_pairs};
