@@ -8,6 +8,7 @@ mod checks;
 pub(crate) mod column;
 pub(crate) mod conservation;
 mod field;
+mod fit;
 mod instability;
 mod model;
 mod observables;
@@ -39,7 +40,7 @@ pub use particles::model::{
 pub use pictures::PictureKind;
 pub use registry::Family;
 pub(crate) use registry::{check_interactions, complete};
-pub(crate) use shallow_water::model::{LARGEST_DEPTH, LARGEST_MASS, chebyshev_iterations};
+pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::initial_state;
 pub use voronoi::model::{NETWORK_VISCOSITY, Voronoi};
@@ -52,6 +53,17 @@ use crate::state::State;
 use crate::tessellation::Tessellation;
 use pictures::{CellValues, EnergyChart, MeshPictures};
 use std::ops::Range;
+
+/// Closed loops of tracers that move with the flow.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MaterialLoops {
+    /// Coriolis parameter.
+    pub rotation: f64,
+    /// Neighbours on a loop that are further apart than this have lost each other.
+    pub spacing: f64,
+    /// Name and place among the tracers.
+    pub loops: Vec<(String, Range<usize>)>,
+}
 
 /// What the program asks of the physics of a family.
 pub(crate) trait Physics {
@@ -145,6 +157,16 @@ pub(crate) trait Physics {
     /// Whether the device counts exchanges and iterations from the upload of a state on.
     fn counts_exchanges(&self) -> bool {
         false
+    }
+
+    /// Loops that move with the flow, if the family has them.
+    fn material_loops(&self, _: &Model) -> Option<MaterialLoops> {
+        None
+    }
+
+    /// Viscosity of the law of friction, if it has one.
+    fn viscosity(&self) -> Option<f64> {
+        None
     }
 
     /// Nodes of a mesh.

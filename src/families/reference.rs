@@ -28,9 +28,26 @@ pub trait Stepper {
     fn step(&mut self) -> Result<(), Unstable>;
 }
 
+/// What the references of all families have in common.
 macro_rules! stepper {
-    ($($reference:ident),*) => {
-        $(impl Stepper for $reference {
+    ($reference:ident) => {
+        impl $reference {
+            /// The model.
+            #[must_use]
+            pub fn model(&self) -> &Model {
+                &self.model
+            }
+
+            /// Advances by a number of steps.
+            ///
+            /// # Errors
+            /// As [`Self::step`]; the state is then that before the failing step.
+            pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
+                (0..steps).try_for_each(|_| self.step())
+            }
+        }
+
+        impl crate::families::reference::Stepper for $reference {
             fn state(&self) -> &State {
                 self.state()
             }
@@ -38,11 +55,10 @@ macro_rules! stepper {
             fn step(&mut self) -> Result<(), Unstable> {
                 self.step()
             }
-        })*
+        }
     };
 }
-
-stepper!(CouplingsReference, Reference, ShallowWaterReference, VoronoiReference);
+pub(crate) use stepper;
 
 /// A step that the integer state cannot hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

@@ -1,8 +1,10 @@
 //! How the integer state lies in the buffers and textures of a plan.
 
-use crate::families::LARGEST_MASS;
 use crate::prediction;
 use crate::state::{Hold, PairBath, State};
+
+/// Units of the heaviest particle: single precision has to round them to integers.
+pub(crate) const LARGEST_MASS: f64 = 8_388_607.0;
 
 /// Bytes of a particle of [`Layout::Particles`] and [`Layout::Coupled`].
 pub(crate) const PARTICLE: u64 = 32;

@@ -2,7 +2,6 @@
 
 pub(crate) mod analyses;
 mod failure;
-mod fit;
 mod grid;
 pub(crate) mod layout;
 pub(crate) mod pair_histogram;
@@ -11,12 +10,12 @@ mod precision;
 pub(crate) mod prefix_sum;
 pub(crate) mod recording;
 pub(crate) mod serial_memory;
-pub(crate) mod species;
 mod table;
 mod texture;
 
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
+pub(crate) use layout::LARGEST_MASS;
 pub use layout::{Bins, Layout, Listed, Misfit};
 pub use paths::Paths;
 pub use precision::check_precision;

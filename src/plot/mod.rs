@@ -28,6 +28,7 @@
 
 mod axis_range;
 mod canvas;
+mod cell_charts;
 mod cells;
 mod chain_charts;
 mod chart;
@@ -57,8 +58,8 @@ mod sphere_renderer;
 mod text;
 mod ticks;
 mod transport_charts;
-mod voronoi_charts;
 
+pub use cell_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 pub use cells::{CellPicture, ShownValues};
 pub use chain_charts::{
     chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
@@ -71,15 +72,14 @@ pub use overlay::{Curve, overlay_chart};
 pub use particles::ParticlePicture;
 pub(crate) use particles::snapshot_size;
 pub use presets::{
-    autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, radial_distribution_chart,
-    shallow_water_chart,
+    autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, mesh_energies_chart,
+    radial_distribution_chart,
 };
 pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
 pub use text::missing_glyphs;
 pub use transport_charts::{ChainKind, Found, chain_sizes_chart, diffusion_chart, viscosity_chart};
-pub use voronoi_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 
 use crate::scene::{PlotStyle, Snapshot, Theme};
 use image::RgbaImage;

@@ -58,17 +58,17 @@ fn dimension(table: &Table) -> usize {
 /// holds at the mean depth.
 ///
 /// ```
-/// use mesoscope::plot::{Averages, shallow_water_chart};
+/// use mesoscope::plot::{Averages, mesh_energies_chart};
 /// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"];
 /// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
-/// let chart = shallow_water_chart("A vortex", &Table::new(columns, rows), None, &Averages::default());
+/// let chart = mesh_energies_chart("A vortex", &Table::new(columns, rows), None, &Averages::default());
 /// let change = &chart.panels[1].series[0].points;
 /// assert!((change[1][1] - 1e-3).abs() < 1e-12);
 /// ```
 #[must_use]
-pub fn shallow_water_chart(title: &str, table: &Table, temperature: Option<f64>, averages: &Averages) -> Chart {
+pub fn mesh_energies_chart(title: &str, table: &Table, temperature: Option<f64>, averages: &Averages) -> Chart {
     let columns = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
     let unit = "(mass of a node × (length units/time unit)²)";
     let energies = panel(&format!("Energy {unit}"), table, &columns, 1.0, averages);
@@ -281,7 +281,7 @@ mod tests {
         let chart = energies_chart("a run", &table, 1, 1.0, &Averages::default());
         assert_eq!(chart.panels[2].y.label, "Pressure (energy units/length unit²)");
         assert_all_told_apart(&chart);
-        assert_all_told_apart(&shallow_water_chart("water", &table, Some(1.0), &Averages::default()));
+        assert_all_told_apart(&mesh_energies_chart("water", &table, Some(1.0), &Averages::default()));
     }
 
     #[test]

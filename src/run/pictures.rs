@@ -15,7 +15,7 @@ use crate::output::{
 use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, ColorMap, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
-    ShownValues, averages_note, energetic_cells_chart, energies_chart, missing_glyphs, shallow_water_chart,
+    ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
 };
 use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::state::State;
@@ -146,7 +146,7 @@ impl<'a> Pictures<'a> {
         let (title, particles) = (&self.scene.title, model.particle_count());
         let mut chart = match model.physics().energy_chart(model) {
             EnergyChart::Mesh { subtitle, temperature } => {
-                Chart { subtitle, ..shallow_water_chart(title, table, temperature, &averages) }
+                Chart { subtitle, ..mesh_energies_chart(title, table, temperature, &averages) }
             }
             EnergyChart::EnergeticCells => {
                 let subtitle = format!("{} cells", grouped(particles));

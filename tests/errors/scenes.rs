@@ -368,7 +368,11 @@ fn files_that_are_not_text_or_have_no_end() {
     #[cfg(unix)]
     {
         let output = mesoscope(&["check", "/dev/zero"]);
-        assert!(text(&output.stderr).contains("/dev/zero: it is longer than 512 MiB"), "{}", text(&output.stderr));
+        assert!(
+            text(&output.stderr).contains("/dev/zero: it exceeds the limit of 512 MiB"),
+            "{}",
+            text(&output.stderr)
+        );
     }
 }
 

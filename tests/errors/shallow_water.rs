@@ -319,7 +319,10 @@ fn another_interaction_beside_it() {
     );
     document["interactions"] = json!([base()["interactions"][0], base()["interactions"][0]]);
     let error = scene::parse("test.json", &document.to_string(), &[]).unwrap_err().to_string();
-    assert!(error.contains("has 1 mistake:") && error.contains("interactions[0]: found another"), "{error}");
+    assert!(
+        error.contains("has 1 mistake:") && error.contains("interactions[0]: found together with another"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -18,7 +18,8 @@ pub use plan::smoothing;
 use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
-    Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, ShallowWater, Species, conservation,
+    Column, KeptQuantity, KeptSum, MaterialLoops, Model, Observables, Physics, PictureKind, ShallowWater, Species,
+    conservation,
 };
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Options, Plan};
@@ -81,6 +82,13 @@ impl Physics for ShallowWater {
 
     fn picture(&self) -> PictureKind {
         PictureKind::Fields
+    }
+
+    fn material_loops(&self, model: &Model) -> Option<MaterialLoops> {
+        let first = self.carriers as usize;
+        let place = |range: Range<usize>| range.start - first..range.end - first;
+        let loops = self.closed_loops().map(|(name, range)| (name.to_owned(), place(range))).collect();
+        Some(MaterialLoops { rotation: self.rotation, spacing: self.spacing(model.units.lengths), loops })
     }
 
     fn energy_chart(&self, model: &Model) -> EnergyChart {

@@ -2,6 +2,7 @@
 
 use crate::families::BathStep;
 use crate::families::shallow_water::surface::Surface;
+use crate::plan::LARGEST_MASS;
 use crate::scene::{
     BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature,
 };
@@ -50,8 +51,6 @@ pub struct Tracers {
 /// Units of mass that fit the largest sum, and how many times the mean a cell may hold.
 const MASS_RANGE: f64 = 2_147_483_648.0;
 const CROWDING: f64 = 128.0;
-/// Units of the heaviest particle: single precision has to round them to integers.
-pub(crate) const LARGEST_MASS: f64 = 8_388_607.0;
 /// The largest depth at the start, in units of the mean.
 pub(crate) const LARGEST_DEPTH: f64 = 4.0;
 /// What a flow that gathers its water may add to the stiffness of the mesh: .07 of it has been enough.

@@ -76,6 +76,10 @@ impl Physics for Voronoi {
         rows
     }
 
+    fn viscosity(&self) -> Option<f64> {
+        Some(self.viscosity)
+    }
+
     fn counts_exchanges(&self) -> bool {
         true
     }

@@ -2,7 +2,7 @@
 
 use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes};
 use crate::engine::Sample;
-use crate::families::{Model, ShallowWater};
+use crate::families::{MaterialLoops, Model};
 use crate::measure::circulation::{circulation, largest_gap};
 use crate::plot::{Chart, circulation_chart};
 use crate::scene::Scene;
@@ -21,15 +21,15 @@ pub(super) struct Circulation;
 
 impl Descriptor for Circulation {
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
-        let loops = model.shallow_water().map_or(0, |water| water.closed_loops().count() as u64);
+        let loops = model.physics().material_loops(model).map_or(0, |found| found.loops.len() as u64);
         let every = scene.output.energies.every;
         let rows = scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
         (loops > 0).then(|| Sampling { every, numbers: rows.saturating_mul(loops + 2), ..Sampling::default() })
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let water = setting.model.shallow_water()?;
-        Some(Gathering::Samples(Box::new(Circulations::new(setting.model, water))))
+        let found = setting.model.physics().material_loops(setting.model)?;
+        Some(Gathering::Samples(Box::new(Circulations::new(setting.model, found))))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -64,15 +64,13 @@ struct Circulations {
 }
 
 impl Circulations {
-    fn new(model: &Model, water: &ShallowWater) -> Self {
-        let first = water.carriers as usize;
-        let place = |range: Range<usize>| range.start - first..range.end - first;
+    fn new(model: &Model, found: MaterialLoops) -> Self {
         Self {
             units: model.units,
-            rotation: water.rotation,
+            rotation: found.rotation,
             time_step: model.time_step,
-            spacing: water.spacing(model.units.lengths),
-            loops: water.closed_loops().map(|(name, range)| (name.to_owned(), place(range))).collect(),
+            spacing: found.spacing,
+            loops: found.loops,
             rows: Vec::new(),
         }
     }

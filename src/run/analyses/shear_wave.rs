@@ -105,7 +105,7 @@ impl Decay {
             wave_number: TAU * f64::from(periods) / model.units.lengths[1],
             density: mass(model) / model.units.volume(),
             time_step: model.time_step,
-            viscosity: model.voronoi().map(|cells| cells.viscosity),
+            viscosity: model.physics().viscosity(),
             samples: Vec::new(),
         }
     }

@@ -2,8 +2,9 @@
 
 pub(crate) mod couplings;
 pub(crate) mod pair;
+mod species;
 
 use crate::plan::{
     Grid, Hardware, Kernel, Layout, Listed, Options, Plan, Quanta, Texture, Traversal, analyses, layout, noise_modules,
-    pair_histogram, prefix_sum, serial_memory, species,
+    pair_histogram, prefix_sum, serial_memory,
 };

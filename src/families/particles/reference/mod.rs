@@ -52,6 +52,8 @@ pub struct Reference {
     relaxation: Relaxation,
 }
 
+crate::families::reference::stepper!(Reference);
+
 impl Reference {
     /// A reference run from a state whose species are indices into those of the model.
     #[must_use]
@@ -64,12 +66,6 @@ impl Reference {
     pub fn with_relaxation(model: Model, state: State, relaxation: Relaxation) -> Self {
         let masses = state.species.iter().map(|&species| model.species[species as usize].mass).collect();
         Self { model, state, masses, relaxation }
-    }
-
-    /// The model.
-    #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.model
     }
 
     /// The state between steps: r(n) and p(n-½), as the GPU keeps it.
@@ -107,14 +103,6 @@ impl Reference {
         self.state.predicted = next.predicted;
         self.state.step = next.step;
         Ok(())
-    }
-
-    /// Advances by a number of steps.
-    ///
-    /// # Errors
-    /// As [`Self::step`]; the state is then that before the failing step.
-    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
-        (0..steps).try_for_each(|_| self.step())
     }
 
     /// Measures at the report point of the current step, without changing the state: the motion at r(n), p(n), and the

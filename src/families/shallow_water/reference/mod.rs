@@ -95,6 +95,8 @@ pub struct ShallowWaterReference {
     bath: Vec<f64>,
 }
 
+crate::families::reference::stepper!(ShallowWaterReference);
+
 impl ShallowWaterReference {
     /// A reference run from a state; none for a model without shallow water, or a state without what the model needs:
     /// masses of the particles, and of a bath its variables and, beyond step 0, the masses of the nodes.
@@ -112,12 +114,6 @@ impl ShallowWaterReference {
         let smoothing = Smoothing::new(&water, [model.units.lengths[0], model.units.lengths[1]]);
         let motion = Motion::new(&model, &water);
         Some(Self { model, water, state, smoothing, motion, previous, bath })
-    }
-
-    /// The model.
-    #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.model
     }
 
     /// The state between steps: positions of step n, velocities before its closing kick, and of a bath the variables
@@ -175,14 +171,6 @@ impl ShallowWaterReference {
         }
         self.state.step += 1;
         Ok(())
-    }
-
-    /// Advances by a number of steps.
-    ///
-    /// # Errors
-    /// As [`Self::step`]; the state is then that before the failing step.
-    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
-        (0..steps).try_for_each(|_| self.step())
     }
 
     /// Measures at the report point of the current step, without changing the state. There are no virials.

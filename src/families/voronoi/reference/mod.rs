@@ -78,6 +78,8 @@ struct Geometry {
     volumes: Vec<f64>,
 }
 
+crate::families::reference::stepper!(VoronoiReference);
+
 impl VoronoiReference {
     /// A reference run from a state; none for a model without Voronoi cells, or a state without what the model needs:
     /// masses, and total energies where cells keep account of them.
@@ -89,12 +91,6 @@ impl VoronoiReference {
             return None;
         }
         Some(Self { model, cells, state, limited: 0, iterations: 0, residual: 0.0 })
-    }
-
-    /// The model.
-    #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.model
     }
 
     /// The state between steps, that of a full step.
@@ -118,14 +114,6 @@ impl VoronoiReference {
         ahead.state.step += 1;
         *self = ahead;
         Ok(())
-    }
-
-    /// Advances by a number of steps.
-    ///
-    /// # Errors
-    /// As [`Self::step`]; the state is then that before the failing step.
-    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
-        (0..steps).try_for_each(|_| self.step())
     }
 
     /// Measures the current state, with a tessellation of its own. There is no virial of friction and noise.

@@ -75,18 +75,14 @@ struct Evaluation {
     total_virial: f64,
 }
 
+crate::families::reference::stepper!(CouplingsReference);
+
 impl CouplingsReference {
     /// A reference run from a state whose species are indices into those of the model.
     #[must_use]
     pub fn new(model: Model, state: State) -> Self {
         let masses = state.species.iter().map(|&species| model.species[species as usize].mass).collect();
         Self { model, state, masses }
-    }
-
-    /// The model.
-    #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.model
     }
 
     /// The state between steps: r(n) and p(n-½), as the GPU keeps it. Bath variables are those of the step before, s(n-1),
@@ -131,14 +127,6 @@ impl CouplingsReference {
         self.state.bond_baths = baths.bond_baths;
         self.state.holds = baths.holds;
         Ok(())
-    }
-
-    /// Advances by a number of steps.
-    ///
-    /// # Errors
-    /// As [`Self::step`]; the state is then that before the failing step.
-    pub fn run(&mut self, steps: u64) -> Result<(), Unstable> {
-        (0..steps).try_for_each(|_| self.step())
     }
 
     /// Measures at the report point of the current step, without changing the state.

@@ -1,8 +1,7 @@
 //! Whether a state is one of the scene that a plan was made for.
 
-use super::layout::Listed;
-use super::{Layout, Plan};
-use crate::families::{LARGEST_MASS, Model};
+use super::Model;
+use crate::plan::{LARGEST_MASS, Layout, Listed, Plan};
 use crate::state::State;
 
 impl Plan {
