@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// A periodic surface 1 + Σ features over a box.
 ///
 /// ```
-/// use mesoscope::scene::{SurfaceFeature, surface::Surface};
+/// use mesoscope::{families::shallow_water::surface::Surface, scene::SurfaceFeature};
 ///
 /// let wave = [SurfaceFeature::Wave { periods: [1, 0], amplitude: 0.1 }];
 /// let surface = Surface::new(&wave, [std::f64::consts::TAU, 3.0]);

@@ -69,7 +69,7 @@ impl Bonds {
     /// // They are counted without being listed.
     /// let set = ["particles.0.count=1000000000".to_owned()];
     /// let many = Model::new(&scene::load("polymer-melt", &set)?);
-    /// assert!(many.bonds.is_some_and(|bonds| bonds.count() > 800_000_000));
+    /// assert!(many.bonds().is_some_and(|bonds| bonds.count() > 800_000_000));
     /// # Ok::<(), scene::SceneError>(())
     /// ```
     #[must_use]

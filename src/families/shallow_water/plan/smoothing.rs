@@ -78,11 +78,12 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 /// use mesoscope::families::shallow_water::smoothing::transfer;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let model = mesoscope::families::Model::new(&scene);
+/// let water = model.shallow_water().expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
 /// // The depth as a whole stays what it is, short waves all but vanish.
-/// assert_eq!(transfer(&water, lengths, [0, 0]), 1.0);
-/// assert!(transfer(&water, lengths, [32, 32]) < 0.1 * transfer(&water, lengths, [1, 1]));
+/// assert_eq!(transfer(water, lengths, [0, 0]), 1.0);
+/// assert!(transfer(water, lengths, [32, 32]) < 0.1 * transfer(water, lengths, [1, 1]));
 /// # Ok::<(), mesoscope::scene::SceneError>(())
 /// ```
 #[must_use]
@@ -105,9 +106,10 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 /// use mesoscope::families::shallow_water::smoothing::iterations;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let water = mesoscope::families::Model::new(&scene).shallow_water.expect("it is of shallow water");
+/// let model = mesoscope::families::Model::new(&scene);
+/// let water = model.shallow_water().expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
-/// let [rough, fine] = [1e-1, 1e-6].map(|tolerance| iterations(&water, lengths, tolerance));
+/// let [rough, fine] = [1e-1, 1e-6].map(|tolerance| iterations(water, lengths, tolerance));
 /// assert!(1 < rough && rough < fine && fine < 100);
 /// # Ok::<(), mesoscope::scene::SceneError>(())
 /// ```
