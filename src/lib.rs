@@ -51,6 +51,7 @@ pub mod printable;
 pub mod run;
 pub mod scene;
 pub mod self_test;
+pub mod shaders;
 pub mod state;
 pub mod sweep;
 pub mod table;

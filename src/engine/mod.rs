@@ -23,7 +23,7 @@ use readback::Readback;
 use recording::Recording;
 use texels::Texels;
 
-/// Words of the control buffer, as `shaders/common/control.wgsl` declares them.
+/// Words of the control buffer, as `shaders/core/control.wgsl` declares them.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Control {

@@ -78,7 +78,7 @@ fn stage(
     let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
     let [width, height] = folded(kernel.workgroups);
     let fold = (height > 1).then_some((FOLD, f64::from(width)));
-    let (pipeline, linked) = gpu.compile(kernel.name, &kernel.modules, constants.copied().chain(fold))?;
+    let (pipeline, linked) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants.copied().chain(fold))?;
     let bound = linked.bindings.iter().map(|binding| {
         let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
         let name = renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer);

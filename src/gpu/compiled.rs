@@ -8,7 +8,8 @@ use std::sync::{Arc, Mutex};
 
 use super::device::Gpu;
 use super::error::GpuError;
-use super::shader::{LinkedShader, link};
+use super::shader::{LinkedShader, validate};
+use crate::shaders::{Choices, Entry, linked_text};
 
 /// As many as some ten engines have. The next one drops all, which engines that use them keep.
 const MOST_KEPT: usize = 256;
@@ -40,8 +41,8 @@ impl<K, V> Default for Kept<K, V> {
     }
 }
 
-/// Modules, and the bits of the constants that they use.
-type Ingredients = (Vec<&'static str>, Vec<(&'static str, u64)>);
+/// The text of a kernel, and the bits of the constants that it uses.
+type Ingredients = (String, Vec<(&'static str, u64)>);
 
 /// What a linked module becomes before a pipeline is made of it, on a device with some features.
 pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync>;
@@ -49,7 +50,7 @@ pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync
 /// What a device has compiled.
 pub(super) struct Compiled {
     rewriting: Option<Rewriting>,
-    linked: Kept<Vec<&'static str>, Arc<LinkedShader>>,
+    linked: Kept<String, Arc<LinkedShader>>,
     pipelines: Kept<Ingredients, wgpu::ComputePipeline>,
 }
 
@@ -60,36 +61,39 @@ impl Compiled {
 }
 
 impl Gpu {
-    /// The pipeline of a kernel that is linked from some modules, with those of the constants that they use, and what it
-    /// was linked to.
+    /// The pipeline of a kernel with those of the constants that it uses, and what it was linked to.
     ///
     /// # Errors
-    /// [`GpuError`] if the modules do not fit together or the device refuses them.
+    /// [`GpuError`] if the kernel does not link or the device refuses it.
     pub(crate) fn compile(
         &self,
-        kernel: &'static str,
-        modules: &[&'static str],
+        name: &'static str,
+        entry: Entry,
+        choices: &Choices,
         constants: impl Iterator<Item = (&'static str, f64)>,
     ) -> Result<(wgpu::ComputePipeline, Arc<LinkedShader>), GpuError> {
-        let linked = self.compiled.linked.get_or_make(modules.to_vec(), || Ok(Arc::new(link(kernel, modules)?)))?;
-        let used = constants.filter(|(name, _)| linked.overrides.iter().any(|known| known == name));
+        let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
+        let text = linked.text.clone();
+        let make = || Ok(Arc::new(validate(name, entry.name(), &linked)?));
+        let linked = self.compiled.linked.get_or_make(text.clone(), make)?;
+        let used = constants.filter(|(constant, _)| linked.overrides.iter().any(|known| known == constant));
         let constants: Vec<(&'static str, f64)> = used.collect();
         let bits = constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
-        let pipeline = self.compiled.pipelines.get_or_make((modules.to_vec(), bits), || {
+        let pipeline = self.compiled.pipelines.get_or_make((text, bits), || {
             let mut module = linked.module.clone();
             if let Some(rewriting) = &self.compiled.rewriting {
                 rewriting(&mut module, self.device.features());
             }
-            self.scoped(&format!("making kernel `{kernel}`"), 0, || {
+            self.scoped(&format!("making kernel `{name}`"), 0, || {
                 let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(kernel),
+                    label: Some(name),
                     source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
                 });
                 self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some(kernel),
+                    label: Some(name),
                     layout: None,
                     module: &module,
-                    entry_point: Some("main"),
+                    entry_point: Some(entry.name()),
                     compilation_options: wgpu::PipelineCompilationOptions {
                         constants: &constants,
                         // Every kernel writes workgroup memory before it reads it.

@@ -1,5 +1,7 @@
 //! What can go wrong between the program and the adapter.
 
+use crate::shaders::Unlinked;
+
 /// A failure of the graphics layer.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -96,5 +98,17 @@ fn driver_hint() -> &'static str {
         "install your graphics card's driver; DirectX 12 or Vulkan is needed"
     } else {
         "Metal (macOS 10.13 or later) is needed"
+    }
+}
+
+impl GpuError {
+    /// A kernel that does not link.
+    #[must_use]
+    pub fn unlinked(kernel: &str, unlinked: Unlinked) -> Self {
+        Self::Shader {
+            kernel: kernel.to_owned(),
+            place: format!("shaders/{}", unlinked.place),
+            reason: unlinked.reason,
+        }
     }
 }

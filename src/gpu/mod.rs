@@ -6,7 +6,6 @@ mod device;
 mod environment;
 mod error;
 mod shader;
-mod shader_library;
 
 pub use adapter::{AdapterChoice, AdapterDescription, list_adapters};
 pub use compiled::Rewriting;
@@ -14,5 +13,4 @@ pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
 pub use environment::prepare_environment;
 pub use error::GpuError;
-pub use shader::{Binding, LinkedShader, link, link_texts};
-pub use shader_library::{module_names, module_text};
+pub use shader::{Binding, LinkedShader, link, validate};

@@ -1,9 +1,9 @@
-//! Linking: modules of plain WGSL joined into one text, with the way back from an error to its file.
+//! Kernels linked, parsed and validated, with the way back from an error to its file.
 
 use std::collections::BTreeMap;
 
 use super::GpuError;
-use super::shader_library::module_text;
+use crate::shaders::{Choices, Entry, LinkedText, linked_text};
 
 /// A storage buffer or a texture that a kernel uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,12 +16,12 @@ pub struct Binding {
     pub texture: bool,
 }
 
-/// A kernel's modules joined, parsed and validated.
+/// A kernel parsed and validated.
 #[derive(Debug)]
 pub struct LinkedShader {
     /// The parsed module.
     pub module: naga::Module,
-    /// The buffers and textures that the entry point `main` uses, directly or through functions it calls.
+    /// The buffers and textures that the entry point uses, directly or through functions it calls.
     pub bindings: Vec<Binding>,
     /// Names of all override constants.
     pub overrides: Vec<String>,
@@ -29,78 +29,63 @@ pub struct LinkedShader {
     pub layout: BTreeMap<(String, String), u32>,
 }
 
-/// Joins, parses and validates the modules of a kernel.
+/// Links, parses and validates a kernel; `name` is what errors call it.
 ///
 /// # Errors
 /// [`GpuError::Shader`] that names the file and the line.
-pub fn link(kernel: &str, modules: &[&str]) -> Result<LinkedShader, GpuError> {
-    let texts: Vec<(&str, &str)> = modules
-        .iter()
-        .map(|&name| match module_text(name) {
-            Some(text) => Ok((name, text)),
-            None => Err(GpuError::Shader {
-                kernel: kernel.to_owned(),
-                place: format!("shaders/{name}.wgsl"),
-                reason: "there is no such module".to_owned(),
-            }),
-        })
-        .collect::<Result<_, _>>()?;
-    link_texts(kernel, &texts)
+pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader, GpuError> {
+    let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
+    validate(name, entry.name(), &linked)
 }
 
-/// The same for modules given as `(name, text)`.
+/// Parses and validates the text of a kernel.
 ///
 /// ```
-/// use mesoscope::gpu::link_texts;
+/// use mesoscope::gpu::validate;
+/// use mesoscope::shaders::Library;
 ///
-/// let data = ("common/data", "@group(0) @binding(0) var<storage, read_write> data: array<u32>;");
-/// let kernel = |statement: &str| format!("@compute @workgroup_size(1)\nfn main() {{\n    {statement};\n}}");
-/// let linked = link_texts("double", &[data, ("kernels/double", &kernel("data[0] *= 2u"))])?;
-/// assert_eq!(linked.bindings[0].name, "data");
+/// let kernel = |statement: &str| -> &'static str {
+///     format!("@compute @workgroup_size(1)\nfn double() {{\n    {statement};\n}}").leak()
+/// };
+/// let data = ("core/data", "var<storage, read_write> data: array<u32>;");
+/// let library = Library::new(&[data, ("core/double", kernel("data[0] *= 2u"))])?;
+/// let shader = validate("double", "double", &library.link("double", &[])?)?;
+/// assert_eq!(shader.bindings[0].name, "data");
 ///
-/// let slip = link_texts("double", &[data, ("kernels/double", &kernel("date[0] *= 2u"))]);
-/// assert!(slip.is_err_and(|error| error.to_string().contains("kernels/double.wgsl:3")));
-/// # Ok::<(), mesoscope::gpu::GpuError>(())
+/// let library = Library::new(&[data, ("core/double", kernel("data[0] *= 2f"))])?;
+/// let slip = validate("double", "double", &library.link("double", &[])?);
+/// assert!(slip.is_err_and(|error| error.to_string().contains("core/double.wgsl:3")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 /// [`GpuError::Shader`] that names the file and the line.
-pub fn link_texts(kernel: &str, modules: &[(&str, &str)]) -> Result<LinkedShader, GpuError> {
-    let failure = |place: String, reason: String| GpuError::Shader { kernel: kernel.to_owned(), place, reason };
-    let mut text = String::new();
-    let mut starts = Vec::new();
-    for &(name, part) in modules {
-        starts.push((text.lines().count() as u32, name));
-        text.push_str(part);
-        if !part.ends_with('\n') {
-            text.push('\n');
-        }
-    }
+pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedShader, GpuError> {
+    let failure = |place: String, reason: String| GpuError::Shader { kernel: name.to_owned(), place, reason };
+    let text = linked.text.as_str();
     let place = |line: u32| {
-        let (start, name) = starts
-            .iter()
-            .rev()
-            .find(|(start, _)| *start < line)
-            .copied()
-            .unwrap_or((0, modules.first().map_or("", |(name, _)| name)));
-        format!("shaders/{name}.wgsl:{}", line - start)
+        let part = linked.parts.iter().rev().find(|part| part.begins <= line);
+        part.map_or_else(
+            || "shaders".to_owned(),
+            |part| format!("shaders/{}.wgsl:{}", part.path, part.line + line - part.begins),
+        )
     };
-    let module = naga::front::wgsl::parse_str(&text).map_err(|error| {
-        let line = error.location(&text).map_or(1, |location| location.line_number);
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| {
+        let line = error.location(text).map_or(1, |location| location.line_number);
         failure(place(line), error.message().to_owned())
     })?;
     let info = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all())
         .validate(&module)
         .map_err(|error| {
-            let line = error.spans().next().map_or(1, |(span, _)| span.location(&text).line_number);
+            let line = error.spans().next().map_or(1, |(span, _)| span.location(text).line_number);
             failure(place(line), chain(error.as_inner()))
         })?;
-    let entry = module
+    let index = module
         .entry_points
         .iter()
-        .position(|entry| entry.name == "main")
-        .ok_or_else(|| failure(place(1), "there is no entry point `main`".to_owned()))?;
-    let used = info.get_entry_point(entry);
+        .position(|known| known.name == entry)
+        .ok_or_else(|| failure(place(1), format!("there is no entry point `{entry}`")))?;
+    let used = info.get_entry_point(index);
     let mut bindings: Vec<Binding> = module
         .global_variables
         .iter()

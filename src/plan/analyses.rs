@@ -7,6 +7,8 @@ use crate::scene::{
     AnalysisId, Autocorrelation, ChainSizes, CorrelatedQuantity, CountedQuantity, Diffusion, Frame, Histogram, Output,
     Viscosity,
 };
+use crate::shaders::analyses::{Counted, Frame as CentreFrame, Sampled};
+use crate::shaders::{Choices, Entry};
 use std::f64::consts::PI;
 
 /// Workgroups that count into one histogram: more of them write more often to the same entries.
@@ -28,10 +30,8 @@ pub(crate) struct Reported<'a> {
     pub equilibration: u64,
     /// Lanes of a workgroup.
     pub workgroup: u64,
-    /// Modules of the vector space and of the stored particle.
-    pub space: Vec<&'static str>,
-    /// The modules that know the masses: `inverse_mass_at` and, of particles whose species tells it, `inverse_mass_of`.
-    pub masses: Vec<&'static str>,
+    /// The vector space, the stored particle, and where its mass is found.
+    pub choices: Choices,
     /// The buffer of particles by id.
     pub particles: &'static str,
     /// The buffer of momenta by id, where velocities are not to be taken from the particles; there only if
@@ -157,7 +157,8 @@ fn acceleration_scale(model: &Model) -> f64 {
 /// What distinguishes one sampler of sums from another.
 struct SumSampler {
     id: AnalysisId,
-    modules: Vec<&'static str>,
+    entry: Entry,
+    choices: Choices,
     constants: Vec<(&'static str, f64)>,
     renamed: Vec<(&'static str, &'static str)>,
     before: Vec<usize>,
@@ -181,19 +182,9 @@ impl Builder<'_> {
         self.plan.particles.div_ceil(self.reported.workgroup).max(1)
     }
 
-    /// The modules that read a particle, and these.
-    fn modules(&self, more: &[&'static str]) -> Vec<&'static str> {
-        let mut modules = self.reported.space.clone();
-        modules.push("common/particles");
-        modules.push("common/sum64");
-        modules.extend(&self.reported.masses);
-        modules.extend(more);
-        modules
-    }
-
-    /// The module that reads the velocity of a particle.
-    fn velocity(&self) -> &'static str {
-        if self.reported.momenta.is_some() { "common/sampled_momentum" } else { "common/sampled_velocity" }
+    /// How the velocity of a particle is read.
+    fn velocity(&self) -> Sampled {
+        if self.reported.momenta.is_some() { Sampled::Momentum } else { Sampled::Velocity }
     }
 
     /// Where the variables of particles, momenta and forces are found, and these.
@@ -210,11 +201,10 @@ impl Builder<'_> {
     /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
     fn sums(&mut self, sampler: SumSampler) {
         let groups = self.groups();
-        let modules = [&["common/reduce"][..], &sampler.modules].concat();
         let renamed = [&[("partial_sums", sampler.sums), ("samples", sampler.samples)][..], &sampler.renamed].concat();
         let sums = self.plan.add_kernel(
-            Kernel::new(sampler.id.name(), self.modules(&modules), groups)
-                .with(sampler.constants)
+            Kernel::new(sampler.id.name(), sampler.entry, self.reported.choices.clone().and(&sampler.choices), groups)
+                .with([&sampler.constants[..], &[("QUANTITIES", sampler.quantities as f64)]].concat())
                 .renamed(self.renamed(&renamed)),
         );
         let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
@@ -242,7 +232,8 @@ impl Builder<'_> {
         self.plan.add_buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
         self.sums(SumSampler {
             id: AnalysisId::Diffusion,
-            modules: vec!["common/crossings", "kernels/track"],
+            entry: Entry::TrackParticles,
+            choices: Choices::new(),
             constants: vec![
                 ("WINDOW", asked.window as f64),
                 ("DISPLACEMENT", 1.0 / quanta.length_squared),
@@ -262,7 +253,8 @@ impl Builder<'_> {
         let dimension = self.reported.model.units.dimension;
         self.sums(SumSampler {
             id: AnalysisId::Viscosity,
-            modules: vec!["common/elementary", "kernels/transverse_modes"],
+            entry: Entry::SumTransverseModes,
+            choices: Choices::new(),
             constants: Vec::new(),
             renamed: Vec::new(),
             before: Vec::new(),
@@ -281,12 +273,9 @@ impl Builder<'_> {
         self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.to_vec()));
         self.sums(SumSampler {
             id: AnalysisId::ChainSizes,
-            modules: vec!["common/turns_endless", "kernels/chain_sizes"],
-            constants: vec![
-                ("CHAINS", chains as f64),
-                ("QUANTITIES", quantities as f64),
-                ("CHAIN_LENGTH", 1.0 / self.plan.quanta.length_squared),
-            ],
+            entry: Entry::MeasureChains,
+            choices: Choices::new(),
+            constants: vec![("CHAINS", chains as f64), ("CHAIN_LENGTH", 1.0 / self.plan.quanta.length_squared)],
             renamed: Vec::new(),
             before: Vec::new(),
             sums: "chain_sums",
@@ -297,24 +286,26 @@ impl Builder<'_> {
         });
     }
 
-    /// The module of the frame of velocities, and the kernels that have to run before it can be used.
-    fn frame(&mut self, asked: Option<Frame>) -> (&'static str, Vec<usize>) {
+    /// Velocities in their frame, and the kernels that have to run before they can be read.
+    fn velocities(&mut self, asked: Option<Frame>) -> (Choices, Vec<usize>) {
+        let velocity = Choices::new().with(self.velocity());
         let model = self.reported.model;
         let natural = if model.conserves_momentum() { Frame::Box } else { Frame::CentreOfMass };
         if asked.unwrap_or(natural) == Frame::Box {
-            return ("common/frame_box", Vec::new());
+            return (velocity, Vec::new());
         }
         if let Some(kernels) = &self.centre {
-            return ("common/frame_centre", kernels.clone());
+            return (velocity.with(CentreFrame::CentreOfMass), kernels.clone());
         }
         let groups = self.groups();
         let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
         let sums = self.plan.add_kernel(
-            Kernel::new("sum_momenta", self.modules(&["common/reduce", "kernels/sum_momenta"]), groups)
+            Kernel::new("sum_momenta", Entry::SumMomenta, self.reported.choices.clone(), groups)
+                .with(vec![("QUANTITIES", 3.0)])
                 .renamed(self.renamed(&[("partial_sums", "momentum_sums")])),
         );
         let find = self.plan.add_kernel(
-            Kernel::new("find_centre", vec!["common/dispatch", "common/sum64", "kernels/find_centre"], 1)
+            Kernel::new("find_centre", Entry::FindCentre, Choices::new(), 1)
                 .with(vec![
                     ("GROUPS", groups as f64),
                     ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
@@ -324,7 +315,7 @@ impl Builder<'_> {
         self.plan.add_buffer("momentum_sums", "sums of each workgroup", 24 * groups);
         self.plan.add_buffer("centre", "velocity of the centre of mass", 16);
         self.centre = Some(vec![sums, find]);
-        ("common/frame_centre", vec![sums, find])
+        (velocity.with(CentreFrame::CentreOfMass), vec![sums, find])
     }
 
     fn autocorrelation(&mut self, asked: &Autocorrelation) {
@@ -333,21 +324,22 @@ impl Builder<'_> {
             CorrelatedQuantity::Force => self.reported.force_unit,
         };
         let quantum = correlation_quantum(self.plan, asked.quantity);
-        let (modules, before, [origins, sums, samples]) = match asked.quantity {
+        let (choices, before, [origins, sums, samples]) = match asked.quantity {
             CorrelatedQuantity::Velocity => {
-                let (frame, before) = self.frame(asked.frame);
+                let (velocities, before) = self.velocities(asked.frame);
                 let names = ["velocity_origins", "velocity_products", "velocity_product_samples"];
-                (vec![frame, self.velocity()], before, names)
+                (velocities, before, names)
             }
             CorrelatedQuantity::Force => {
                 let names = ["force_origins", "force_products", "force_product_samples"];
-                (vec!["common/sampled_force"], Vec::new(), names)
+                (Choices::new().with(Sampled::Force), Vec::new(), names)
             }
         };
         self.plan.add_buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
         self.sums(SumSampler {
             id: AnalysisId::Autocorrelation(asked.quantity),
-            modules: [&modules[..], &["common/sum64_signed", "kernels/correlate"]].concat(),
+            entry: Entry::CorrelateVectors,
+            choices,
             constants: vec![("WINDOW", asked.window as f64), ("PRODUCT", unit * unit / quantum)],
             renamed: vec![("origins", origins)],
             before,
@@ -361,19 +353,19 @@ impl Builder<'_> {
 
     fn histogram(&mut self, asked: &Histogram) {
         let model = self.reported.model;
-        let (unit, modules, before, [counts, samples]) = match asked.quantity {
+        let (unit, choices, before, [counts, samples]) = match asked.quantity {
             CountedQuantity::Velocity | CountedQuantity::Speed => {
-                let (frame, before) = self.frame(asked.frame);
+                let (velocities, before) = self.velocities(asked.frame);
                 let names = if asked.quantity == CountedQuantity::Velocity {
                     ["velocity_counts", "velocity_count_samples"]
                 } else {
                     ["speed_counts", "speed_count_samples"]
                 };
-                (model.units.momentum, vec![frame, self.velocity()], before, names)
+                (model.units.momentum, velocities, before, names)
             }
             CountedQuantity::Acceleration => {
                 let names = ["acceleration_counts", "acceleration_count_samples"];
-                (self.reported.force_unit, vec!["common/sampled_acceleration"], Vec::new(), names)
+                (self.reported.force_unit, Choices::new().with(Sampled::Acceleration), Vec::new(), names)
             }
         };
         let magnitude = asked.quantity == CountedQuantity::Speed;
@@ -395,15 +387,15 @@ impl Builder<'_> {
             ("GROUPS", groups as f64),
         ];
         let counted = if magnitude {
-            "common/counted_magnitude"
+            Counted::Magnitude
         } else {
             constants.extend([("FIRST_AXIS", axes[0] as f64), ("END_AXIS", axes[1] as f64)]);
-            "common/counted_components"
+            Counted::Components
         };
-        let modules = [&modules[..], &[counted, "common/sum64_signed", "kernels/histogram"]].concat();
+        let choices = self.reported.choices.clone().and(&choices).with(counted);
         let id = AnalysisId::Histogram(asked.quantity);
         let count = self.plan.add_kernel(
-            Kernel::new(id.name(), self.modules(&modules), groups)
+            Kernel::new(id.name(), Entry::CountHistogram, choices, groups)
                 .with(constants)
                 .renamed(self.renamed(&[("histogram", counts)])),
         );

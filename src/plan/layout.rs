@@ -435,7 +435,7 @@ fn unpack_particles(
     Ok(())
 }
 
-/// Words of all Voronoi cells in an order of their numbers, as `shaders/common/cell.wgsl` declares them.
+/// Words of all Voronoi cells in an order of their numbers, as `shaders/voronoi/cell.wgsl` declares them.
 fn pack_cells(state: &State, order: &[usize], energies: bool) -> Result<Vec<u32>, Misfit> {
     if state.masses.len() != state.len() {
         return Err("masses are".into());
@@ -514,7 +514,7 @@ impl Listed {
         for pair in &state.pair_baths {
             let ends = [pair.first, pair.second].map(|id| slots.get(id as usize).copied());
             let [Some(first), Some(second)] = ends else { return Err("particles of remembered pairs are".into()) };
-            // The rule of `shaders/kernels/list.wgsl`.
+            // The rule of `shaders/couplings/list.wgsl`.
             let odd = pair.first.wrapping_add(pair.second) & 1 == 1;
             let (owner, other) = if odd { (first, second) } else { (second, first) };
             let entry = neighbours[owner] as usize;

@@ -22,9 +22,13 @@ pub use precision::check_precision;
 pub use table::Table;
 pub use texture::Texture;
 
+use std::collections::BTreeSet;
+
 use crate::families::Model;
-use crate::noise;
+use crate::noise::{self, Generator};
 use crate::scene::{AnalysisId, Distribution, Output};
+use crate::shaders::noise::Deviate;
+use crate::shaders::{self, Choices, Entry};
 use crate::state::Units;
 
 /// Makes the plan of a model.
@@ -40,7 +44,7 @@ use crate::state::Units;
 /// assert_eq!((plan.particles, plan.cells), (24_000, [20, 20, 20]));
 /// assert!(plan.samplers[0].due(40) && !plan.samplers[0].due(41));
 /// for kernel in plan.sort.iter().chain(&plan.advance).map(|&index| &plan.kernels[index]) {
-///     mesoscope::gpu::link(kernel.name, &kernel.modules)?;
+///     mesoscope::gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -52,18 +56,6 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
     }
     plan
 }
-
-/// Modules that put particles into the cells of a grid, and note nothing beside.
-pub(crate) const ARRANGE: [&str; 8] = [
-    "common/cells_plain",
-    "common/cells_buffer",
-    "common/ranks",
-    "common/sorted",
-    "common/anchors_off",
-    "common/origins_off",
-    "common/slots_off",
-    "kernels/arrange",
-];
 
 /// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
 pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
@@ -197,8 +189,10 @@ pub enum Storage {
 pub struct Kernel {
     /// What it does, in a word or two.
     pub name: &'static str,
-    /// Shader modules, as `folder/name`.
-    pub modules: Vec<&'static str>,
+    /// Its entry point.
+    pub entry: Entry,
+    /// The variants chosen for it; those of slots that it does not come to mean nothing.
+    pub choices: Choices,
     /// Number of workgroups.
     pub workgroups: u32,
     /// Where its number of workgroups is in the buffer `demands`, in threes of words, if it depends on the step.
@@ -376,19 +370,55 @@ pub struct Plan {
     pub operations_per_particle: f64,
 }
 
-/// Modules of the noise of a pair or a mesh node, beside those of the random words.
-pub(crate) fn noise_modules(distribution: Distribution) -> &'static [&'static str] {
+/// The shader of the noise of a pair or a mesh node.
+pub(crate) fn deviate(distribution: Distribution) -> Deviate {
     match distribution {
-        Distribution::Uniform => &["common/noise_uniform"],
-        Distribution::Gaussian => &["common/noise_gaussian", "common/gaussian", "common/elementary"],
+        Distribution::Uniform => Deviate::Uniform,
+        Distribution::Gaussian => Deviate::Gaussian,
+    }
+}
+
+/// The shader that draws random words.
+pub(crate) fn words(generator: Generator) -> shaders::noise::Generator {
+    match generator {
+        Generator::Pcg4d => shaders::noise::Generator::Pcg4d,
+        Generator::Threefry2x32 => shaders::noise::Generator::Threefry,
     }
 }
 
 impl Kernel {
     /// A kernel of at least one workgroup, without constants of its own.
-    pub(crate) fn new(name: &'static str, modules: Vec<&'static str>, workgroups: u64) -> Self {
-        let workgroups = workgroups.max(1) as u32;
-        Self { name, modules, workgroups, demand: None, constants: Vec::new(), renamed: Vec::new(), takes_long: false }
+    pub(crate) fn new(name: &'static str, entry: Entry, choices: Choices, workgroups: u64) -> Self {
+        Self {
+            name,
+            entry,
+            choices,
+            workgroups: workgroups.max(1) as u32,
+            demand: None,
+            constants: Vec::new(),
+            renamed: Vec::new(),
+            takes_long: false,
+        }
+    }
+
+    /// Paths of the pages and variants that it comes to, below `shaders` and without extensions.
+    ///
+    /// ```
+    /// use mesoscope::families::Model;
+    /// use mesoscope::plan::{Hardware, Options, plan};
+    ///
+    /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let step = &plan.kernels[plan.advance[0]];
+    /// assert!(step.files()?.contains("pairs/friction/relaxation"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`shaders::Unlinked`] if it does not link.
+    pub fn files(&self) -> Result<BTreeSet<&'static str>, shaders::Unlinked> {
+        let linked = shaders::linked_text(self.entry, &self.choices)?;
+        Ok(linked.parts.iter().map(|part| part.path).collect())
     }
 
     /// The same with constants of its own.
@@ -471,9 +501,9 @@ impl Plan {
         self.kernels.len() - 1
     }
 
-    /// Adds a kernel unless one of its name and modules is there already, and says which it is.
+    /// Adds a kernel unless the same is there already, and says which it is.
     pub(crate) fn add_kernel_once(&mut self, kernel: Kernel) -> usize {
-        let same = |known: &Kernel| known.name == kernel.name && known.modules == kernel.modules;
+        let same = |known: &Kernel| known.entry == kernel.entry && known.choices == kernel.choices;
         self.kernels.iter().position(same).unwrap_or_else(|| self.add_kernel(kernel))
     }
 

@@ -4,6 +4,8 @@ use super::recording::record_histogram;
 use super::serial_memory::TURNS;
 use super::{Grid, Kernel, Options, Plan, Sampler, SamplerId};
 use crate::scene::{AnalysisId, RadialDistribution};
+use crate::shaders::core::Dispatches;
+use crate::shaders::{Choices, Entry};
 use crate::state::Units;
 
 /// Histograms kept on the device between two readbacks.
@@ -31,25 +33,16 @@ pub(crate) struct PairHistogram<'a> {
 }
 
 impl PairHistogram<'_> {
-    /// Adds the kernel, whose `modules` know the ordered particles, what records its counts, and the sampler. `kernels` order
-    /// the particles, if need be.
-    pub fn add(
-        self,
-        plan: &mut Plan,
-        mut modules: Vec<&'static str>,
-        mut kernels: Vec<usize>,
-        first: u64,
-        needs_report: bool,
-    ) {
+    /// Adds the kernel, which finds the ordered particles by its `choices`, what records its counts, and the sampler. `kernels`
+    /// order the particles, if need be.
+    pub fn add(self, plan: &mut Plan, choices: &Choices, mut kernels: Vec<usize>, first: u64, needs_report: bool) {
         let bins = u64::from(self.asked.bins);
-        let span = if self.grid.dimension == 3 { "common/span3" } else { "common/span2" };
-        modules.extend(["common/contact", span, "common/turns_endless", "kernels/pair_histogram"]);
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
         let shares = self.grid.rows() * segments * parts;
         let (dispatches, takes_long) = self.dispatches(plan.particles, spans);
         let dispatches = dispatches.min(shares);
-        modules.push(if dispatches > 1 { "common/shares_in_turn" } else { "common/shares_at_once" });
+        let choices = choices.clone().with_if(dispatches > 1, Dispatches::InTurn);
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
             ("BINS", bins as f64),
@@ -63,10 +56,11 @@ impl PairHistogram<'_> {
         if dispatches > 1 {
             constants.push(("SHARES", shares as f64));
         }
-        let kernel = Kernel::new("pair_histogram", modules, shares).with(constants);
+        let kernel =
+            Kernel::new("pair_histogram", Entry::CountPairsByDistance, choices.clone(), shares).with(constants);
         let count = plan.add_kernel(Kernel { takes_long, ..kernel });
         if dispatches > 1 {
-            let next = Kernel::new("next_dispatch", vec!["kernels/next_dispatch"], 1);
+            let next = Kernel::new("next_dispatch", Entry::NextDispatch, choices, 1);
             let next = plan.add_kernel(next.with(vec![("DISPATCHES", dispatches as f64)]));
             kernels.extend([count, next].repeat(dispatches as usize));
             plan.add_buffer("dispatches_done", "dispatches of a histogram that have run", 4);

@@ -1,18 +1,15 @@
 //! The prefix sum over cells, which tells where each of them begins among the ordered particles.
 
 use super::{Kernel, Options};
+use crate::shaders::{Choices, Entry};
 
 /// Cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_CELLS: u64 = 1 << 14;
 
 /// What the kernels of a prefix sum are made of.
 pub(crate) struct PrefixSum<'a> {
-    /// Modules of every kernel, those that know rows and cells among them.
-    pub modules: Vec<&'static str>,
-    /// Modules that sum up a row.
-    pub row_scan: &'static [&'static str],
-    /// Modules that begin the step, or `common/same_step` where it has begun.
-    pub clock: &'a [&'static str],
+    /// What is chosen for every kernel: how cells lie in rows, and whether the sum begins a step.
+    pub choices: &'a Choices,
     /// Rows of cells.
     pub rows: u64,
     /// Cells.
@@ -22,18 +19,14 @@ pub(crate) struct PrefixSum<'a> {
 impl PrefixSum<'_> {
     /// The kernels, in order.
     pub fn kernels(&self, options: Options) -> Vec<Kernel> {
-        let kernel = |name, more: &[&[&'static str]], workgroups| {
-            Kernel::new(name, [&self.modules[..], &more.concat()].concat(), workgroups)
-        };
-        let lanes = &["common/scan_wide", "common/workgroup_scan"];
+        let kernel = |name, entry, workgroups| Kernel::new(name, entry, self.choices.clone(), workgroups);
         if !needs_levels(self.cells, options) {
-            let all_rows = &["common/scan_all_rows", "kernels/scan"];
-            return vec![kernel("scan", &[self.row_scan, lanes, self.clock, all_rows], 1)];
+            return vec![kernel("scan", Entry::ScanCells, 1)];
         }
         vec![
-            kernel("scan_blocks", &[self.row_scan, lanes, &["kernels/scan_blocks"]], self.rows.div_ceil(256)),
-            kernel("scan_tops", &[lanes, self.clock, &["kernels/scan_tops"]], 1),
-            kernel("scan_rows", &[self.row_scan, &["kernels/scan_rows"]], self.rows.div_ceil(options.workgroup())),
+            kernel("scan_blocks", Entry::ScanBlocks, self.rows.div_ceil(256)),
+            kernel("scan_tops", Entry::ScanTops, 1),
+            kernel("scan_rows", Entry::ScanRows, self.rows.div_ceil(options.workgroup())),
         ]
     }
 }

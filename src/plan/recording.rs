@@ -1,20 +1,20 @@
 //! Kernels that put what others have summed up into rows of samples, where the host reads them.
 
 use super::{Kernel, Plan, Sampler, SamplerId};
+use crate::shaders::{Choices, Entry};
 
 /// Rows of samples kept on the device between two readbacks.
 pub(crate) const SAMPLE_ROWS: u64 = 1024;
 
 /// The kernel that adds up the sums of all workgroups and records them.
 pub(crate) fn record_sums(name: &'static str, quantities: u64, groups: u64) -> Kernel {
-    Kernel::new(name, vec!["common/control", "common/dispatch", "common/sum64", "kernels/record_sample"], 1)
+    Kernel::new(name, Entry::RecordSample, Choices::new(), 1)
         .with(vec![("QUANTITIES", quantities as f64), ("GROUPS", groups as f64)])
 }
 
 /// The kernel that records a histogram and clears it.
 pub(crate) fn record_histogram(bins: u64) -> Kernel {
-    Kernel::new("record_histogram", vec!["common/control", "common/dispatch", "kernels/record_histogram"], 1)
-        .with(vec![("BINS", bins as f64)])
+    Kernel::new("record_histogram", Entry::RecordHistogram, Choices::new(), 1).with(vec![("BINS", bins as f64)])
 }
 
 impl Plan {

@@ -18,7 +18,7 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Texels in a row, as `shaders/common/texels.wgsl` has it: short enough that what fills up the last row is little.
+    /// Texels in a row, as `shaders/core/texels.wgsl` has it: short enough that what fills up the last row is little.
     pub const ROW: u64 = 4096;
 
     /// Rows that every adapter has.

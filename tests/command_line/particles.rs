@@ -351,13 +351,13 @@ fn check_prints_the_plan() {
     {
         assert!(short.contains(part), "`{part}` is not in: {short}");
     }
-    assert!(!short.contains("kernels/scatter"), "{short}");
+    assert!(!short.contains("scatter_particles"), "{short}");
     let said = succeeds(&["check", &place.scene(), "--kernels"]);
     for part in [
         "small fluid",
         "375 in 3 dimensions, box 5 × 5 × 5",
         "scatter",
-        "kernels/scatter",
+        "scatter_particles",
         "CELLS_X = 5",
         "bytes a particle",
         "operations a particle",
@@ -367,6 +367,9 @@ fn check_prints_the_plan() {
     ] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
+    let shader = succeeds(&["check", &place.scene(), "--shader", "scatter"]);
+    assert!(shader.contains("// shaders/grid/bin.wgsl:") && shader.contains("fn scatter_particles("), "{shader}");
+    fails(&["check", &place.scene(), "--shader", "scater"], 2, &["no kernel `scater`; it has ", "scatter"]);
     // What the scene leaves out is not there, and what deserves a second look is named.
     let said = succeeds(&[
         "check",
@@ -379,7 +382,7 @@ fn check_prints_the_plan() {
         "--set",
         "output.radial_distribution=null",
     ]);
-    assert!(said.contains("common/repulsion_off") && !said.contains("pair_histogram"), "{said}");
+    assert!(!said.contains("pairs/repulsion") && !said.contains("pair_histogram"), "{said}");
     assert!(said.contains("warning: space.box[2]"), "{said}");
 }
 

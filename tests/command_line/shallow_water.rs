@@ -365,7 +365,7 @@ fn check_says_what_the_scene_requires() {
         "of the limit",
         "deposit",
         "smooth rows",
-        "passes/push",
+        "mesh/pass/push",
         "node_masses",
         "depth.png",
         "potential_vorticity.npy",

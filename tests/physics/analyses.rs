@@ -267,7 +267,7 @@ fn forces_cost_nothing_unless_they_are_asked_for() {
         assert!(without.buffers.iter().all(|buffer| buffer.name != "reported_forces"));
         let nothing = plan(&[]);
         assert!(nothing.buffers.iter().all(|buffer| !buffer.name.starts_with("reported")));
-        assert!(without.kernels.iter().all(|kernel| !kernel.modules.contains(&"common/force_on")));
+        assert!(without.kernels.iter().all(|kernel| !kernel.files().unwrap().contains("pairs/reported_force/kept")));
         let with = plan(&[r#"output.autocorrelations=[{"quantity":"force","every":1,"window":2}]"#]);
         assert!(with.buffers.iter().any(|buffer| buffer.name == "reported_forces"));
         // Only a report writes them: kernels of a step without one are the same.

@@ -1,5 +1,7 @@
 //! Voronoi DPD on the device: exact laws, single steps against the reference, temperatures.
 
+use std::collections::BTreeSet;
+
 use mesoscope::engine::EngineError;
 use mesoscope::families::reference::VoronoiReference;
 use mesoscope::families::{Instability, Model};
@@ -309,29 +311,28 @@ fn failures_name_the_cell() {
 /// A scene pays for nothing that it does not ask for.
 #[test]
 fn plans_hold_what_a_scene_asks_for() {
-    let modules = |changes: &[&str]| -> Vec<&'static str> {
+    let files = |changes: &[&str]| -> BTreeSet<&'static str> {
         let scene = cells(100, changes);
         let (_, state) = start(&scene);
         let engine = engine(&scene, &state, Options::default());
-        engine.plan().kernels.iter().flat_map(|kernel| kernel.modules.clone()).collect()
+        engine.plan().kernels.iter().flat_map(|kernel| kernel.files().unwrap()).collect()
     };
-    let has = |modules: &[&str], module: &str| modules.contains(&module);
-    let plain = modules(&[]);
-    assert!(has(&plain, "common/face_noise") && has(&plain, "kernels/friction_solve"));
-    for module in ["common/conduction_on", "common/gas_energy", "kernels/predict", "common/note_by_id"] {
-        assert!(!has(&plain, module), "{module}");
+    let plain = files(&[]);
+    assert!(plain.contains("voronoi/random_impulse/thermal") && plain.contains("voronoi/friction"));
+    for file in ["voronoi/conduction/heat", "voronoi/gas/energy", "voronoi/predict", "voronoi/note/by_id"] {
+        assert!(!plain.contains(file), "{file}");
     }
-    let inviscid = modules(&["interactions.0.viscosity=0"]);
-    for module in ["common/face_noise", "common/rubbing_on", "kernels/friction_setup"] {
-        assert!(!has(&inviscid, module), "{module}");
+    let inviscid = files(&["interactions.0.viscosity=0"]);
+    for file in ["voronoi/random_impulse/thermal", "voronoi/rubbing/viscous", "voronoi/friction"] {
+        assert!(!inviscid.contains(file), "{file}");
     }
-    let cold = modules(&["temperature=0"]);
-    assert!(has(&cold, "common/rubbing_on"));
-    for module in ["common/face_noise", "common/limit_on", "common/turn_bounded"] {
-        assert!(!has(&cold, module), "{module}");
+    let cold = files(&["temperature=0"]);
+    assert!(cold.contains("voronoi/rubbing/viscous"));
+    for file in ["voronoi/random_impulse/thermal", "voronoi/limit/counted", "voronoi/turn_bound/bounded"] {
+        assert!(!cold.contains(file), "{file}");
     }
-    let warm = modules(&[r#"interactions.0.energy={"conductivity":0}"#]);
-    assert!(has(&warm, "kernels/predict") && !has(&warm, "common/conduction_on"));
+    let warm = files(&[r#"interactions.0.energy={"conductivity":0}"#]);
+    assert!(warm.contains("voronoi/predict") && !warm.contains("voronoi/conduction/heat"));
 }
 
 /// Analyses take each cell's own mass.

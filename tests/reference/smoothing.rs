@@ -91,7 +91,7 @@ impl Device {
             assert!(buffers.insert(buffer.name, made).is_none(), "`{}` twice", buffer.name);
         }
         let stages = kernels.iter().map(|kernel| {
-            let linked = link(kernel.name, &kernel.modules).unwrap();
+            let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap();
             let mut constants = kernel.constants.clone();
             constants.push(("WORKGROUP", options.workgroup() as f64));
             constants.retain(|(name, _)| linked.overrides.iter().any(|known| known == name));
@@ -103,7 +103,7 @@ impl Device {
                 label: None,
                 layout: None,
                 module: &module,
-                entry_point: Some("main"),
+                entry_point: Some(kernel.entry.name()),
                 compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
                 cache: None,
             });

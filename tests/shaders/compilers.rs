@@ -8,12 +8,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
 
-use mesoscope::gpu::module_text;
 use mesoscope::plan::{Kernel, Plan};
 use naga::back::{pipeline_constants::process_overrides, spv};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use crate::variants::{plans, report, shader};
+use crate::variants::{plans, report, shader, text};
 
 /// Passes the harness, which keeps to itself what tests that succeed print.
 fn skip(test: &str, reason: &str) {
@@ -25,21 +24,21 @@ fn kernels() -> Vec<(&'static Kernel, &'static Plan)> {
     let mut distinct = BTreeMap::new();
     for (_, plan) in plans() {
         for kernel in &plan.kernels {
-            distinct.entry(&kernel.modules).or_insert((kernel, plan));
+            distinct.entry(text(kernel)).or_insert((kernel, plan));
         }
     }
     distinct.into_values().collect()
 }
 
-/// As few of the kernels as have every entry point beside every module that it can be beside.
+/// As few of the kernels as have every entry point with every file that it can come to.
 fn covering() -> Vec<(&'static Kernel, &'static Plan)> {
     let mut covered = BTreeSet::new();
     let mut chosen = kernels();
-    // Those of many modules first: fewer are needed.
-    chosen.sort_by_key(|(kernel, _)| std::cmp::Reverse(kernel.modules.len()));
+    // Those of many files first: fewer are needed.
+    chosen.sort_by_cached_key(|(kernel, _)| std::cmp::Reverse(kernel.files().unwrap().len()));
     chosen.retain(|(kernel, _)| {
         let before = covered.len();
-        covered.extend(kernel.modules.iter().map(|module| (kernel.name, kernel.modules.last(), *module)));
+        covered.extend(kernel.files().unwrap().into_iter().map(|file| (kernel.entry, file)));
         covered.len() > before
     });
     chosen
@@ -53,7 +52,7 @@ fn spirv(kernel: &Kernel, plan: &Plan) -> Vec<u8> {
     let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
     let declared = constants.filter(|(name, _)| linked.overrides.iter().any(|known| known == name));
     let constants = declared.map(|(name, value)| ((*name).to_owned(), *value)).collect();
-    let entry = (naga::ShaderStage::Compute, "main");
+    let entry = (naga::ShaderStage::Compute, kernel.entry.name());
     let (module, info) = process_overrides(&linked.module, &info, Some(entry), &constants).unwrap();
     let options = spv::Options {
         lang_version: (1, 3),
@@ -85,9 +84,12 @@ fn validate(test: &str, kernels: &[(&Kernel, &Plan)]) {
     // The validator has to complain of something.
     assert!(complaint(b"not SPIR-V at all").is_some());
     let of_share = |share: &[(&Kernel, &Plan)]| -> BTreeMap<String, String> {
-        let complaints = share
-            .iter()
-            .filter_map(|(kernel, plan)| Some((complaint(&spirv(kernel, plan))?, kernel.modules.join(" "))));
+        let complaints = share.iter().filter_map(|(kernel, plan)| {
+            Some((
+                complaint(&spirv(kernel, plan))?,
+                format!("{:?} {}", kernel.entry, kernel.choices.paths().collect::<Vec<_>>().join(" ")),
+            ))
+        });
         complaints.collect()
     };
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
@@ -104,8 +106,7 @@ fn validate(test: &str, kernels: &[(&Kernel, &Plan)]) {
 fn portable_kernels() -> Vec<&'static Kernel> {
     let portable = |name: &str| name.contains("serial_memory=false") && !name.contains("Clusters");
     let plans = plans().iter().filter(|(name, _)| portable(name)).map(|(_, plan)| plan);
-    let kernels: BTreeMap<_, _> =
-        plans.flat_map(|plan| &plan.kernels).map(|kernel| (&kernel.modules, kernel)).collect();
+    let kernels: BTreeMap<_, _> = plans.flat_map(|plan| &plan.kernels).map(|kernel| (text(kernel), kernel)).collect();
     assert!(kernels.len() > 500, "only {} distinct kernels", kernels.len());
     kernels.into_values().collect()
 }
@@ -144,8 +145,7 @@ fn tint_takes_every_kernel_of_plans_for_any_adapter() {
     }
     let kernels = portable_kernels();
     for (number, kernel) in kernels.iter().enumerate() {
-        let text: Vec<&str> = kernel.modules.iter().map(|module| module_text(module).unwrap()).collect();
-        std::fs::write(folder.path().join(format!("{number}.wgsl")), text.join("\n")).unwrap();
+        std::fs::write(folder.path().join(format!("{number}.wgsl")), text(kernel)).unwrap();
     }
     let output = run(folder.path()).unwrap();
     assert!(

@@ -1,9 +1,9 @@
-//! The functions of random numbers that `shaders/common/elementary.wgsl` computes by itself, against double precision.
+//! The functions of random numbers that `shaders/noise/elementary.wgsl` computes by itself, against double precision.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use mesoscope::gpu::{Gpu, link_texts, module_text};
+use mesoscope::gpu::Gpu;
 use mesoscope::noise;
 
 use crate::support::compiler::{Compiler, Contraction, Deviation, Functions, kernel};
@@ -58,9 +58,8 @@ fn errors(found: &[[f32; 4]], first: u32, stride: u32) -> Errors {
 }
 
 fn module(compiler: Compiler, gpu: &Gpu) -> naga::Module {
-    let texts = ["common/elementary", "common/gaussian"].map(|name| (name, module_text(name).unwrap()));
-    let linked = link_texts("elementary", &[texts[0], texts[1], ("kernel", KERNEL)]).unwrap();
-    let mut module = linked.module;
+    let text = include_str!("../../shaders/noise/elementary.wgsl");
+    let mut module = naga::front::wgsl::parse_str(&format!("{text}{KERNEL}")).unwrap();
     compiler.rewrite(&mut module, gpu.device().features());
     module
 }

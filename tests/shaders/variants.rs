@@ -9,9 +9,10 @@ use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
-use mesoscope::gpu::{GpuError, LinkedShader, link, link_texts, module_names, module_text};
+use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::scene::Scene;
+use mesoscope::shaders::{Choices, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
 use crate::support::{INTEGRATORS, cells, fluid, water};
@@ -356,28 +357,62 @@ fn water_plans() -> Vec<(String, Plan)> {
 const WATER_TRACERS: &str = r#"particles=[{"species":"water","count":500,"velocities":{"type":"rest"}},
     {"species":"loop","count":100,"tracer":true,"placement":{"type":"circle","center":[1,1],"radius":0.5}}]"#;
 
-/// All distinct kernels of all plans, linked by as many threads as there are cores.
-fn linked() -> &'static HashMap<Vec<&'static str>, Result<LinkedShader, String>> {
-    static LINKED: OnceLock<HashMap<Vec<&'static str>, Result<LinkedShader, String>>> = OnceLock::new();
-    LINKED.get_or_init(|| {
-        let distinct: BTreeMap<&[&'static str], &Kernel> =
-            plans().iter().flat_map(|(_, plan)| &plan.kernels).map(|kernel| (&kernel.modules[..], kernel)).collect();
-        let kernels: Vec<&Kernel> = distinct.into_values().collect();
-        let link_all = |kernels: &[&Kernel]| -> Vec<_> {
-            let linked = |kernel: &Kernel| link(kernel.name, &kernel.modules).map_err(|error| error.to_string());
-            kernels.iter().map(|kernel| (kernel.modules.clone(), linked(kernel))).collect()
-        };
-        let threads = thread::available_parallelism().map_or(1, NonZero::get);
-        thread::scope(|scope| {
-            let share = kernels.len().div_ceil(threads).max(1);
-            let shares: Vec<_> = kernels.chunks(share).map(|share| scope.spawn(move || link_all(share))).collect();
-            shares.into_iter().flat_map(|share| share.join().unwrap()).collect()
+/// An entry point and the variants chosen for it.
+type Source = (Entry, Choices);
+
+/// The texts of all kernels of all plans, or why they do not link.
+fn texts() -> &'static HashMap<Source, Result<LinkedText, String>> {
+    static TEXTS: OnceLock<HashMap<Source, Result<LinkedText, String>>> = OnceLock::new();
+    TEXTS.get_or_init(|| {
+        let kernels = plans().iter().flat_map(|(_, plan)| &plan.kernels);
+        let sources: BTreeSet<Source> = kernels.map(|kernel| (kernel.entry, kernel.choices.clone())).collect();
+        let sources: Vec<Source> = sources.into_iter().collect();
+        in_shares(&sources, |source| {
+            let linked = linked_text(source.0, &source.1);
+            (source.clone(), linked.map_err(|unlinked| format!("{}: {}", unlinked.place, unlinked.reason)))
         })
+        .into_iter()
+        .collect()
+    })
+}
+
+/// The text of a kernel.
+pub fn text(kernel: &Kernel) -> &'static str {
+    &texts()[&(kernel.entry, kernel.choices.clone())]
+        .as_ref()
+        .expect("every_kernel_links lists what does not link")
+        .text
+}
+
+/// What some threads make of all things, as many as there are cores.
+fn in_shares<T: Sync, U: Send>(things: &[T], make: impl Fn(&T) -> U + Sync) -> Vec<U> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let make = &make;
+    thread::scope(|scope| {
+        let shares = things.chunks(things.len().div_ceil(threads).max(1));
+        let workers: Vec<_> = shares.map(|share| scope.spawn(|| share.iter().map(make).collect::<Vec<_>>())).collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
+    })
+}
+
+/// All distinct texts, parsed and validated.
+fn linked() -> &'static HashMap<&'static str, Result<LinkedShader, String>> {
+    static LINKED: OnceLock<HashMap<&'static str, Result<LinkedShader, String>>> = OnceLock::new();
+    LINKED.get_or_init(|| {
+        let texts = texts().iter().filter_map(|((entry, _), text)| Some((text.as_ref().ok()?, *entry)));
+        let distinct: BTreeMap<&'static str, (&'static LinkedText, Entry)> =
+            texts.map(|(linked, entry)| (linked.text.as_str(), (linked, entry))).collect();
+        let distinct: Vec<_> = distinct.into_iter().collect();
+        in_shares(&distinct, |(text, (linked, entry))| {
+            (*text, validate(entry.name(), entry.name(), linked).map_err(|error| error.to_string()))
+        })
+        .into_iter()
+        .collect()
     })
 }
 
 pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
-    linked()[&kernel.modules].as_ref().expect("every_kernel_links lists what does not link")
+    linked()[text(kernel)].as_ref().expect("every_kernel_links lists what does not link")
 }
 
 /// The buffer that a kernel's variable is bound to.
@@ -394,32 +429,33 @@ pub fn report(complaints: &BTreeMap<String, String>) {
 
 #[test]
 fn every_kernel_links() {
-    let failures: BTreeSet<&String> = linked().values().filter_map(|linked| linked.as_ref().err()).collect();
+    let unlinked = texts().values().filter_map(|text| text.as_ref().err());
+    let failures: BTreeSet<&String> =
+        unlinked.chain(linked().values().filter_map(|linked| linked.as_ref().err())).collect();
     let list: Vec<&str> = failures.iter().map(|failure| failure.as_str()).collect();
     assert!(list.is_empty(), "{} kernels do not link:\n{}", list.len(), list.join("\n"));
     // The enumeration is what gives this test its meaning: it may grow, but must not shrink unnoticed.
     assert!(linked().len() > 500, "only {} distinct kernels", linked().len());
 }
 
+/// Every declaration of the library, of which a scene asks for some kernel that comes to it.
 #[test]
-fn every_module_is_embedded_and_can_be_asked_for() {
-    let mut files = BTreeSet::new();
-    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
-    for folder in ["common", "kernels", "passes"] {
-        for entry in std::fs::read_dir(shaders.join(folder)).unwrap() {
-            let path = entry.unwrap().path();
-            assert_eq!(path.extension().and_then(|extension| extension.to_str()), Some("wgsl"), "{}", path.display());
-            let name = format!("{folder}/{}", path.file_stem().unwrap().to_str().unwrap());
-            assert_eq!(module_text(&name), Some(std::fs::read_to_string(&path).unwrap().as_str()), "{name}");
-            files.insert(name);
-        }
-    }
-    let known: BTreeSet<String> =
-        module_names().iter().filter(|name| !name.starts_with("plot/")).map(|name| (*name).to_owned()).collect();
-    assert_eq!(files, known);
-    let used: BTreeSet<&str> = linked().keys().flatten().copied().collect();
-    let unused: Vec<&String> = files.iter().filter(|name| !used.contains(name.as_str())).collect();
-    assert!(unused.is_empty(), "no scene can ask for {unused:?}");
+fn every_declaration_can_be_asked_for() {
+    let mut reached: BTreeSet<(&str, u32)> = BTreeSet::new();
+    let linked = texts().values().filter_map(|text| text.as_ref().ok());
+    reached.extend(linked.flat_map(|linked| &linked.parts).map(|part| (part.path, part.line)));
+    let unused: Vec<String> = (library().unwrap().files().iter())
+        .flat_map(|file| file.declarations.iter().map(|declaration| (file.path, declaration)))
+        .filter(|(path, declaration)| !reached.contains(&(path, declaration.line)))
+        .map(|(path, declaration)| format!("{path}.wgsl:{} `{}`", declaration.line, declaration.name))
+        .collect();
+    assert!(unused.is_empty(), "no kernel comes to\n{}", unused.join("\n"));
+}
+
+/// One name has one meaning in the whole library.
+#[test]
+fn names_have_one_meaning() {
+    assert_eq!(library().unwrap().ambiguous(), [""; 0]);
 }
 
 #[test]
@@ -488,8 +524,8 @@ fn no_kernel_asks_for_the_number_of_workgroups() {
         let workgroups = naga::Binding::BuiltIn(naga::BuiltIn::NumWorkGroups);
         arguments.into_iter().any(|argument| argument.binding.as_ref() == Some(&workgroups))
     };
-    let kernels: BTreeSet<&Vec<&str>> =
-        linked().iter().filter(|(_, linked)| linked.as_ref().is_ok_and(asks)).map(|(modules, _)| modules).collect();
+    let kernels: BTreeSet<&&str> =
+        linked().iter().filter(|(_, linked)| linked.as_ref().is_ok_and(asks)).map(|(text, _)| text).collect();
     assert!(kernels.is_empty(), "{} kernels: {kernels:?}", kernels.len());
 }
 
@@ -552,7 +588,7 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
 #[test]
 fn rows_of_texels_are_as_long_in_plans_as_in_shaders() {
     let said = format!("const TEXELS_IN_ROW: u32 = {}u;", Texture::ROW);
-    assert!(module_text("common/texels").unwrap().contains(&said), "{said}");
+    assert!(include_str!("../../shaders/core/texels.wgsl").contains(&said), "{said}");
     let textures: Vec<&Texture> = plans().iter().flat_map(|(_, plan)| &plan.textures).collect();
     assert!(!textures.is_empty());
     for texture in textures {
@@ -781,11 +817,16 @@ fn the_standard_fluid_needs_at_most_a_hundred_bytes_a_particle() {
     }
 }
 
-const GOOD: (&str, &str) = ("common/good", "// A function.\nfn one() -> u32 { return 1u; }\n");
-const ENTRY: (&str, &str) = ("kernels/entry", "@compute @workgroup_size(1)\nfn main() { _ = one(); }\n");
-
-fn broken(name: &str, text: &str) -> (String, String) {
-    match link_texts("trial", &[GOOD, (name, text), ENTRY]) {
+/// Why a library of a kernel and another file is refused, or does not link.
+fn broken(path: &'static str, text: &'static str) -> (String, String) {
+    let entry = "@compute @workgroup_size(1)\nfn kernel() { _ = two(1u); }\n";
+    let good = "// A function.\nfn one() -> u32 { return 1u; }\n";
+    let files = [("core/entry", entry), ("core/good", good), (path, text)];
+    let linked = match Library::new(&files).and_then(|library| library.link("kernel", &[])) {
+        Ok(linked) => linked,
+        Err(unlinked) => return (unlinked.place, unlinked.reason),
+    };
+    match validate("trial", "kernel", &linked) {
         Err(GpuError::Shader { kernel, place, reason }) => {
             assert_eq!(kernel, "trial");
             (place, reason)
@@ -797,29 +838,21 @@ fn broken(name: &str, text: &str) -> (String, String) {
 
 #[test]
 fn an_error_in_a_shader_names_its_file_and_line() {
-    assert!(link_texts("trial", &[GOOD, ENTRY]).is_ok());
     // What the parser finds.
-    let (place, reason) = broken("common/bad", "// One line,\n// and another.\nfn two() -> u32 { return one() + ; }\n");
-    assert_eq!(place, "shaders/common/bad.wgsl:3");
+    let (place, reason) =
+        broken("core/bad", "// One line,\n// and another.\nfn two(a: u32) -> u32 { return one() + ; }\n");
+    assert_eq!(place, "shaders/core/bad.wgsl:3");
     assert!(reason.contains("expected"), "{reason}");
-    let (place, reason) = broken("common/bad", "fn two() -> u32 { return twice(); }");
-    assert_eq!(place, "shaders/common/bad.wgsl:1");
+    let (place, reason) = broken("core/bad", "const A: u32 = 1u;\n\nfn two(a: u32) -> u32 { return A + twice(); }");
+    assert_eq!(place, "shaders/core/bad.wgsl:3");
     assert!(reason.contains("twice"), "{reason}");
-    // What the validator finds: a function that does not always return.
-    let (place, reason) = broken("common/bad", "\nfn two(a: u32) -> f32 {\n    return a;\n}\n");
-    assert!(["shaders/common/bad.wgsl:2", "shaders/common/bad.wgsl:3"].contains(&place.as_str()), "{place}: {reason}");
-    // A module without a closing line break does not push the next one's lines.
-    match link_texts(
-        "trial",
-        &[("common/last", "fn one() -> u32 { return 1u; }"), ("common/next", "fn broken() -> { }")],
-    ) {
-        Err(GpuError::Shader { place, .. }) => assert_eq!(place, "shaders/common/next.wgsl:1"),
-        other => panic!("{other:?}"),
-    }
-    match link_texts("trial", &[GOOD]) {
-        Err(GpuError::Shader { reason, .. }) => assert_eq!(reason, "there is no entry point `main`"),
-        other => panic!("{other:?}"),
-    }
-    let message = link("trial", &["common/nothing"]).unwrap_err().to_string();
-    assert_eq!(message, "shader `trial` is not valid: shaders/common/nothing.wgsl: there is no such module");
+    // What the validator finds.
+    let (place, reason) = broken("core/bad", "\nfn two(a: u32) -> f32 {\n    return a;\n}\n");
+    assert!(["shaders/core/bad.wgsl:2", "shaders/core/bad.wgsl:3"].contains(&place.as_str()), "{place}: {reason}");
+    // What the linker finds.
+    let (place, reason) = broken("core/slot/variant", "fn two(a: u32) -> u32 { return a; }");
+    assert_eq!(place, "core/entry.wgsl:1");
+    assert_eq!(reason, "no variant that declares `two` is chosen; there are core/slot/variant");
+    let library = Library::new(&[("core/nothing", "const A: u32 = 1u;")]).unwrap();
+    assert_eq!(library.link("kernel", &[]).unwrap_err().reason, "there is no kernel `kernel`");
 }

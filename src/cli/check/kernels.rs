@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use mesoscope::gpu;
+use mesoscope::gpu::{self, GpuError};
 use mesoscope::numbers::{bytes, grouped, six_digits};
-use mesoscope::plan::{Plan, TIDYING};
+use mesoscope::plan::{Kernel, Plan, TIDYING};
+use mesoscope::shaders::linked_text;
 
 use super::interval;
 use crate::cli::Failure;
@@ -23,10 +24,10 @@ pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
         ("Every step with a measurement: finish it", &plan.finish_report),
     ];
     let shared = Shared::of(plan)?;
-    if !shared.modules.is_empty() {
+    if !shared.choices.is_empty() {
         text.push_str("\nShared by all kernels that see particles\n");
     }
-    wrapped(text, "modules", shared.modules.iter().map(|module| (*module).to_owned()));
+    wrapped(text, "choices", shared.choices.iter().map(|choice| (*choice).to_owned()));
     wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
     let mut described = Vec::new();
     for (heading, kernels) in stages {
@@ -40,6 +41,30 @@ pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The linked text of a kernel, each part with the file and the line that it is from.
+pub fn shader(plan: &Plan, name: &str) -> Result<String, Failure> {
+    let kernel = plan.kernels.iter().find(|kernel| kernel.name == name || kernel.entry.name() == name);
+    let Some(kernel) = kernel else {
+        let mut known: Vec<&str> = plan.kernels.iter().map(|kernel| kernel.name).collect();
+        known.sort_unstable();
+        known.dedup();
+        return Err(Failure::usage(format!("this scene has no kernel `{name}`; it has {}", known.join(", "))));
+    };
+    let linked =
+        linked_text(kernel.entry, &kernel.choices).map_err(|unlinked| GpuError::unlinked(kernel.name, unlinked))?;
+    let mut text = String::new();
+    let mut lines = linked.text.lines();
+    for (index, part) in linked.parts.iter().enumerate() {
+        let end = linked.parts.get(index + 1).map_or(usize::MAX, |next| next.begins as usize);
+        let _ = writeln!(text, "// shaders/{}.wgsl:{}", part.path, part.line);
+        for line in lines.by_ref().take(end - part.begins as usize) {
+            let _ = writeln!(text, "{line}");
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}
+
 fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
     let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
     Some(format!("{name} = {}", six_digits(*value)))
@@ -47,38 +72,39 @@ fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
 
 /// What all kernels that see particles have in common, so that it need not be said of each.
 struct Shared {
-    modules: Vec<&'static str>,
+    choices: Vec<&'static str>,
     constants: Vec<String>,
 }
 
 impl Shared {
     fn of(plan: &Plan) -> Result<Self, Failure> {
         let mut shared: Option<Self> = None;
-        for kernel in plan
-            .kernels
-            .iter()
-            .filter(|kernel| kernel.modules.iter().any(|module| module.starts_with("common/particle")))
-        {
-            let constants = gpu::link(kernel.name, &kernel.modules)?.overrides;
+        for kernel in &plan.kernels {
+            let choices = kernel_choices(kernel)?;
+            // The others do not see particles.
+            if !choices.iter().any(|choice| choice.starts_with("space/particle/")) {
+                continue;
+            }
+            let constants = gpu::link(kernel.name, kernel.entry, &kernel.choices)?.overrides;
             // A constant that a kernel sets for itself is not shared.
             let own = |name: &String| kernel.constants.iter().any(|(known, _)| known == name);
             match &mut shared {
                 None => {
                     let constants = constants.into_iter().filter(|name| !own(name)).collect();
-                    shared = Some(Self { modules: kernel.modules.clone(), constants });
+                    shared = Some(Self { choices, constants });
                 }
                 Some(shared) => {
-                    shared.modules.retain(|module| kernel.modules.contains(module));
+                    shared.choices.retain(|choice| choices.contains(choice));
                     shared.constants.retain(|name| constants.contains(name) && !own(name));
                 }
             }
         }
-        Ok(shared.unwrap_or(Self { modules: Vec::new(), constants: Vec::new() }))
+        Ok(shared.unwrap_or(Self { choices: Vec::new(), constants: Vec::new() }))
     }
 
-    /// Whether a kernel with these modules is one of those.
-    fn among(&self, modules: &[&'static str]) -> bool {
-        self.modules.iter().all(|module| modules.contains(module))
+    /// Whether a kernel with these choices is one of those.
+    fn among(&self, choices: &[&'static str]) -> bool {
+        self.choices.iter().all(|choice| choices.contains(choice))
     }
 }
 
@@ -110,13 +136,14 @@ fn section(
             continue;
         }
         described.push(index);
-        let linked = gpu::link(kernel.name, &kernel.modules)?;
-        let own = |name: &&&'static str| !shared.among(&kernel.modules) || !shared.modules.contains(name);
-        wrapped(text, "modules", kernel.modules.iter().filter(own).map(|module| (*module).to_owned()));
+        let linked = gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
+        let choices = kernel_choices(kernel)?;
+        wrapped(text, "kernel", std::iter::once(kernel.entry.name().to_owned()));
+        let own = |name: &&&'static str| !shared.among(&choices) || !shared.choices.contains(name);
+        wrapped(text, "choices", choices.iter().filter(own).map(|choice| (*choice).to_owned()));
         // A kernel's own constants come before those of the plan, as in the engine.
         let constants = [&kernel.constants[..], &plan.constants].concat();
-        let own =
-            linked.overrides.iter().filter(|name| !shared.among(&kernel.modules) || !shared.constants.contains(*name));
+        let own = linked.overrides.iter().filter(|name| !shared.among(&choices) || !shared.constants.contains(*name));
         wrapped(text, "constants", own.filter_map(|name| constant(&constants, name)));
         let buffer = |variable: &str| {
             let renamed = kernel.renamed.iter().find(|(name, _)| *name == variable);
@@ -125,6 +152,12 @@ fn section(
         wrapped(text, "buffers", linked.bindings.iter().map(|binding| buffer(&binding.name)));
     }
     Ok(())
+}
+
+/// The variants that a kernel comes to.
+fn kernel_choices(kernel: &Kernel) -> Result<Vec<&'static str>, Failure> {
+    let files = kernel.files().map_err(|unlinked| GpuError::unlinked(kernel.name, unlinked))?;
+    Ok(kernel.choices.paths().filter(|path| files.contains(path)).collect())
 }
 
 /// A label and a list, broken into lines of at most 110 characters.

@@ -28,6 +28,7 @@ Exit code 0 means that the adapter (the one named, else the best) can run the sc
 Examples:
   mesoscope check my-scene.json
   mesoscope check dpd-fluid --kernels
+  mesoscope check dpd-fluid --shader scatter
   mesoscope check dpd-fluid --set particles.0.number_density=4")]
 pub struct Arguments {
     #[command(flatten)]
@@ -39,6 +40,10 @@ pub struct Arguments {
     /// List kernels, buffers and their bytes too
     #[arg(long)]
     kernels: bool,
+
+    /// Print the WGSL of a kernel, each part with its file and line, and nothing else
+    #[arg(long, value_name = "KERNEL")]
+    shader: Option<String>,
 }
 
 /// Checks the scene.
@@ -54,6 +59,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
     let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+    if let Some(kernel) = &arguments.shader {
+        return print(&kernels::shader(&plan, kernel)?);
+    }
     let trial = opened.as_ref().ok().filter(|_| scene.time.steps > 0).map(|gpu| run::expected_time(&scene, gpu));
     let time = trial.as_ref().map(|trial| expected_time(&scene, trial));
     let adapter = match &opened {

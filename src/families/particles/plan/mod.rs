@@ -5,6 +5,6 @@ pub(crate) mod pair;
 mod species;
 
 use crate::plan::{
-    Grid, Hardware, Kernel, Layout, Listed, Options, Plan, Quanta, Texture, Traversal, analyses, layout, noise_modules,
-    pair_histogram, prefix_sum, serial_memory,
+    Grid, Hardware, Kernel, Layout, Listed, Options, Plan, Quanta, Texture, Traversal, analyses, deviate, layout,
+    pair_histogram, prefix_sum, serial_memory, words,
 };

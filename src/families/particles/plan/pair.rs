@@ -6,10 +6,11 @@ use super::pair_histogram::PairHistogram;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::serial_memory::TURNS;
 use super::species::Species;
-use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal, noise_modules};
+use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal, deviate, words};
 use crate::families::{Model, PairForce};
 use crate::noise;
-use crate::scene::{Generator, Integrator, Output, RadialDistribution};
+use crate::scene::{Integrator, Output, RadialDistribution};
+use crate::shaders::{Choices, Entry, arrays, core, grid, pairs, space};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
@@ -122,24 +123,14 @@ struct Builder<'a> {
     plan: Plan,
 }
 
-/// Modules of the vector space and of the stored particle.
-fn space(units: &Units, predicted: bool) -> Vec<&'static str> {
-    let mut modules = if units.dimension == 3 {
-        vec!["common/space3", "common/grid3", "common/probe3"]
+/// The vector space, the grid in it and the stored particle.
+fn space_of(units: &Units, predicted: bool) -> Choices {
+    let choices = if units.dimension == 3 {
+        Choices::new().with(space::Dimension::Three).with(grid::Dimension::Volume).with(pairs::Prefilter::Volume)
     } else {
-        vec!["common/space2", "common/grid2", "common/probe2"]
+        Choices::new().with(space::Dimension::Two).with(grid::Dimension::Plane).with(pairs::Prefilter::Plane)
     };
-    modules.push(if predicted { "common/particle_predicted" } else { "common/particle" });
-    modules.extend([
-        "common/cells",
-        "common/cells_buffer",
-        "common/ranks",
-        "common/within",
-        "common/control",
-        "common/clock",
-        "common/dispatch",
-    ]);
-    modules
+    choices.with(if predicted { space::Particle::Predicted } else { space::Particle::Plain }).with(grid::Rows::Framed)
 }
 
 impl Builder<'_> {
@@ -214,17 +205,23 @@ impl Builder<'_> {
         [repulsion * half / unit, friction * half / self.species.mass(), amplitude * half / unit]
     }
 
-    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
-        let mut modules = space(&self.model.units, self.predicted());
-        modules.extend(extra);
-        self.plan.add_kernel(Kernel::new(name, modules, workgroups))
+    /// A kernel with a lane for each of some things.
+    fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
+        self.plan.add_kernel(Kernel::new(name, entry, choices, things.div_ceil(self.workgroup_size())))
+    }
+
+    /// What is chosen for every kernel: the space, the species, and where the ordered particles are.
+    fn choices(&self) -> Choices {
+        space_of(&self.model.units, self.predicted())
+            .and(&self.species.choices())
+            .with_if(self.splits(), space::Drift::Halves)
+            .with_if(self.texels, arrays::Sorted::Apart)
     }
 
     fn ordering(&mut self) {
-        let bin =
-            self.kernel("bin", &["common/particles", "kernels/bin"], self.particles.div_ceil(self.workgroup_size()));
+        let bin = self.kernel("bin", Entry::BinParticles, self.choices(), self.particles);
         self.plan.prepare.push(bin);
-        self.plan.sort = self.sorting("common/begin_step");
+        self.plan.sort = self.sorting(&self.choices());
         if self.scans_at_end {
             // Every step is begun by the one before, but for the first.
             let scatter = self.plan.sort.split_off(self.plan.sort.len() - 1);
@@ -238,73 +235,33 @@ impl Builder<'_> {
         if output.trajectory.is_none() {
             return;
         }
-        let units = self.model.units;
-        let modules = ["common/particles", "common/crossings", "common/paths", "kernels/follow"];
-        let modules = [&space(&units, self.predicted())[..], &modules].concat();
-        let kernel = Kernel::new("follow", modules, self.particles.div_ceil(self.workgroup_size()));
-        self.plan.follow([kernel], self.force.cutoff / units.shortest_length());
+        let groups = self.particles.div_ceil(self.workgroup_size());
+        let kernel = Kernel::new("follow", Entry::FollowParticles, self.choices(), groups);
+        self.plan.follow([kernel], self.force.cutoff / self.model.units.shortest_length());
     }
 
-    /// Modules of what ends a step.
-    fn end_of_step(&self) -> &'static [&'static str] {
+    /// What ends a step.
+    fn end_of_step(&self) -> Choices {
         if self.scans_at_end {
-            &[
-                "common/counts",
-                "common/row_scan",
-                "common/scan_narrow",
-                "common/eight_scan",
-                "common/scan_all_rows",
-                "common/begin_step",
-                "common/scan_by_last",
-            ]
+            Choices::new()
+                .with(grid::EndOfStep::LastWorkgroup)
+                .with(grid::ScanWidth::Narrow)
+                .with(grid::ScanLanes::Eight)
         } else {
-            &["common/counts", "common/scan_apart"]
+            Choices::new()
         }
     }
 
-    /// Counting sort by cell; `clock` begins the step, or does not.
-    fn sorting(&mut self, clock: &'static str) -> Vec<usize> {
-        let clock: &[&str] = if clock == "common/begin_step" {
-            &["common/begin_step", "common/threefry"]
-        } else {
-            &["common/same_step"]
-        };
-        let modules = space(&self.model.units, self.predicted());
-        let sum = PrefixSum {
-            modules,
-            row_scan: &["common/counts", "common/row_scan"],
-            clock,
-            rows: self.grid.rows(),
-            cells: self.grid.count(),
-        };
+    /// Counting sort by cell.
+    fn sorting(&mut self, choices: &Choices) -> Vec<usize> {
+        let sum = PrefixSum { choices, rows: self.grid.rows(), cells: self.grid.count() };
         let mut kernels: Vec<usize> =
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
-        let scatter = self.kernel(
-            "scatter",
-            &[&["kernels/scatter"], self.copied()].concat(),
-            self.particles.max(self.grid.count()).div_ceil(self.workgroup_size()),
-        );
-        kernels.push(scatter);
+        // The first pass of a split step keeps its hits in the buffer of the particles.
+        let whole = self.texels && !self.splits();
+        let copied = self.choices().with(if whole { grid::Copied::Particles } else { grid::Copied::Fours });
+        kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.particles.max(self.grid.count())));
         kernels
-    }
-
-    /// Modules that load sorted particles.
-    fn sorted(&self) -> &'static [&'static str] {
-        if self.texels { &["common/texels", "common/sorted_apart_texels"] } else { &["common/sorted"] }
-    }
-
-    /// Modules that copy particles into their order.
-    fn copied(&self) -> &'static [&'static str] {
-        match (self.texels, self.splits()) {
-            (true, false) => {
-                &["common/particles", "common/copied_particles", "common/texels", "common/put_sorted_apart_texels"]
-            }
-            // The first pass of a split step keeps its hits in the buffer of the particles.
-            (true, true) => {
-                &["common/storage", "common/copied_fours", "common/texels", "common/put_sorted_apart_texels"]
-            }
-            (false, _) => &["common/storage", "common/copied_fours", "common/put_sorted"],
-        }
     }
 
     /// Whether steps are split: friction needs a second pass over the pairs.
@@ -312,79 +269,42 @@ impl Builder<'_> {
         self.model.splits()
     }
 
-    /// Modules of the pair force.
-    fn force_modules(&self) -> Vec<&'static str> {
+    /// The pair force.
+    fn law(&self) -> Choices {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        let probes = if self.texels { "common/probes_of_positions" } else { "common/probes" };
-        let mut modules = vec![probes, "common/contact"];
-        modules.extend(self.sorted());
-        modules.extend(self.species.coefficients());
-        modules.push(if self.species.have_table() {
-            "common/other_species_table"
+        let choices = Choices::new()
+            .with(if self.texels { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
+            .with(if force.weight_exponent == 2.0 { pairs::Weight::Standard } else { pairs::Weight::General })
+            .with_if(force.largest_repulsion() > 0.0, pairs::Repulsion::Soft)
+            .with_any(frictional.then_some(match self.model.integrator {
+                Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                    pairs::Friction::Relaxation
+                }
+                Integrator::CotterReich {} => pairs::Friction::DiscreteGradient,
+                Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
+            }));
+        if frictional && force.temperature > 0.0 {
+            choices
+                .with(pairs::Random::Thermal)
+                .with(deviate(self.model.distribution))
+                .with(words(self.model.generator))
         } else {
-            "common/other_species_single"
-        });
-        modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
-        modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
-        modules.push(match self.model.integrator {
-            _ if !frictional => "common/friction_off",
-            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
-                "common/relaxation"
-            }
-            Integrator::CotterReich {} => "common/friction_discrete_gradient",
-            Integrator::GrootWarren { .. } => "common/friction_velocity",
-        });
-        modules.push(if self.splits() { "common/drift_halves" } else { "common/drift" });
-        if frictional && self.force.temperature > 0.0 {
-            modules.push("common/random_on");
-            modules.extend(noise_modules(self.model.distribution));
-            match self.model.generator {
-                Generator::Pcg4d => modules.push("common/words_pcg4d"),
-                Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),
-            }
-        } else {
-            modules.push("common/random_off");
+            choices
         }
-        modules
     }
 
     /// A kernel that visits all pairs.
-    fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &[&'static str]) -> usize {
-        let mut modules = space(&self.model.units, self.predicted());
-        modules.extend(self.force_modules());
-        modules.extend(pass);
-        modules.extend(match masks {
-            Masks::Unkept => &["common/keep_off"][..],
-            Masks::Keep => &["common/found", "common/keep_on"],
-            Masks::Kept => &["common/found", "common/kept_hits"],
+    fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
+        let choices = self.choices().and(&self.law()).and(pass).with_any(match masks {
+            Masks::Unkept => None,
+            Masks::Keep => Some(pairs::Hits::Keep),
+            Masks::Kept => Some(pairs::Hits::Kept),
         });
-        // Whoever begins a step draws its key, whatever draws the random words.
-        if modules.contains(&"common/begin_step") && !modules.contains(&"common/threefry") {
-            modules.push("common/threefry");
-        }
-        let lanes = match traversal {
-            Traversal::Alone => {
-                modules.push("kernels/alone");
-                self.workgroup_size()
-            }
-            Traversal::Rows => {
-                let kept = masks == Masks::Kept;
-                modules.push(if kept { "common/kept_hits_of_rows" } else { "common/hits_of_rows" });
-                modules.extend(["common/turns_endless", "kernels/rows"]);
-                self.workgroup_size()
-            }
-            Traversal::Clusters => {
-                modules.extend(match masks {
-                    Masks::Kept => &["common/kept_hits_of_clusters"][..],
-                    _ if self.grid.dimension == 3 => {
-                        &["common/hits_of_clusters", "common/eight_hits", "common/shuffle3"]
-                    }
-                    _ => &["common/hits_of_clusters", "common/eight_hits", "common/shuffle2"],
-                });
-                modules.extend(["common/stretches", "common/turns_endless", "kernels/clusters"]);
-                8
-            }
+        let (entry, lanes) = match traversal {
+            Traversal::Alone => (Entry::VisitAlone, self.workgroup_size()),
+            Traversal::Rows => (Entry::VisitRows, self.workgroup_size()),
+            Traversal::Clusters => (Entry::VisitClusters, 8),
         };
         // Enough workgroups to fill the adapter, none with less than one round of work on average. Subgroups of eight are
         // those of processors, whose few cores are filled by a few workgroups, and to which a workgroup is dear: some hundred
@@ -406,33 +326,34 @@ impl Builder<'_> {
             groups = groups.min(wanted.next_multiple_of(32));
             constants.push(("SHARES", groups as f64));
         }
-        self.plan.add_kernel(Kernel::new(name, modules, groups).with(constants))
+        self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
     }
 
     fn integration(&mut self, output: &Output) {
-        let forces = self.forces(output);
+        let forces = Choices::new().with_any(self.forces(output));
         let groups = if self.splits() {
             let momenta = self.momenta(output);
-            self.split_step(forces, momenta)
+            self.split_step(&forces.with_any(momenta))
         } else {
-            self.leapfrog_step(forces)
+            self.leapfrog_step(&forces)
         };
         self.plan.sample_observables(output.energies.every, OBSERVABLES, u64::from(groups));
         self.plan.operations_per_particle = self.operations();
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
-    fn observation(&mut self, name: &'static str, pass: &[&'static str]) -> usize {
-        let reduce = if self.traversal == Traversal::Clusters { "common/reduce_of_eight" } else { "common/reduce" };
-        let modules = [&["common/sum64", reduce, "common/observation"], pass].concat();
-        self.traversal(name, self.traversal, Masks::Unkept, &modules)
+    fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
+        let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
+        let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
+        self.plan.kernels[kernel].constants.push(("QUANTITIES", OBSERVABLES as f64));
+        kernel
     }
 
     /// One pass a step. Returns the number of workgroups of the report.
-    fn leapfrog_step(&mut self, forces: &'static str) -> u32 {
-        let pass = [&["common/particles", "common/advance", "passes/leapfrog"], self.end_of_step()].concat();
+    fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
+        let pass = self.end_of_step().with(pairs::Pass::Leapfrog);
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
-        let report = self.observation("report", &[forces, "common/particles", "passes/observe_leapfrog"]);
+        let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
         self.plan.advance = vec![advance];
         self.plan.report = vec![report];
         self.plan.finish_report = vec![advance];
@@ -441,27 +362,23 @@ impl Builder<'_> {
 
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
-    fn split_step(&mut self, forces: &'static str, momenta: &'static str) -> u32 {
-        let find = self.traversal("find", self.traversal, Masks::Keep, &["passes/find"]);
+    fn split_step(&mut self, kept: &Choices) -> u32 {
+        let with = |pass: pairs::Pass| Choices::new().with(pass);
+        let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
         self.plan.kernels[find].renamed.push(("found", "particles"));
-        let relax_pass = ["common/particles", "common/advance", "passes/relax"];
-        let to_the_end = [&relax_pass, self.end_of_step()].concat();
+        let to_the_end = self.end_of_step().with(pairs::Pass::Relax);
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push(("HALVES", 2.0));
-        let to_the_report = [&relax_pass[..], &["common/counts", "common/scan_apart"]].concat();
+        let to_the_report = with(pairs::Pass::Relax);
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push(("HALVES", 1.0));
-        let motion = self.observation("report_motion", &[forces, momenta, "passes/observe_motion"]);
-        let configuration = self.observation("report_configuration", &["passes/observe_configuration"]);
-        let rest = self.kernel(
-            "drift_rest",
-            &[self.species.masses(), &["common/drift_halves", "kernels/drift_rest"]].concat(),
-            self.particles.div_ceil(self.workgroup_size()),
-        );
+        let motion = self.observation("report_motion", kept.clone().with(pairs::Pass::ObserveMotion));
+        let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
+        let rest = self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles);
         for kernel in [find, motion, configuration, rest] {
             self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
         }
-        let again = self.sorting("common/same_step");
+        let again = self.sorting(&self.choices().with(core::Step::Same));
         self.plan.before_report = vec![find];
         self.plan.advance = vec![relax];
         self.plan.report = [&[motion, relax_to_report][..], &again, &[configuration]].concat();
@@ -500,8 +417,7 @@ impl Builder<'_> {
             model: self.model,
             equilibration: self.equilibration,
             workgroup: self.workgroup_size(),
-            space: space(&self.model.units, self.predicted()),
-            masses: [self.species.masses(), &["common/mass_of_species"]].concat(),
+            choices: space_of(&self.model.units, self.predicted()).and(&self.species.choices()),
             particles: "particles",
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some("reported_momenta"),
@@ -511,35 +427,34 @@ impl Builder<'_> {
         analyses::add(&mut self.plan, &reported, output);
     }
 
-    /// The module that keeps the momenta of a split step's report, or does not.
-    fn momenta(&mut self, output: &Output) -> &'static str {
+    /// Keeps the momenta of a split step's report, where an analysis asks.
+    fn momenta(&mut self, output: &Output) -> Option<pairs::ReportedMomentum> {
         if !analyses::needs_velocities(output) {
-            return "common/momentum_off";
+            return None;
         }
         self.plan.add_buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
-        "common/momentum_on"
+        Some(pairs::ReportedMomentum::Kept)
     }
 
-    /// The module that keeps the forces of a report, or does not.
-    fn forces(&mut self, output: &Output) -> &'static str {
+    /// Keeps the forces of a report, where an analysis asks.
+    fn forces(&mut self, output: &Output) -> Option<pairs::ReportedForce> {
         if !analyses::needs_forces(output) {
-            return "common/force_off";
+            return None;
         }
         // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
         let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
         self.plan.force_unit = self.model.units.momentum / time;
         self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
-        "common/force_on"
+        Some(pairs::ReportedForce::Kept)
     }
 
     fn radial_distribution(&mut self, asked: &RadialDistribution) {
-        let mut modules = space(&self.model.units, self.predicted());
-        modules.extend(self.sorted());
         let histogram = PairHistogram { units: &self.model.units, grid: &self.grid, options: self.options, asked };
         // Where a report moves the particles on, distances are counted there too.
         let needs_report = self.splits();
         let first = self.equilibration;
-        histogram.add(&mut self.plan, modules, Vec::new(), first, needs_report);
+        let choices = self.choices();
+        histogram.add(&mut self.plan, &choices, Vec::new(), first, needs_report);
     }
 
     fn buffers(&mut self) {

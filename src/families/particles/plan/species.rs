@@ -1,8 +1,10 @@
 //! How kernels know what species are like: by constants where there are few, else by a table.
 
 use crate::families::Model;
+use crate::shaders::Choices;
+use crate::shaders::space::{Coefficients, Mass, MassOfParticle};
 
-/// The modules that know the coefficients of pairs and the masses.
+/// Where kernels find the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Species {
     count: usize,
@@ -32,21 +34,12 @@ impl Species {
         self.mass.unwrap_or(1.0)
     }
 
-    /// Modules that know the masses.
-    pub fn masses(self) -> &'static [&'static str] {
-        if self.have_one_mass() {
-            &["common/one_mass"]
-        } else {
-            &["common/masses_differ", "common/coefficient_entries"]
-        }
-    }
-
-    /// Modules that know coefficients and masses.
-    pub fn coefficients(self) -> &'static [&'static str] {
-        match (self.have_table(), self.have_one_mass()) {
-            (false, _) => &["common/coefficients_single", "common/one_mass"],
-            (true, true) => &["common/coefficients_table", "common/coefficient_entries", "common/one_mass"],
-            (true, false) => &["common/coefficients_table", "common/coefficient_entries", "common/masses_differ"],
-        }
+    /// Where kernels find masses and coefficients.
+    pub fn choices(self) -> Choices {
+        let coefficients = if self.have_table() { Coefficients::Table } else { Coefficients::Single };
+        Choices::new()
+            .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
+            .with(MassOfParticle::OfSpecies)
+            .with(coefficients)
     }
 }

@@ -7,5 +7,5 @@ pub(crate) use steps::plan;
 
 use crate::plan::{
     Bins, Buffer, Contents, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture,
-    Traversal, noise_modules, prefix_sum, recording,
+    Traversal, prefix_sum, recording, words,
 };

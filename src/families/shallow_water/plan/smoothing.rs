@@ -7,6 +7,8 @@ use std::f64::consts::TAU;
 use super::{Buffer, Contents, Kernel, Options};
 use crate::families::{ShallowWater, chebyshev_iterations};
 use crate::scene::{LaplacianSymbol, SmoothingSolver};
+use crate::shaders::smoothing::{Lines, Load, Radix, Source, Store, Twist};
+use crate::shaders::{Choices, Entry};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
@@ -57,12 +59,8 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
     let workgroup = options.workgroup();
     let constants = [("MEAN_MASS", water.mean_mass() as f64), ("MASS_UNIT", water.mass_unit)];
     if water.smoothing.length == 0.0 {
-        let kernel = Kernel::new(
-            "depths",
-            vec!["common/dispatch", "common/deviation", "kernels/deviation"],
-            workgroups(water.nodes(), workgroup),
-        )
-        .with([constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat());
+        let kernel = Kernel::new("depths", Entry::FindDepths, Choices::new(), workgroups(water.nodes(), workgroup))
+            .with([constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat());
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
     match water.smoothing.solver {
@@ -176,9 +174,9 @@ enum Axis {
 struct Pass {
     name: &'static str,
     axis: Axis,
-    entry: &'static str,
-    load: &'static str,
-    store: &'static str,
+    entry: Entry,
+    load: Load,
+    store: Store,
     radix: u32,
     /// Length of the transforms that are finished before.
     finished: u32,
@@ -206,21 +204,11 @@ impl Fourier<'_> {
 
     fn passes(&self) -> Vec<Pass> {
         let [rows, columns] = self.water.mesh.map(radices);
-        let (waves, waves_next) = ("common/fourier_load_waves", "common/fourier_store_waves");
         let mut passes = Vec::new();
         let mut line = |name, axis, radices: &[u32], mut finished: u32| {
             for &radix in radices {
-                let entry = "kernels/fourier_pass";
-                passes.push(Pass {
-                    name,
-                    axis,
-                    entry,
-                    load: waves,
-                    store: waves_next,
-                    radix,
-                    finished,
-                    span: finished,
-                });
+                let (entry, load, store) = (Entry::FourierPass, Load::Waves, Store::Waves);
+                passes.push(Pass { name, axis, entry, load, store, radix, finished, span: finished });
                 finished *= radix;
             }
         };
@@ -231,40 +219,35 @@ impl Fourier<'_> {
         line("smooth columns", Axis::Columns, others, turn);
         line("smooth rows", Axis::Rows, &rows, 1);
         let turning = &mut passes[rows.len() + columns.len() - 1];
-        (turning.entry, turning.span) = ("kernels/fourier_turn", 1);
-        passes[0].load = "common/fourier_load_masses";
-        passes[rows.len()].load = "common/fourier_load_rows";
+        (turning.entry, turning.span) = (Entry::FourierTurn, 1);
+        passes[0].load = Load::Masses;
+        passes[rows.len()].load = Load::Rows;
         let last = passes.len() - 1;
-        passes[last - rows.len()].store = "common/fourier_store_rows";
-        passes[last].store = "common/fourier_store_depths";
+        passes[last - rows.len()].store = Store::Rows;
+        passes[last].store = Store::Depths;
         passes
     }
 
     fn kernel(&self, pass: Pass, number: usize) -> Kernel {
         let [width, height] = self.water.mesh;
-        let (length, lines, lines_module) = match pass.axis {
-            Axis::Rows => (width, height / 2, "common/fourier_rows"),
-            Axis::Columns => (height, self.columns(), "common/fourier_columns"),
+        let (length, lines, axis) = match pass.axis {
+            Axis::Rows => (width, height / 2, Lines::Rows),
+            Axis::Columns => (height, self.columns(), Lines::Columns),
         };
         let radix = match pass.radix {
-            2 => "common/fourier_radix2",
-            4 => "common/fourier_radix4",
-            8 => "common/fourier_radix8",
-            16 => "common/fourier_radix16",
-            32 => "common/fourier_radix32",
-            _ => "common/fourier_radix64",
+            2 => Radix::Two,
+            4 => Radix::Four,
+            8 => Radix::Eight,
+            16 => Radix::Sixteen,
+            32 => Radix::ThirtyTwo,
+            _ => Radix::SixtyFour,
         };
-        let twist = if pass.finished == 1 { "common/fourier_twist_off" } else { "common/fourier_twist_on" };
-        let mut modules = vec![
-            "common/dispatch",
-            "common/waves",
-            "common/waves_next",
-            "common/fourier",
-            "common/fourier_short",
-            radix,
-            twist,
-        ];
-        modules.extend([lines_module, pass.load, pass.store, pass.entry]);
+        let choices = Choices::new()
+            .with(radix)
+            .with_if(pass.finished > 1, Twist::BetweenPasses)
+            .with(axis)
+            .with(pass.load)
+            .with(pass.store);
         let mut constants = vec![
             ("LENGTH", f64::from(length)),
             ("LINES", f64::from(lines)),
@@ -273,7 +256,6 @@ impl Fourier<'_> {
             ("ROW_LENGTH", f64::from(width)),
         ];
         if number == 0 {
-            modules.insert(1, "common/deviation");
             constants.extend(self.constants);
         }
         let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
@@ -282,7 +264,7 @@ impl Fourier<'_> {
         let share = (1_u64 << (butterflies / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
         let workgroup = self.workgroup.min(share);
         constants.push(("WORKGROUP", workgroup as f64));
-        Kernel::new(pass.name, modules, workgroups(butterflies, workgroup))
+        Kernel::new(pass.name, pass.entry, choices, workgroups(butterflies, workgroup))
             .with(constants)
             .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
     }
@@ -386,32 +368,25 @@ fn chebyshev(
     let strips = workgroups(u64::from(width) * u64::from(height.div_ceil(STRIP)), workgroup);
     let mut plan = SmoothingPlan { kernels: Vec::new(), order: Vec::new(), buffers: Vec::new() };
     for application in 1..=water.smoothing.power {
-        let given = if application == 1 {
-            &["common/deviation", "common/chebyshev_of_masses"][..]
-        } else {
-            &["common/chebyshev_of_smoothed"]
-        };
+        let choices = Choices::new().with_if(application > 1, Source::Smoothed);
         let result = if application == water.smoothing.power { "depths" } else { "once_smoothed" };
         // Iterations go to and fro between two buffers, and the last one ends in the right one.
         let (odd, even) = if iterations % 2 == 1 { (result, "waves") } else { ("waves", result) };
         let mut kernel = |name, entry, workgroups, parity: u32, [from, to]: [&'static str; 2]| {
-            let mut modules = vec!["common/dispatch", "common/chebyshev"];
-            modules.extend(given);
-            modules.push(entry);
             plan.kernels.push(
-                Kernel::new(name, modules, workgroups)
+                Kernel::new(name, entry, choices.clone(), workgroups)
                     .with([constants.as_slice(), &[("PARITY", f64::from(parity))]].concat())
                     .renamed(vec![("waves", from), ("waves_next", to)]),
             );
             plan.kernels.len() - 1
         };
         let all = workgroups(water.nodes(), workgroup);
-        plan.order.push(kernel("begin smoothing", "kernels/chebyshev_begin", all, 0, [even, odd]));
+        plan.order.push(kernel("begin smoothing", Entry::ChebyshevBegin, all, 0, [even, odd]));
         let pair: Vec<usize> = [[odd, even], [even, odd]]
             .into_iter()
             .take(iterations - 1)
             .zip(0..)
-            .map(|(buffers, parity)| kernel("smooth", "kernels/chebyshev_iterate", strips, parity, buffers))
+            .map(|(buffers, parity)| kernel("smooth", Entry::ChebyshevIterate, strips, parity, buffers))
             .collect();
         plan.order.extend(pair.iter().cycle().take(iterations - 1));
     }

@@ -7,12 +7,13 @@ use super::prefix_sum::PrefixSum;
 use super::recording::SAMPLE_ROWS;
 use super::smoothing::smoothing;
 use super::{
-    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture, Traversal,
-    noise_modules,
+    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture, Traversal, words,
 };
 use crate::families::{Model, ShallowWater};
 use crate::noise;
-use crate::scene::{AnalysisId, Distribution, Generator, Integrator, Output};
+use crate::scene::{AnalysisId, Integrator, Output};
+use crate::shaders::noise::Deviate;
+use crate::shaders::{Choices, Entry, arrays, grid, mesh};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
@@ -225,34 +226,55 @@ impl Builder<'_> {
         self.plan.constants = constants;
     }
 
-    /// The module that visits the cells.
-    fn each_cell(&self) -> &'static str {
-        if self.eights { "kernels/each_strip_of_eight" } else { "kernels/each_cell" }
-    }
-
     /// A kernel that visits the cells.
-    fn cell_kernel(&mut self, name: &'static str, extra: &[&'static str]) -> usize {
-        let modules = [extra, &["common/turns_endless", self.each_cell()]].concat();
-        let lanes = self.water.nodes() / if self.eights { STRIP } else { 1 };
-        self.kernel(name, &modules, lanes.div_ceil(self.options.workgroup()))
+    fn cell_kernel(&mut self, name: &'static str, choices: &Choices) -> usize {
+        let (entry, lanes) = if self.eights {
+            (Entry::VisitMeshStrips, self.water.nodes() / STRIP)
+        } else {
+            (Entry::VisitMeshCells, self.water.nodes())
+        };
+        self.kernel(name, entry, choices, lanes)
     }
 
     fn gyrates(&self) -> bool {
         self.model.integrator != Integrator::Rotate {}
     }
 
-    /// Modules of the mesh and of the particles on it.
-    fn mesh(&self) -> [&'static str; 6] {
-        let spline = match self.water.spline_order {
-            1 => "common/spline1",
-            2 => "common/spline2",
-            _ => "common/spline3",
-        };
-        ["common/mesh", spline, "common/water", "common/control", "common/clock", "common/dispatch"]
+    /// What is chosen for every kernel: the splines, where particles are kept, and what drives them.
+    fn choices(&self) -> Choices {
+        let choices = Choices::new()
+            .with(match self.water.spline_order {
+                1 => mesh::Spline::Linear,
+                2 => mesh::Spline::Quadratic,
+                _ => mesh::Spline::Cubic,
+            })
+            .with(match self.water.spline_order {
+                1 => mesh::Nodes::Linear,
+                2 => mesh::Nodes::Quadratic,
+                _ => mesh::Nodes::Cubic,
+            })
+            .with(if self.gyrates() { mesh::Drift::Gyro } else { mesh::Drift::Rotate })
+            .with_if(self.water.rotation != 0.0, mesh::Turn::Coriolis)
+            .with_if(self.water.bath.is_some(), mesh::Surface::Bath)
+            .with_if(self.texels, arrays::Order::Texture);
+        match self.storage {
+            Storage::Sorted => choices.with(mesh::Storage::Sorted).with(mesh::Sorted::BySort).with(if self.texels {
+                mesh::Particles::InPlaceTextures
+            } else {
+                mesh::Particles::InPlace
+            }),
+            Storage::Bins => choices.with(mesh::Storage::Bins).with(if self.texels {
+                mesh::Particles::BinsTextures
+            } else {
+                mesh::Particles::Bins
+            }),
+        }
     }
 
-    fn kernel(&mut self, name: &'static str, extra: &[&'static str], workgroups: u64) -> usize {
-        self.plan.add_kernel(Kernel::new(name, [&self.mesh()[..], extra].concat(), workgroups))
+    /// A kernel with a lane for each of some things.
+    fn kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, things: u64) -> usize {
+        let workgroups = things.div_ceil(self.options.workgroup());
+        self.plan.add_kernel(Kernel::new(name, entry, self.choices().and(choices), workgroups))
     }
 
     /// Counting sort by cell, where bins do not keep the order.
@@ -260,36 +282,28 @@ impl Builder<'_> {
         if self.storage == Storage::Bins {
             return;
         }
-        let particle_groups = self.water.carriers.div_ceil(self.options.workgroup());
-        let (order, tidied) = if self.texels {
-            ("common/order_texels", &["common/texels", "common/order_texels", "common/water_tidied_texels"][..])
-        } else {
-            ("common/order", &["common/storage", "common/stored_water", "common/order", "common/water_tidied"][..])
-        };
-        let bin = self.kernel("bin", &[&self.in_place()[..], &["kernels/bin_water"]].concat(), particle_groups);
+        let carriers = self.water.carriers;
+        let none = Choices::new();
+        let bin = self.kernel("bin", Entry::BinWater, &none, carriers);
         self.plan.prepare.push(bin);
-        let (cells, row_scan) = if self.water.mesh[0].is_multiple_of(2) {
-            (&["common/storage", "common/mesh_cells_paired"][..], &["common/row_scan_paired"][..])
+        let paired = self.water.mesh[0].is_multiple_of(2);
+        let choices = Choices::new().with(grid::Dimension::Plane).with(if paired {
+            grid::Rows::MeshInPairs
         } else {
-            (&["common/mesh_cells"][..], &["common/counts", "common/row_scan"][..])
-        };
-        let sum = PrefixSum {
-            modules: [&self.mesh()[..], cells].concat(),
-            row_scan,
-            clock: &["common/begin_step", "common/threefry"],
-            rows: u64::from(self.water.mesh[1]),
-            cells: self.water.nodes(),
-        };
+            grid::Rows::Mesh
+        });
+        let sum = PrefixSum { choices: &choices, rows: u64::from(self.water.mesh[1]), cells: self.water.nodes() };
         self.plan.add_row_sums(sum.rows, sum.cells, self.options);
         for kernel in sum.kernels(self.options) {
             let kernel = self.plan.add_kernel(kernel);
             self.plan.sort.push(kernel);
         }
-        let entry = if self.eights { "kernels/order_water_of_eight" } else { "kernels/order_water" };
-        let order = self.kernel("order", &[&self.in_place()[..], &[order, entry]].concat(), particle_groups);
+        let entry = if self.eights { Entry::OrderWaterOfEight } else { Entry::OrderWater };
+        let order = self.kernel("order", entry, &none, carriers);
         self.plan.sort.push(order);
-        let tidy = self.kernel("tidy", &[tidied, &["kernels/tidy_water"]].concat(), particle_groups);
-        let keep = self.kernel("keep_tidied", &[tidied, &["kernels/keep_tidied_water"]].concat(), particle_groups);
+        let tidied = Choices::new().with(if self.texels { mesh::Tidied::Textures } else { mesh::Tidied::Buffers });
+        let tidy = self.kernel("tidy", Entry::TidyWater, &tidied, carriers);
+        let keep = self.kernel("keep_tidied", Entry::KeepTidiedWater, &tidied, carriers);
         let back = [("particles", "tidied"), ("tidied", "particles")];
         self.plan.kernels[keep].renamed.extend(back);
         if self.texels {
@@ -301,32 +315,19 @@ impl Builder<'_> {
 
     /// From particles to the surface that drives them.
     fn depth(&mut self) {
-        let cell_groups = self.water.nodes().div_ceil(self.options.workgroup());
-        let moments = match self.water.spline_order {
-            1 => "common/moments1",
-            2 => "common/moments2",
-            _ => "common/moments3",
-        };
-        let (collect, begin) = match self.storage {
-            Storage::Sorted => ("common/collect_sorted", &["common/begun_by_sort"][..]),
-            Storage::Bins => {
-                ("common/collect_bins", &["common/begin_unsorted", "common/begin_step", "common/threefry"][..])
-            }
-        };
-        let spread = match self.water.spline_order {
-            1 => "common/spread1",
-            2 => "common/spread2",
-            _ if self.eights => "common/spread3_of_eight",
-            _ => "common/spread3",
-        };
-        let passes = [collect, "common/deposit", moments, spread, "passes/deposit"];
-        let modules = [&self.stored()[..], begin, &passes].concat();
-        let deposit = self.cell_kernel("deposit", &modules);
+        let nodes = self.water.nodes();
+        let deposit = Choices::new().with(mesh::Pass::Deposit).with(match self.water.spline_order {
+            1 => mesh::Spread::Linear,
+            2 => mesh::Spread::Quadratic,
+            _ if self.eights => mesh::Spread::CubicOfEight,
+            _ => mesh::Spread::Cubic,
+        });
+        let deposit = self.cell_kernel("deposit", &deposit);
+        let none = Choices::new();
         let gather = if self.eights {
-            let columns = (self.water.nodes() / STRIP).div_ceil(self.options.workgroup());
-            self.kernel("gather_nodes", &["common/storage", "kernels/gather_nodes_of_eight"], columns)
+            self.kernel("gather_nodes", Entry::GatherNodesOfEight, &none, nodes / STRIP)
         } else {
-            self.kernel("gather_nodes", &["kernels/gather_nodes"], cell_groups)
+            self.kernel("gather_nodes", Entry::GatherNodes, &none, nodes)
         };
         self.plan.before_report.extend([deposit, gather]);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
@@ -336,86 +337,32 @@ impl Builder<'_> {
         self.plan.kernels.extend(smoothing.kernels);
         self.plan.before_report.extend(smoothing.order.iter().map(|kernel| first + kernel));
         let Some(bath) = &self.water.bath else { return };
-        let mut modules = Vec::new();
-        if bath.noise(self.model.temperature) > 0.0 {
-            modules.push("common/mesh_noise_on");
-            modules.extend(noise_modules(Distribution::Gaussian));
-            match self.model.generator {
-                Generator::Pcg4d => modules.push("common/words_pcg4d"),
-                Generator::Threefry2x32 => modules.extend(["common/threefry", "common/words_threefry"]),
-            }
-        } else {
-            modules.push("common/mesh_noise_off");
-        }
-        modules.push("kernels/mesh_bath");
-        let bath = self.kernel("mesh_bath", &modules, cell_groups);
+        let noisy = bath.noise(self.model.temperature) > 0.0;
+        let noise = Choices::new()
+            .with_if(noisy, mesh::BathNoise::Gaussian)
+            .with_if(noisy, Deviate::Gaussian)
+            .with(words(self.model.generator));
+        let bath = self.kernel("mesh_bath", Entry::StepMeshBath, &noise, nodes);
         self.plan.before_report.push(bath);
-    }
-
-    /// Modules of the stored particles, whose cells are known.
-    fn stored(&self) -> Vec<&'static str> {
-        match (self.storage, self.texels) {
-            (Storage::Sorted, true) => [self.in_place(), vec!["common/order_texels", "common/store_sorted"]].concat(),
-            (Storage::Sorted, false) => [self.in_place(), vec!["common/order", "common/store_sorted"]].concat(),
-            (Storage::Bins, true) => {
-                vec![
-                    "common/storage",
-                    "common/texels",
-                    "common/stored_water_texels",
-                    "common/water_bins_texels",
-                    "common/store_bins",
-                ]
-            }
-            (Storage::Bins, false) => {
-                vec!["common/storage", "common/stored_water", "common/water_bins", "common/store_bins"]
-            }
-        }
-    }
-
-    /// Modules of particles that stay where they lie.
-    fn in_place(&self) -> Vec<&'static str> {
-        if self.texels {
-            vec!["common/storage", "common/texels", "common/stored_water_texels", "common/water_in_place_texels"]
-        } else {
-            vec!["common/storage", "common/stored_water", "common/water_in_place"]
-        }
-    }
-
-    /// Modules that move a particle, of a cell by itself or of one of eight.
-    fn moving(&self, of_eight: bool) -> Vec<&'static str> {
-        vec![
-            if self.water.bath.is_some() { "common/surface_bath" } else { "common/surface_plain" },
-            match self.water.spline_order {
-                1 => "common/nodes1",
-                2 => "common/nodes2",
-                _ if of_eight => "common/nodes3_of_eight",
-                _ => "common/nodes3",
-            },
-            "common/surface_slope",
-            "common/motion_limits",
-            if self.gyrates() { "common/gyro" } else { "common/rotate" },
-            if self.water.rotation == 0.0 { "common/turn_off" } else { "common/turn" },
-        ]
     }
 
     fn motion(&mut self, output: &Output) {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
-        let moving = self.moving(false);
-        let store_moved = match self.storage {
-            Storage::Sorted => "common/move_sorted",
-            Storage::Bins => "common/move_bins",
+        let push = Choices::new().with(match self.storage {
+            Storage::Sorted => mesh::Moving::Sorted,
+            Storage::Bins => mesh::Moving::Bins,
+        });
+        let push = if self.eights {
+            push.with(mesh::Nodes::CubicOfEight).with(mesh::Pass::PushOfEight).with(match self.storage {
+                Storage::Sorted => mesh::Eight::Sorted,
+                Storage::Bins => mesh::Eight::Bins,
+            })
+        } else {
+            push.with(mesh::Pass::Push)
         };
-        let with = |last: &[&'static str]| [&moving[..], &self.stored()[..], last].concat();
-        let push = match (self.eights, self.storage) {
-            (false, _) => &["passes/push"][..],
-            (true, Storage::Sorted) => &["common/eight_sorted", "passes/push_of_eight"],
-            (true, Storage::Bins) => &["common/eight_bins", "passes/push_of_eight"],
-        };
-        let push_modules = [&self.moving(self.eights)[..], &self.stored()[..], &[store_moved], push].concat();
-        let report = with(&["common/sum64", "common/reduce", "common/turns_endless", "kernels/report_water"]);
-        let push = self.cell_kernel("push", &push_modules);
-        let push_on = self.cell_kernel("push_from_report", &push_modules);
-        let report = self.kernel("report", &report, groups);
+        let (push, push_on) = (self.cell_kernel("push", &push), self.cell_kernel("push_from_report", &push));
+        let report = self.kernel("report", Entry::ReportWater, &Choices::new(), self.water.nodes());
+        self.plan.kernels[report].constants.push(("QUANTITIES", OBSERVABLES as f64));
         self.plan.kernels[push].constants.push(("CLOSES", 1.0));
         self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
         self.plan.advance.push(push);
@@ -423,7 +370,7 @@ impl Builder<'_> {
         self.plan.report.push(report);
         self.plan.sample_observables(output.energies.every, OBSERVABLES, groups);
         if self.tracers() > 0 {
-            self.drifting(output, &moving);
+            self.drifting(output);
         }
         let width = f64::from(self.water.spline_order + 1);
         let per_cell = self.water.nodes() as f64 / self.water.carriers.max(1) as f64;
@@ -431,20 +378,19 @@ impl Builder<'_> {
         self.plan.operations_per_particle = 4.0 * width * width + 70.0 + per_cell * (8.0 * width.powi(3) + 150.0);
     }
 
-    fn drifting(&mut self, output: &Output, moving: &[&'static str]) {
+    fn drifting(&mut self, output: &Output) {
         let tracers = self.tracers();
-        let groups = tracers.div_ceil(self.options.workgroup());
-        let with = |last: &'static str| [moving, &[last]].concat();
-        let push = self.kernel("push_tracers", &with("kernels/push_tracers"), groups);
-        let push_on = self.kernel("push_tracers_from_report", &with("kernels/push_tracers"), groups);
-        let report = self.kernel("report_tracers", &with("kernels/report_tracers"), groups);
+        let none = Choices::new();
+        let push = self.kernel("push_tracers", Entry::PushTracers, &none, tracers);
+        let push_on = self.kernel("push_tracers_from_report", Entry::PushTracers, &none, tracers);
+        let report = self.kernel("report_tracers", Entry::ReportTracers, &none, tracers);
         self.plan.kernels[push].constants.push(("CLOSES", 1.0));
         self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
         let record = self.plan.add_kernel(
-            Kernel::new("record_tracers", vec!["common/water", "common/control", "kernels/record_tracers"], 1)
+            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1)
                 .renamed(vec![("samples", "tracer_samples")]),
         );
         let row = 8 * (1 + 2 * tracers);
@@ -471,17 +417,14 @@ impl Builder<'_> {
             return;
         }
         let groups = |things: u64| things.div_ceil(self.options.workgroup());
-        let kernel = |name, stored: Vec<&'static str>, entry, groups| {
-            let modules = [&self.mesh()[..], &stored, &["common/crossings", "common/paths", entry]].concat();
-            Kernel::new(name, modules, groups)
+        let (entry, followed) = match self.storage {
+            Storage::Sorted => (Entry::FollowWater, self.water.carriers),
+            Storage::Bins => (Entry::FollowBins, self.water.nodes()),
         };
-        let mut kernels = vec![match self.storage {
-            Storage::Sorted => kernel("follow", self.in_place(), "kernels/follow_water", groups(self.water.carriers)),
-            Storage::Bins => kernel("follow", self.stored(), "kernels/follow_bins", groups(self.water.nodes())),
-        }];
+        let mut kernels = vec![Kernel::new("follow", entry, self.choices(), groups(followed))];
         if self.tracers() > 0 {
-            let stored = vec!["common/storage", "common/stored_water", "common/water_in_place"];
-            let follow = kernel("follow_tracers", stored, "kernels/follow_water", groups(self.tracers()));
+            let stored = self.choices().with(mesh::Particles::InPlace);
+            let follow = Kernel::new("follow_tracers", Entry::FollowWater, stored, groups(self.tracers()));
             let count = vec![("PARTICLES", self.tracers() as f64)];
             kernels.push(follow.with(count).renamed(vec![("particles", "tracers")]));
         }

@@ -1,6 +1,7 @@
 //! What crosses the faces: momentum, mass and energy, as each part of a step asks for.
 
 use super::Builder;
+use crate::shaders::{Choices, Entry, voronoi};
 
 /// What a part of a step exchanges, in which time, and how fast cells are then taken to move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,32 +26,26 @@ impl Builder<'_> {
             kernels.push(self.predict(part));
         }
         let heat = part != Part::Pressure && self.conducts();
-        let mut modules = vec!["common/side"];
-        modules.extend(match part {
-            _ if predicted => ["common/side_predicted"],
-            Part::Pressure | Part::Everything => ["common/side_start"],
-            Part::Friction => ["common/side_solved"],
-            Part::Heat => ["common/side_warm"],
-        });
-        modules.extend(self.forces(part, heat));
         let limits = heat || (pressure && self.has_limits());
-        if limits && !modules.contains(&"common/limit_on") {
-            modules.push("common/limit_on");
-        }
-        if !limits {
-            modules.push("common/limit_off");
-        }
-        modules.push(if heat { "common/conduction_on" } else { "common/conduction_off" });
-        modules.push(if self.cells.keeps_energy() { "common/energy_on" } else { "common/energy_off" });
-        modules.push(match (part, pressure && self.cells.exchanges_mass(), self.cells.keeps_energy()) {
-            (Part::Heat, _, _) => "common/moved_heat",
-            (_, false, false) => "common/moved_momentum",
-            (_, true, false) => "common/moved_mass",
-            (_, false, true) => "common/moved_energy",
-            (_, true, true) => "common/moved_all",
-        });
-        modules.push("kernels/exchange");
-        let exchange = self.face_kernel("exchange", &modules, part);
+        let choices = self
+            .forces(part, heat)
+            .with(match part {
+                _ if predicted => voronoi::Side::Predicted,
+                Part::Pressure | Part::Everything => voronoi::Side::Start,
+                Part::Friction => voronoi::Side::Solved,
+                Part::Heat => voronoi::Side::Warm,
+            })
+            .with_if(limits, voronoi::Limit::Counted)
+            .with_if(heat, voronoi::Conduction::Heat)
+            .with_if(self.cells.keeps_energy(), voronoi::Energy::Kept)
+            .with(match (part, pressure && self.cells.exchanges_mass(), self.cells.keeps_energy()) {
+                (Part::Heat, _, _) => voronoi::Moved::Heat,
+                (_, false, false) => voronoi::Moved::Momentum,
+                (_, true, false) => voronoi::Moved::Mass,
+                (_, false, true) => voronoi::Moved::Energy,
+                (_, true, true) => voronoi::Moved::All,
+            });
+        let exchange = self.face_kernel("exchange", Entry::ExchangeThroughFaces, &choices, part);
         if into != "exchanges" {
             self.plan.kernels[exchange].renamed = vec![("exchanges", into)];
         }
@@ -63,47 +58,36 @@ impl Builder<'_> {
         if !self.plan.buffers.iter().any(|buffer| buffer.name == "predictions") {
             self.plan.add_buffer("predictions", "what an exchange is expected to bring", 16 * self.particles);
         }
-        let mut modules = vec!["common/side", "common/side_start"];
-        modules.extend(self.forces(part, false));
-        modules.extend([
-            if part == Part::Everything { "common/middle_start" } else { "common/middle_halfway" },
-            "kernels/predict",
-        ]);
-        self.face_kernel("predict", &modules, part)
+        let choices = self
+            .forces(part, false)
+            .with(voronoi::Side::Start)
+            .with_if(part == Part::Everything, voronoi::Middle::Start);
+        self.face_kernel("predict", Entry::PredictExchange, &choices, part)
     }
 
-    /// Modules of the forces of a part, with the random words they and heat need.
-    fn forces(&self, part: Part, heat: bool) -> Vec<&'static str> {
-        let rubs = match part {
-            Part::Pressure | Part::Heat => false,
-            Part::Friction | Part::Everything => self.rubs(),
+    /// The forces of a part, with the random words they and heat need.
+    fn forces(&self, part: Part, heat: bool) -> Choices {
+        let (rubs, presses) = match part {
+            Part::Pressure => (false, true),
+            Part::Heat => (false, false),
+            Part::Friction => (self.rubs(), false),
+            Part::Everything => (self.rubs(), true),
         };
-        let mut modules = match part {
-            Part::Pressure | Part::Everything => self.form(),
-            Part::Friction | Part::Heat => vec!["common/form_off", "common/sweep_free"],
-        };
-        modules.extend(if rubs { self.rubbing() } else { vec!["common/rubbing_off"] });
-        if heat || (rubs && self.rubs_at_random()) {
-            modules.extend(self.words());
-            modules.push("common/key_of_step");
-        } else {
-            modules.push("common/key_unused");
-        }
-        modules
+        let choices = if presses { self.form() } else { Choices::new() };
+        let choices = if rubs { choices.and(&self.rubbing()) } else { choices };
+        choices.with_if(heat || (rubs && self.rubs_at_random()), voronoi::NoiseKey::Step)
     }
 
-    /// Modules of friction and its noise, but for the words.
-    pub(super) fn rubbing(&self) -> Vec<&'static str> {
-        let random = if self.rubs_at_random() { "common/random_impulse_on" } else { "common/random_impulse_off" };
-        vec!["common/rubbing_on", random]
+    /// Friction and its noise.
+    pub(super) fn rubbing(&self) -> Choices {
+        Choices::new().with(voronoi::Rubbing::Viscous).with_if(self.rubs_at_random(), voronoi::RandomImpulse::Thermal)
     }
 
     /// A kernel over the faces of cells.
-    fn face_kernel(&mut self, name: &'static str, modules: &[&'static str], part: Part) -> usize {
+    fn face_kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, part: Part) -> usize {
         let step = self.model.time_step * if part == Part::Pressure { 0.5 } else { 1.0 };
-        let modules = [&self.cell()[..], &["common/face", "common/facet"], modules].concat();
         let groups = self.groups(self.particles);
-        let kernel = self.kernel(name, &modules, groups);
+        let kernel = self.kernel(name, entry, choices, groups);
         self.plan.kernels[kernel].constants = vec![("STEP", step)];
         kernel
     }

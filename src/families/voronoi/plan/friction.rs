@@ -2,7 +2,8 @@
 //! kernels of those that are not needed get no workgroups.
 
 use super::Builder;
-use crate::plan::{Kernel, folded};
+use crate::plan::folded;
+use crate::shaders::{Choices, Entry, voronoi};
 
 /// Lanes of a workgroup of the solver, whose sums are of single precision: no choice, for results depend on it.
 const LANES: u64 = 64;
@@ -15,42 +16,26 @@ impl Builder<'_> {
     /// Kernels that find the mean velocities of a whole step of friction.
     pub(super) fn solve_friction(&mut self) -> Vec<usize> {
         let groups = self.particles.div_ceil(LANES).max(1);
-        let iterations = if self.solves_at_once() { "common/iterations_within" } else { "common/iterations_demanded" };
-        let begin = vec!["common/control", "common/clock", "common/solver", iterations, "kernels/friction_begin"];
-        let begin = self.plan.add_kernel(Kernel::new("friction_begin", begin, 1));
-        let mut setup =
-            vec!["common/solver", "common/friction_sums", "common/preconditioner", "common/face", "common/facet"];
-        setup.extend(self.cell());
-        setup.extend(["common/side"]);
-        setup.extend(self.rubbing());
-        if self.rubs_at_random() {
-            setup.extend(self.words());
-            setup.push("common/key_of_solver");
-        } else {
-            setup.push("common/key_unused");
-        }
-        setup.push("kernels/friction_setup");
-        let setup = self.kernel("friction_setup", &setup, groups);
+        let iterations = Choices::new().with_if(!self.solves_at_once(), voronoi::FrictionIterations::Demanded);
+        let begin = self.kernel("friction_begin", Entry::FrictionBegin, &iterations, 1);
+        let setup = self.rubbing().with_if(self.rubs_at_random(), voronoi::NoiseKey::Solver);
+        let setup = self.kernel("friction_setup", Entry::FrictionSetup, &setup, groups);
         self.solver_buffers(groups);
         let verdict = vec![
             ("CELL_GROUPS", groups as f64),
             ("TOLERANCE", self.cells.solver.tolerance),
             ("ITERATIONS", f64::from(self.cells.solver.iterations)),
         ];
-        let sums = ["common/solver", "common/friction_sums"];
-        let equations = ["common/friction_equations", "common/preconditioner", "common/face"];
+        let none = Choices::new();
         if self.solves_at_once() {
-            let modules = [&sums[..], &equations, &["common/friction_verdict", "kernels/friction_solve"]].concat();
-            let solve = self.kernel("friction_solve", &modules, 1);
+            let solve = self.kernel("friction_solve", Entry::FrictionSolve, &none, 1);
             self.plan.kernels[solve].constants = verdict;
             return vec![begin, setup, solve];
         }
-        let image =
-            self.kernel("friction_image", &[&sums[..], &equations, &["kernels/friction_image"]].concat(), groups);
-        let judge = [&sums[..], &["common/control", "common/friction_verdict", "kernels/friction_judge"]].concat();
-        let judge = self.plan.add_kernel(Kernel::new("friction_judge", judge, 1));
+        let image = self.kernel("friction_image", Entry::FrictionImage, &none, groups);
+        let judge = self.kernel("friction_judge", Entry::FrictionJudge, &none, 1);
         self.plan.kernels[judge].constants = verdict;
-        let step = self.kernel("friction_step", &[&sums[..], &equations, &["kernels/friction_step"]].concat(), groups);
+        let step = self.kernel("friction_step", Entry::FrictionStep, &none, groups);
         for kernel in [image, step] {
             self.plan.kernels[kernel].demand = Some(1);
         }

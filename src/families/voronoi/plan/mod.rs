@@ -14,8 +14,9 @@ mod tessellation;
 use crate::families::particles::plan::pair;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::plan::{Grid, Kernel, Layout, Options, Plan, Quanta};
-use crate::scene::{Generator, Integrator, Output, VoronoiForm};
+use crate::plan::{Grid, Kernel, Layout, Options, Plan, Quanta, words};
+use crate::scene::{Integrator, Output, VoronoiForm};
+use crate::shaders::{Choices, Entry, grid, space, voronoi};
 
 /// Makes the plan of a model of Voronoi cells.
 pub(crate) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &Output, options: Options) -> Plan {
@@ -49,9 +50,10 @@ fn quanta(model: &Model) -> Quanta {
     Quanta { length_squared: mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
 }
 
-/// Modules of the plane and of the cells in it.
-const SPACE: [&str; 6] =
-    ["common/space2", "common/within", "common/particle", "common/control", "common/clock", "common/dispatch"];
+/// The plane and the cells in it.
+fn plane() -> Choices {
+    Choices::new().with(space::Dimension::Two).with(space::Particle::Plain).with(space::MassOfParticle::Own)
+}
 
 struct Builder<'a> {
     model: &'a Model,
@@ -103,9 +105,7 @@ impl Builder<'_> {
         if output.trajectory.is_none() {
             return;
         }
-        let modules =
-            [&SPACE[..], &["common/particles", "common/crossings", "common/paths", "kernels/follow"]].concat();
-        let kernel = Kernel::new("follow", modules, self.groups(self.particles));
+        let kernel = Kernel::new("follow", Entry::FollowParticles, plane(), self.groups(self.particles));
         self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
     }
 
@@ -138,46 +138,42 @@ impl Builder<'_> {
         things.div_ceil(self.options.workgroup()).max(1)
     }
 
-    /// Modules of what a cell is.
-    fn cell(&self) -> [&'static str; 2] {
-        ["common/cell", if self.cells.keeps_energy() { "common/gas_energy" } else { "common/gas_isothermal" }]
+    /// What is chosen for every kernel: the plane, the grid in it, what cells are, and who draws random words.
+    fn choices(&self) -> Choices {
+        plane()
+            .with(grid::Dimension::Plane)
+            .with(grid::Rows::Plain)
+            .with(if self.cells.keeps_energy() { voronoi::Gas::Energy } else { voronoi::Gas::Isothermal })
+            .with(words(self.model.generator))
     }
 
-    /// Modules that draw the random words of a face.
-    fn words(&self) -> &'static [&'static str] {
-        match self.model.generator {
-            Generator::Pcg4d => &["common/face_noise", "common/gaussian", "common/elementary", "common/words_pcg4d"],
-            Generator::Threefry2x32 => &[
-                "common/face_noise",
-                "common/gaussian",
-                "common/elementary",
-                "common/threefry",
-                "common/words_threefry",
-            ],
-        }
-    }
-
-    /// Modules of the form of pressures and mass exchange.
-    fn form(&self) -> Vec<&'static str> {
+    /// The form of pressures and mass exchange.
+    fn form(&self) -> Choices {
         let keeps_energy = self.cells.keeps_energy();
-        let exchanging = |turning| {
-            let energy = if keeps_energy { "common/swept_energy_on" } else { "common/swept_energy_off" };
-            vec!["common/twist", "common/sweep_free", "common/form_exchange", turning, energy, "common/limit_on"]
+        let turned = Choices::new().with(voronoi::Twist::OfFaces);
+        let exchanging = |turning: voronoi::Turning| {
+            turned
+                .clone()
+                .with(voronoi::Form::Exchange)
+                .with(turning)
+                .with_if(keeps_energy, voronoi::SweptEnergy::Limited)
+                .with(voronoi::Limit::Counted)
         };
         match self.cells.form {
-            VoronoiForm::Gradient if self.has_limits() => {
-                let sweep = if keeps_energy { "common/sweep_limited" } else { "common/sweep_bounded" };
-                vec!["common/twist", "common/turn_bounded", sweep, "common/form_gradient", "common/limit_on"]
-            }
-            VoronoiForm::Gradient => vec!["common/twist", "common/sweep_free", "common/form_gradient"],
-            VoronoiForm::Consistent => exchanging("common/turning_consistent"),
-            VoronoiForm::Paper => exchanging("common/turning_paper"),
+            VoronoiForm::Gradient if self.has_limits() => turned
+                .with(voronoi::Form::Gradient)
+                .with(voronoi::TurnBound::Bounded)
+                .with(if keeps_energy { voronoi::Sweep::Limited } else { voronoi::Sweep::Bounded })
+                .with(voronoi::Limit::Counted),
+            VoronoiForm::Gradient => turned.with(voronoi::Form::Gradient),
+            VoronoiForm::Consistent => exchanging(voronoi::Turning::Consistent),
+            VoronoiForm::Paper => exchanging(voronoi::Turning::Paper),
         }
     }
 
-    /// Adds a kernel of the plane with further modules.
-    fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        self.plan.add_kernel(Kernel::new(name, [&SPACE[..], &["common/particles"], modules].concat(), workgroups))
+    /// Adds a kernel.
+    fn kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, workgroups: u64) -> usize {
+        self.plan.add_kernel(Kernel::new(name, entry, self.choices().and(choices), workgroups))
     }
 
     fn buffers(&mut self) {

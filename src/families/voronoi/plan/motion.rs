@@ -3,21 +3,9 @@
 use super::Builder;
 use super::exchange::Part;
 use super::tessellation::Occasion;
-use crate::plan::Kernel;
 use crate::scene::Output;
-
-/// What the cells take up, and from where.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Change {
-    /// What came through the faces.
-    Taken,
-    /// The push of half a step, which comes again.
-    Kept,
-    /// The same once more, with what came through the faces in between.
-    Again,
-    /// The same twice, for nothing came in between.
-    Twice,
-}
+use crate::shaders::voronoi::{self, Change};
+use crate::shaders::{Choices, Entry};
 
 /// Which way cells go once they have taken up what they got.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,15 +20,7 @@ enum Drift {
 impl Builder<'_> {
     /// The kernels of a step, and those that go before its report.
     pub(super) fn steps(&mut self, output: &Output) {
-        let tick = vec![
-            "common/control",
-            "common/clock",
-            "common/dispatch",
-            "common/begin_step",
-            "common/threefry",
-            "kernels/tick",
-        ];
-        self.plan.sort = vec![self.plan.add_kernel(Kernel::new("tick", tick, 1))];
+        self.plan.sort = vec![self.kernel("tick", Entry::BeginPlainStep, &Choices::new(), 1)];
         let geometry = self.geometry();
         if self.is_explicit() {
             self.plan.before_report = geometry;
@@ -75,9 +55,8 @@ impl Builder<'_> {
 
     /// A half drift, half a push, friction and heat, half a push, a half drift.
     fn split_step(&mut self) -> Vec<usize> {
-        let modules = ["common/grid2", "common/cell", "common/cell_drift", "common/ranks", "kernels/drift_cells"];
         let groups = self.groups(self.particles);
-        let drift = self.kernel("drift", &modules, groups);
+        let drift = self.kernel("drift", Entry::DriftCells, &Choices::new(), groups);
         self.plan.kernels[drift].constants = self.drift_constants(0.5);
         let mut kernels = vec![drift];
         kernels.extend(self.geometry_for(Occasion::Midway));
@@ -127,22 +106,16 @@ impl Builder<'_> {
 
     /// The kernel that adds to the cells what came through their faces.
     fn take_up(&mut self, change: Change, drift: Drift) -> usize {
-        let mut modules = self.cell().to_vec();
-        modules.push(match change {
-            Change::Taken => "common/change_taken",
-            Change::Kept => "common/change_kept",
-            Change::Again => "common/change_again",
-            Change::Twice => "common/change_twice",
-        });
-        modules.push(if self.cells.keeps_energy() { "common/store_energy" } else { "common/store_isothermal" });
-        modules.extend(match drift {
-            Drift::None => &["common/cell_stays"][..],
-            Drift::Half => &["common/cell_moves", "common/cell_drift"],
-            Drift::Explicit => &["common/cell_moves_before", "common/cell_drift"],
-        });
-        modules.push("kernels/take_up");
+        let choices = Choices::new()
+            .with(change)
+            .with_if(self.cells.keeps_energy(), voronoi::EnergyCheck::Kept)
+            .with_any(match drift {
+                Drift::None => None,
+                Drift::Half => Some(voronoi::Motion::After),
+                Drift::Explicit => Some(voronoi::Motion::Before),
+            });
         let groups = self.groups(self.particles);
-        let kernel = self.kernel("take_up", &modules, groups);
+        let kernel = self.kernel("take_up", Entry::TakeUpExchange, &choices, groups);
         if drift != Drift::None {
             self.plan.kernels[kernel].constants = self.drift_constants(if drift == Drift::Half { 0.5 } else { 1.0 });
         }

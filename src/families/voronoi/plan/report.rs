@@ -1,8 +1,9 @@
 //! What is measured of the cells, and the analyses of them by their numbers.
 
-use super::{Builder, SPACE};
+use super::{Builder, plane};
 use crate::plan::analyses;
 use crate::scene::Output;
+use crate::shaders::{Choices, Entry, voronoi};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, mass, volume, sides of faces; then free energy,
 /// or internal energy, total energy and temperature; then exchanges that a limit has cut; then iterations and residual.
@@ -28,22 +29,20 @@ impl Builder<'_> {
 
     /// The kernel that adds up what the cells are like.
     pub(super) fn report(&mut self, output: &Output) {
-        let mut modules = self.cell().to_vec();
-        modules.extend(["common/face", "common/sum64", "common/sum64_signed", "common/reduce", "common/totals"]);
-        modules.push(match (self.cells.keeps_energy(), self.cells.exchanges_mass()) {
-            (true, _) => "common/report_energy",
-            (false, false) => "common/report_isothermal",
-            (false, true) => "common/report_gas_off",
-        });
-        modules.extend(match (self.solves(), self.has_limits()) {
-            (true, _) => &["common/report_solver", "common/solver"][..],
-            (false, true) => &["common/report_limits"],
-            (false, false) => &["common/report_nothing"],
-        });
-        modules.push(if analysed(output) { "common/note_by_id" } else { "common/note_nowhere" });
-        modules.push("kernels/observe_cells");
+        let choices = Choices::new()
+            .with_any(match (self.cells.keeps_energy(), self.cells.exchanges_mass()) {
+                (true, _) => Some(voronoi::GasReport::Energy),
+                (false, false) => Some(voronoi::GasReport::Isothermal),
+                (false, true) => None,
+            })
+            .with_any(match (self.solves(), self.has_limits()) {
+                (true, _) => Some(voronoi::RunReport::Solver),
+                (false, true) => Some(voronoi::RunReport::Limits),
+                (false, false) => None,
+            })
+            .with_if(analysed(output), voronoi::Note::ById);
         let groups = self.groups(self.particles);
-        let observe = self.kernel("observe", &modules, groups);
+        let observe = self.kernel("observe", Entry::ObserveCells, &choices, groups);
         let quanta = self.plan.quanta;
         self.plan.kernels[observe].constants = vec![
             ("QUANTITIES", self.quantities() as f64),
@@ -72,8 +71,7 @@ impl Builder<'_> {
             model: self.model,
             equilibration: self.equilibration,
             workgroup: self.options.workgroup(),
-            space: SPACE.to_vec(),
-            masses: vec!["common/own_mass"],
+            choices: plane(),
             particles: "reported",
             momenta: None,
             forces: "reported_forces",

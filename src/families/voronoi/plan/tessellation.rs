@@ -1,10 +1,11 @@
 //! The order of the particles and the cells around them.
 
-use super::{Builder, SPACE};
+use super::Builder;
+use crate::plan::Kernel;
 use crate::plan::prefix_sum::PrefixSum;
-use crate::plan::{ARRANGE, Kernel};
+use crate::shaders::{Entry, core, voronoi};
 
-/// Corners for which an invocation has room in memory of its own, as `shaders/common/corners_private.wgsl` says.
+/// Corners for which an invocation has room in memory of its own, as `shaders/voronoi/corners/private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
 
 /// Cells of which one is expected to be in doubt at most: where there are more, invocations make several one after another.
@@ -29,39 +30,18 @@ impl Builder<'_> {
     /// do the same are one.
     pub(super) fn geometry_for(&mut self, occasion: Occasion) -> Vec<usize> {
         let mut kernels = Vec::new();
+        let groups = self.groups(self.particles);
         if occasion == Occasion::Report {
-            let groups = self.groups(self.particles);
-            kernels.push(self.shared_kernel("bin", &["common/grid2", "common/ranks", "kernels/bin"], groups));
+            kernels.push(self.shared_kernel("bin", Entry::BinParticles, groups));
         }
         self.scan(&mut kernels);
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
-        let arrange = [&["common/grid2"][..], &ARRANGE].concat();
-        kernels.push(self.shared_kernel("arrange", &arrange, arrange_groups));
-        let sorted = ["common/grid2", "common/cells_plain", "common/cells_buffer", "common/sorted"];
-        let groups = self.groups(self.particles);
-        kernels.push(self.shared_kernel(
-            "order_cells",
-            &[&sorted[..], &["common/places", "kernels/order_cells"]].concat(),
-            groups,
-        ));
-        let stored = self.options.list_growth > 0;
-        let corners = if stored { "common/corners_stored" } else { "common/corners_private" };
-        let cells = [
-            "common/grid2",
-            "common/cells_plain",
-            "common/cells_buffer",
-            "common/face",
-            "common/places",
-            "common/sites",
-            "common/meeting",
-        ];
-        let few = ["common/few_corners", "common/rows_around", "kernels/tessellate"];
-        let quickly = self.shared_kernel("tessellate", &[&cells[..], &few].concat(), groups);
+        kernels.push(self.shared_kernel("arrange", Entry::ArrangeParticles, arrange_groups));
+        kernels.push(self.shared_kernel("order_cells", Entry::OrderCells, groups));
+        let quickly = self.shared_kernel("tessellate", Entry::Tessellate, groups);
         self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
-        let polygon =
-            [corners, "common/polygon", "common/in_circle", "common/turns_endless", "kernels/tessellate_exactly"];
         let groups = self.groups(self.particles.div_ceil(DOUBTFUL_SHARE));
-        let exactly = self.shared_kernel("tessellate_exactly", &[&cells[..], &polygon].concat(), groups);
+        let exactly = self.shared_kernel("tessellate_exactly", Entry::TessellateExactly, groups);
         let [x_weight, y_weight] = weights(self.model.units.lengths);
         let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
         self.plan.kernels[exactly].constants = vec![
@@ -80,15 +60,8 @@ impl Builder<'_> {
 
     /// Kernels of the prefix sum over grid cells.
     fn scan(&mut self, kernels: &mut Vec<usize>) {
-        let modules = [&SPACE[..], &["common/grid2", "common/cells_plain", "common/cells_buffer"]].concat();
-        let (rows, cells) = (self.grid.rows(), self.grid.count());
-        let sum = PrefixSum {
-            modules,
-            row_scan: &["common/counts", "common/row_scan"],
-            clock: &["common/same_step"],
-            rows,
-            cells,
-        };
+        let choices = self.choices().with(core::Step::Same);
+        let sum = PrefixSum { choices: &choices, rows: self.grid.rows(), cells: self.grid.count() };
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel_once(kernel)));
     }
 
@@ -109,8 +82,10 @@ impl Builder<'_> {
     }
 
     /// A kernel that is made once, however often it is asked for.
-    fn shared_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        self.plan.add_kernel_once(Kernel::new(name, [&SPACE[..], &["common/particles"], modules].concat(), workgroups))
+    fn shared_kernel(&mut self, name: &'static str, entry: Entry, workgroups: u64) -> usize {
+        let stored = self.options.list_growth > 0;
+        let choices = self.choices().with(if stored { voronoi::Corners::Stored } else { voronoi::Corners::Private });
+        self.plan.add_kernel_once(Kernel::new(name, entry, choices, workgroups))
     }
 
     fn geometry_buffers(&mut self) {

@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::plan::Table;
+use crate::shaders::{Choices, Entry, couplings};
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
@@ -15,11 +16,10 @@ impl Builder<'_> {
             ("FIRST_ANGLE", self.model.species.len() as f64),
             ("ANGLE_LAPLACIAN", laplacian),
         ]);
-        let modules = [self.kicks(), "common/contact", "kernels/angles"];
-        let advance = self.kernel("angles", &[&modules[..], &["common/angles_unseen"]].concat(), groups);
+        let advance = self.kernel("angles", Entry::BendAngles, &Choices::new(), groups);
         self.plan.advance.push(advance);
-        let seen = [self.forces(), "common/angles_seen"];
-        self.report_kernel("report_angles", &[&modules[..], &seen].concat(), groups);
+        let seen = Choices::new().with(couplings::Angles::Observed).with_any(self.forces());
+        self.report_kernel("report_angles", Entry::BendAngles, &seen, groups);
         let mobile = self.model.species.iter().map(|species| [u32::from(!species.fixed), 0, 0, 0]);
         let impulses = angles.stiffness.iter().map(|stiffness| ((stiffness * self.impulse()) as f32).to_bits());
         let (head, impulses) = (mobile.flatten().collect(), impulses.collect());

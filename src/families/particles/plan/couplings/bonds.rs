@@ -4,7 +4,8 @@ use super::Builder;
 use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
 use crate::plan::Table;
-use crate::scene::{BondPotential, Generator};
+use crate::scene::BondPotential;
+use crate::shaders::{Choices, Entry, couplings};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
@@ -20,27 +21,18 @@ impl Builder<'_> {
             ("BOND_STREAM_X", f64::from(key[0])),
             ("BOND_STREAM_Y", f64::from(key[1])),
         ]);
-        let mut modules = vec![self.kicks(), "common/contact", "common/bond_kinds"];
-        modules.push(potential_module(bonds));
-        let (mut unseen, mut seen) = (vec!["common/bonds_unseen"], vec!["common/bonds_seen", self.forces()]);
         if bonds.have_friction() {
-            modules.push("common/bond_motion");
             self.bath_impulse();
-            modules.extend(self.bond_noise(bonds));
-            if bonds.have_memory() {
-                modules.push("common/bond_bath_memory");
-                unseen.push("common/bond_memory_kept");
-                seen.push("common/bond_memory_seen");
-            } else {
-                modules.push("common/bond_bath_white");
-            }
-        } else {
-            modules.push("common/bond_bath_off");
         }
-        modules.push("kernels/bonds");
-        let advance = self.kernel("bonds", &[&modules[..], &unseen].concat(), groups);
+        let choices = bond_choices(bonds);
+        let seen = choices
+            .clone()
+            .with(couplings::Bonds::Observed)
+            .with_any(self.forces())
+            .with_if(bonds.have_memory(), couplings::BondMemory::Observed);
+        let advance = self.kernel("bonds", Entry::PullBonds, &choices, groups);
         self.plan.advance.push(advance);
-        self.report_kernel("report_bonds", &[&modules[..], &seen].concat(), groups);
+        self.report_kernel("report_bonds", Entry::PullBonds, &seen, groups);
         self.bond_buffers(bonds);
         let each = if bonds.have_friction() { 150.0 } else { 50.0 };
         self.plan.operations_per_particle += each * count as f64 / self.particles.max(1) as f64;
@@ -54,19 +46,7 @@ impl Builder<'_> {
         }
     }
 
-    fn bond_noise(&self, bonds: &Bonds) -> Vec<&'static str> {
-        let noisy = |kind: &BondKind| kind.bath.is_some() && kind.temperature > 0.0;
-        if !bonds.kinds.iter().any(noisy) {
-            return vec!["common/bond_noise_off"];
-        }
-        let words = match self.model.generator {
-            Generator::Pcg4d => "common/words_pcg4d",
-            Generator::Threefry2x32 => "common/words_threefry",
-        };
-        vec!["common/bond_noise_on", "common/gaussian", "common/elementary", "common/threefry", words]
-    }
-
-    /// The buffers of bonds; `bonds` as `shaders/common/bond_kinds.wgsl` reads it.
+    /// The buffers of bonds; `bonds` as `shaders/couplings/bonds.wgsl` reads it.
     fn bond_buffers(&mut self, bonds: &Bonds) {
         let mut words: Vec<u32> = Vec::new();
         for species in 0..self.model.species.len() {
@@ -105,26 +85,31 @@ impl Builder<'_> {
         all.map(|value| value as f32)
     }
 
-    /// Partners that each particle is to be spared from, in rows of equal length; none where there are none.
-    pub(super) fn exclusions(&mut self) -> &'static str {
-        let Some(bonds) = self.model.bonds().filter(|_| self.spares()) else { return "common/exclusions_off" };
+    /// Partners that each particle is to be spared from, in rows of equal length, if there are any.
+    pub(super) fn exclusions(&mut self) -> Option<couplings::Exclusions> {
+        let bonds = self.model.bonds().filter(|_| self.spares())?;
         let width = bonds.most_spared().max(1) as u64;
         self.plan.constants.push(("EXCLUSIONS", width as f64));
         let purpose = "partners whose repulsion each particle is spared";
         let table = Table::Exclusions { bonds: bonds.clone(), particles: self.particles, width };
         self.plan.add_long_table("exclusions", purpose, table);
-        "common/exclusions_on"
+        Some(couplings::Exclusions::Listed)
     }
 }
 
-/// The cheapest potential that holds those of all bonds.
-fn potential_module(bonds: &Bonds) -> &'static str {
-    let limited = |kind: &BondKind| matches!(kind.potential, Some(BondPotential::Fene { .. }));
-    if bonds.kinds.iter().any(limited) {
-        "common/bond_fene"
-    } else if bonds.kinds.iter().any(|kind| kind.potential.is_some()) {
-        "common/bond_harmonic"
+/// The cheapest potential and bath that hold those of all bonds.
+fn bond_choices(bonds: &Bonds) -> Choices {
+    let any = |what: fn(&BondKind) -> bool| bonds.kinds.iter().any(what);
+    let potential = if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
+        Some(couplings::BondPotential::Fene)
+    } else if any(|kind| kind.potential.is_some()) {
+        Some(couplings::BondPotential::Harmonic)
     } else {
-        "common/bond_free"
-    }
+        None
+    };
+    let bath = if bonds.have_memory() { couplings::BondBath::Memory } else { couplings::BondBath::White };
+    Choices::new()
+        .with_any(potential)
+        .with_if(bonds.have_friction(), bath)
+        .with_if(any(|kind| kind.bath.is_some() && kind.temperature > 0.0), couplings::BondNoise::Gaussian)
 }

@@ -3,26 +3,21 @@
 use super::Builder;
 use crate::noise::{self, stream};
 use crate::scene::NoiseProcess;
+use crate::shaders::{Choices, couplings};
 
 /// Largest time that a constant takes, in half steps: above it every force outlasts any run.
 const LONGEST_TIME: f64 = 1e30;
 
 impl Builder<'_> {
-    /// Modules of the random force; with one, `pair_words` has to be defined.
-    pub(super) fn hold_modules(&self) -> Vec<&'static str> {
-        let Some(noise) = self.model.coloured_noise() else { return vec!["common/holds_off"] };
-        let direction = match self.model.units.dimension {
-            1 => "common/direction1",
-            2 => "common/direction2",
-            _ => "common/direction3",
-        };
-        let jump = match noise.process {
-            NoiseProcess::Kangaroo => "common/jump_kangaroo",
-            NoiseProcess::KangarooExponential => "common/jump_kangaroo_exponential",
-            NoiseProcess::Short => "common/jump_short",
-            NoiseProcess::Literal => "common/jump_literal",
-        };
-        vec!["common/holds_on", "common/jump_words", direction, jump]
+    /// The random force, if there is one.
+    pub(super) fn held_noise(&self) -> Choices {
+        let Some(noise) = self.model.coloured_noise() else { return Choices::new() };
+        Choices::new().with(couplings::ColouredNoise::Held).with(match noise.process {
+            NoiseProcess::Kangaroo => couplings::Jump::Kangaroo,
+            NoiseProcess::KangarooExponential => couplings::Jump::KangarooExponential,
+            NoiseProcess::Short => couplings::Jump::Short,
+            NoiseProcess::Literal => couplings::Jump::Literal,
+        })
     }
 
     /// Constants and state of the random force.

@@ -5,11 +5,9 @@ use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::plan::layout::PARTICLE;
 use crate::plan::prefix_sum::PrefixSum;
-use crate::plan::{Kernel, Options, folded};
+use crate::plan::{Options, folded};
+use crate::shaders::{Choices, Entry, core, couplings};
 use std::f64::consts::PI;
-
-/// Modules of the list that there is and of the one that is being made.
-const LISTS: [&str; 4] = ["common/neighbours", "common/neighbours_next", "common/memories", "common/memories_next"];
 
 /// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
 /// that for every time it has turned out to be too little.
@@ -28,43 +26,29 @@ pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u6
 
 impl Builder<'_> {
     /// Whether bonds ask where a particle is.
-    fn slots(&self) -> &'static str {
-        if self.model.bonds().is_some() || self.model.angles().is_some() {
-            "common/slots_on"
-        } else {
-            "common/slots_off"
-        }
+    fn needs_slots(&self) -> bool {
+        self.model.bonds().is_some() || self.model.angles().is_some()
     }
 
     /// The clock and, for pairs, the list.
     pub(super) fn list(&mut self) {
-        if self.model.bonds().is_some() || self.model.angles().is_some() {
+        if self.needs_slots() {
             self.plan.add_buffer("slots", "where each particle is stored", 4 * self.particles);
         }
-        let clock = ["common/begin_step", "common/threefry"];
         let groups = self.groups(self.particles);
+        let slots = Choices::new().with_if(self.needs_slots(), couplings::Slots::Kept);
         if self.model.pair_force().is_none() {
-            let tick = self.plan.add_kernel(Kernel::new(
-                "tick",
-                [&["common/control", "common/clock", "common/dispatch"], &clock[..], &["kernels/tick"]].concat(),
-                1,
-            ));
+            let tick = self.kernel("tick", Entry::BeginPlainStep, &Choices::new(), 1);
             self.plan.sort = vec![tick];
-            if self.slots() == "common/slots_on" {
-                let stock =
-                    self.kernel("take_stock", &["common/anchors_off", self.slots(), "kernels/take_stock"], groups);
-                self.plan.prepare = vec![stock];
+            if self.needs_slots() {
+                self.plan.prepare = vec![self.kernel("take_stock", Entry::TakeStock, &slots, groups)];
             }
             return;
         }
         self.list_constants();
-        let begin = self.plan.add_kernel(Kernel::new(
-            "begin",
-            [&["common/control", "common/clock", "common/dispatch"], &clock[..], &["kernels/begin"]].concat(),
-            1,
-        ));
-        let stock = self.kernel("take_stock", &["common/anchors_on", self.slots(), "kernels/take_stock"], groups);
-        self.plan.prepare = vec![stock];
+        let begin = self.kernel("begin", Entry::BeginListedStep, &Choices::new(), 1);
+        let noted = slots.with(couplings::Anchors::Kept);
+        self.plan.prepare = vec![self.kernel("take_stock", Entry::TakeStock, &noted, groups)];
         let rebuild = self.rebuild();
         let sizes: Vec<u32> = rebuild
             .iter()
@@ -106,16 +90,9 @@ impl Builder<'_> {
     /// The kernels that count the particles into cells and find where each cell begins.
     pub(super) fn binning(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
-        let modules = [&self.space()[..], &[self.cells(), "common/cells_plain", "common/cells_buffer"]].concat();
-        let (rows, cells) = (self.grid.rows(), self.grid.count());
-        let sum = PrefixSum {
-            modules,
-            row_scan: &["common/counts", "common/row_scan"],
-            clock: &["common/same_step"],
-            rows,
-            cells,
-        };
-        let mut kernels = vec![self.kernel("bin", &[self.cells(), "common/ranks", "kernels/bin"], groups)];
+        let choices = self.choices().with(core::Step::Same);
+        let sum = PrefixSum { choices: &choices, rows: self.grid.rows(), cells: self.grid.count() };
+        let mut kernels = vec![self.kernel("bin", Entry::BinParticles, &Choices::new(), groups)];
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
         kernels
     }
@@ -124,43 +101,26 @@ impl Builder<'_> {
     fn rebuild(&mut self) -> Vec<usize> {
         let groups = self.groups(self.particles);
         let mut kernels = self.binning();
-        let sorted = [self.cells(), "common/cells_plain", "common/cells_buffer", "common/sorted"];
         let arrange_groups = self.groups(self.particles.max(self.grid.count()));
-        let origins = if self.force.remembers() { "common/origins_on" } else { "common/origins_off" };
-        let arrange = [
-            self.cells(),
-            "common/cells_plain",
-            "common/cells_buffer",
-            "common/sorted",
-            "common/anchors_on",
-            origins,
-            self.slots(),
-            "common/ranks",
-            "kernels/arrange",
-        ];
-        kernels.push(self.kernel("arrange", &arrange, arrange_groups));
-        let span = if self.model.units.dimension == 3 { "common/span3" } else { "common/span2" };
-        let exclusions = self.exclusions();
-        let modules =
-            [&sorted[..], &[span, exclusions, "common/neighbours_next", "common/turns_endless", "kernels/list"]]
-                .concat();
-        let list = self.kernel("list", &modules, groups);
+        let arrange = Choices::new()
+            .with(couplings::Anchors::Kept)
+            .with_if(self.force.remembers(), couplings::Origins::Kept)
+            .with_if(self.needs_slots(), couplings::Slots::Kept);
+        kernels.push(self.kernel("arrange", Entry::ArrangeParticles, &arrange, arrange_groups));
+        let exclusions = Choices::new().with_any(self.exclusions());
+        let list = self.kernel("list", Entry::ListNeighbours, &exclusions, groups);
         kernels.push(list);
         if self.force.remembers() {
-            let mut modules = [&["common/sorted", "common/neighbour_words"], self.species.coefficients()].concat();
-            modules.extend(LISTS);
-            modules.extend(["common/gaussian", "common/elementary", "common/threefry", "kernels/carry"]);
-            modules.extend(self.words());
-            let carry = self.kernel("carry", &modules, groups);
+            let carry = self.kernel("carry", Entry::CarryMemories, &Choices::new(), groups);
             let key = noise::seed_key(self.model.seed, stream::PAIR_START);
             self.plan.kernels[carry].constants =
                 vec![("START_STREAM_X", f64::from(key[0])), ("START_STREAM_Y", f64::from(key[1]))];
             kernels.push(carry);
-            kernels.push(self.kernel("settle_list", &[&LISTS[..], &["kernels/settle_list"]].concat(), groups));
+            kernels.push(self.kernel("settle_list", Entry::SettleList, &Choices::new(), groups));
         } else {
             self.plan.kernels[list].renamed = vec![("neighbours_next", "neighbours")];
         }
-        kernels.push(self.kernel("settle", &["common/sorted", "kernels/settle"], groups));
+        kernels.push(self.kernel("settle", Entry::SettleParticles, &Choices::new(), groups));
         kernels
     }
 

@@ -15,12 +15,14 @@ mod tethers;
 
 use super::layout::PARTICLE;
 use super::species::Species;
-use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, noise_modules, pair};
+use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, deviate, pair, words};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
-use crate::scene::{Distribution, Generator, Integrator, Output};
+use crate::scene::{Integrator, Output};
+use crate::shaders::noise::Deviate;
+use crate::shaders::{Choices, Entry, couplings, grid, space};
 
-/// Sums of a report without baths that remember, in the order of `shaders/common/totals.wgsl`; those of baths follow.
+/// Sums of a report without baths that remember, in the order of `shaders/core/sums.wgsl`; those of baths follow.
 const OBSERVABLES: u64 = 9;
 /// Energy, square and number of the baths that remember.
 const BATH_OBSERVABLES: u64 = 3;
@@ -165,8 +167,7 @@ impl Builder<'_> {
         if output.trajectory.is_none() {
             return;
         }
-        let modules = ["common/particles", "common/crossings", "common/paths", "kernels/follow"];
-        let kernel = Kernel::new("follow", [&self.space()[..], &modules].concat(), self.groups(self.particles));
+        let kernel = Kernel::new("follow", Entry::FollowParticles, self.choices(), self.groups(self.particles));
         self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
     }
 
@@ -194,70 +195,50 @@ impl Builder<'_> {
         matches!(self.plan.layout, Layout::Coupled { predicted: true, .. })
     }
 
-    /// Modules of the vector space and of the stored particle.
-    fn space(&self) -> Vec<&'static str> {
-        let mut modules = vec![self.dimensions()];
-        modules.push(if self.predicted() { "common/particle_predicted" } else { "common/particle" });
-        modules.extend(["common/within", "common/control", "common/clock", "common/dispatch"]);
-        modules
+    /// What is chosen for every kernel: the space, the grid in it, the species, and who draws random words.
+    fn choices(&self) -> Choices {
+        let dimension = self.model.units.dimension;
+        let volume = dimension == 3;
+        self.dimension()
+            .with(if volume { grid::Dimension::Volume } else { grid::Dimension::Plane })
+            .with(grid::Rows::Plain)
+            .with(if volume { couplings::Kicks::Volume } else { couplings::Kicks::Plane })
+            .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
+            .and(&self.species.choices())
+            .with(words(self.model.generator))
     }
 
-    /// The module of vectors.
-    fn dimensions(&self) -> &'static str {
-        match self.model.units.dimension {
-            1 => "common/space1",
-            2 => "common/space2",
-            _ => "common/space3",
-        }
+    /// The vector space.
+    fn dimension(&self) -> Choices {
+        Choices::new().with(match self.model.units.dimension {
+            1 => space::Dimension::One,
+            2 => space::Dimension::Two,
+            _ => space::Dimension::Three,
+        })
     }
 
-    fn cells(&self) -> &'static str {
-        if self.model.units.dimension == 3 { "common/grid3" } else { "common/grid2" }
+    /// Gathers conservative forces at a report, if there are any.
+    fn forces(&self) -> Option<couplings::Forces> {
+        self.model.has_potential().then_some(match self.model.units.dimension {
+            3 => couplings::Forces::Volume,
+            _ => couplings::Forces::Plane,
+        })
     }
 
-    fn kicks(&self) -> &'static str {
-        if self.model.units.dimension == 3 { "common/kicks3" } else { "common/kicks2" }
-    }
-
-    /// The module that gathers conservative forces at a report, if there are any.
-    fn forces(&self) -> &'static str {
-        match self.model.units.dimension {
-            _ if !self.model.has_potential() => "common/forces_off",
-            3 => "common/forces3",
-            _ => "common/forces2",
-        }
-    }
-
-    /// Modules that draw the random words of a key and counters.
-    fn words(&self) -> &'static [&'static str] {
-        match self.model.generator {
-            Generator::Pcg4d => &["common/words_pcg4d"],
-            Generator::Threefry2x32 => &["common/words_threefry"],
-        }
-    }
-
-    /// Modules of the noise of a pair.
-    fn pair_noise(&self) -> Vec<&'static str> {
+    /// The noise of a pair.
+    fn pair_noise(&self) -> Deviate {
         // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
-        let gaussian = self.force.remembers() || self.model.distribution == Distribution::Gaussian;
-        let mut modules = noise_modules(if gaussian { Distribution::Gaussian } else { Distribution::Uniform }).to_vec();
-        modules.extend(self.words());
-        if self.model.generator == Generator::Threefry2x32 {
-            modules.push("common/threefry");
-        }
-        modules
+        if self.force.remembers() { Deviate::Gaussian } else { deviate(self.model.distribution) }
     }
 
-    /// Adds a kernel of the space with further modules.
-    fn kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) -> usize {
-        let modules = [&self.space()[..], &["common/particles"], modules].concat();
-        self.plan.add_kernel(Kernel::new(name, modules, workgroups))
+    /// Adds a kernel.
+    fn kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, workgroups: u64) -> usize {
+        self.plan.add_kernel(Kernel::new(name, entry, self.choices().and(choices), workgroups))
     }
 
     /// Adds a kernel of the report, which leaves its sums in rows of its own.
-    fn report_kernel(&mut self, name: &'static str, modules: &[&'static str], workgroups: u64) {
-        let modules = [modules, &["common/sum64", "common/reduce", "common/totals"]].concat();
-        let kernel = self.kernel(name, &modules, workgroups);
+    fn report_kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, workgroups: u64) {
+        let kernel = self.kernel(name, entry, choices, workgroups);
         self.plan.kernels[kernel].constants.push(("FIRST_GROUP", self.report_groups as f64));
         self.report_groups += u64::from(self.plan.kernels[kernel].workgroups);
         self.plan.report.push(kernel);

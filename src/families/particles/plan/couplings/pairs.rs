@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::families::BathStep;
 use crate::scene::{Bath, Integrator};
+use crate::shaders::{Choices, Entry, couplings, pairs};
 
 impl Builder<'_> {
     pub(super) fn pairs(&mut self) {
@@ -12,15 +13,15 @@ impl Builder<'_> {
         self.pair_constants();
         let groups = self.groups(self.particles);
         let memory = self.force.remembers();
-        let modules = self.pair_modules();
-        let (mut unseen, mut seen) = (vec!["common/pairs_unseen"], vec!["common/pairs_seen", self.forces()]);
-        if memory {
-            unseen.push("common/memory_kept");
-            seen.push("common/memory_seen");
-        }
-        let advance = self.kernel("pairs", &[&modules[..], &unseen].concat(), groups);
+        let law = self.law();
+        let seen = law
+            .clone()
+            .with(couplings::Pairs::Observed)
+            .with_any(self.forces())
+            .with_if(memory, couplings::PairMemory::Observed);
+        let advance = self.kernel("pairs", Entry::VisitListedPairs, &law, groups);
         self.plan.advance.push(advance);
-        self.report_kernel("report_pairs", &[&modules[..], &seen].concat(), groups);
+        self.report_kernel("report_pairs", Entry::VisitListedPairs, &seen, groups);
         let density = self.particles as f64 / self.model.units.volume();
         let (listed, met) = match self.model.units.dimension {
             1 => (density * (self.force.cutoff + self.force.skin), density * self.force.cutoff),
@@ -36,36 +37,24 @@ impl Builder<'_> {
         self.plan.operations_per_particle += 12.0 * listed + if memory { 160.0 } else { 75.0 } * met;
     }
 
-    /// Modules of the pair force.
-    fn pair_modules(&self) -> Vec<&'static str> {
+    /// The pair force.
+    fn law(&self) -> Choices {
         let force = self.force;
-        let mut modules = vec![self.kicks(), "common/contact", "common/neighbour_words", "common/neighbours"];
-        modules.extend(self.species.coefficients());
-        modules.push(if self.spares() { "common/repulsion_spared" } else { "common/repulsion_always" });
-        modules.push(if force.weight_exponent == 2.0 { "common/weight_standard" } else { "common/weight_general" });
-        modules.push(if force.largest_repulsion() > 0.0 { "common/repulsion_on" } else { "common/repulsion_off" });
         let thermal = force.has_friction() && force.temperature > 0.0;
-        if force.remembers() {
-            modules.extend(["common/memories", "common/pair_memory"]);
-            modules.push(if thermal { "common/bath_noise_on" } else { "common/bath_noise_off" });
-        } else {
-            modules.push("common/pair_white");
-            if force.has_friction() {
-                modules.push("common/drift");
-                modules.push(match self.model.integrator {
-                    Integrator::GrootWarren { .. } => "common/friction_velocity",
-                    _ => "common/friction_discrete_gradient",
-                });
-            } else {
-                modules.push("common/friction_off");
-            }
-            modules.push(if thermal { "common/random_on" } else { "common/random_off" });
-        }
-        if thermal {
-            modules.extend(self.pair_noise());
-        }
-        modules.push("kernels/pairs");
-        modules
+        let memory = force.remembers();
+        let friction = match self.model.integrator {
+            Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
+            _ => pairs::Friction::DiscreteGradient,
+        };
+        Choices::new()
+            .with_if(self.spares(), couplings::Exclusions::Listed)
+            .with(if force.weight_exponent == 2.0 { pairs::Weight::Standard } else { pairs::Weight::General })
+            .with_if(force.largest_repulsion() > 0.0, pairs::Repulsion::Soft)
+            .with(if memory { couplings::PairBath::Memory } else { couplings::PairBath::White })
+            .with_if(memory && thermal, couplings::PairBathNoise::Thermal)
+            .with_if(!memory && force.has_friction(), friction)
+            .with_if(!memory && thermal, pairs::Random::Thermal)
+            .with_if(thermal, self.pair_noise())
     }
 
     /// Whether some listed pairs are spared their repulsion.

@@ -1,6 +1,7 @@
 //! Springs from every particle to where it started.
 
 use super::Builder;
+use crate::shaders::{Choices, Entry, couplings};
 
 impl Builder<'_> {
     pub(super) fn tethers(&mut self) {
@@ -12,11 +13,10 @@ impl Builder<'_> {
             ("TETHER_ENERGY", 0.5 * stiffness / quanta.pair_energy),
             ("TETHER_LAPLACIAN", stiffness * self.model.units.dimension as f64 / quanta.curvature),
         ]);
-        let modules = [self.kicks(), "common/contact", "kernels/tethers"];
-        let advance = self.kernel("tethers", &[&modules[..], &["common/tethers_unseen"]].concat(), groups);
+        let advance = self.kernel("tethers", Entry::PullTethers, &Choices::new(), groups);
         self.plan.advance.push(advance);
-        let seen = [self.forces(), "common/tethers_seen"];
-        self.report_kernel("report_tethers", &[&modules[..], &seen].concat(), groups);
+        let seen = Choices::new().with(couplings::Tethers::Observed).with_any(self.forces());
+        self.report_kernel("report_tethers", Entry::PullTethers, &seen, groups);
         self.plan.add_buffer("tethers", "where each particle is tied to, by number", 16 * self.particles);
         self.plan.operations_per_particle += 15.0;
     }

@@ -1,0 +1,138 @@
+//! Finds the shaders: every page and variant below `shaders`, the kernels in them, and an enumeration for every slot.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+
+/// Folders whose files are whole shaders by themselves.
+const WHOLE: [&str; 2] = ["plot", "check"];
+
+fn main() -> io::Result<()> {
+    println!("cargo::rerun-if-changed=shaders");
+    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join("shaders");
+    let mut files = Vec::new();
+    find(&root, &root, &mut files)?;
+    files.sort();
+    let code = generate(&root, &files)?;
+    fs::write(PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs"), code)
+}
+
+/// Paths below the root, without extensions.
+fn find(root: &Path, folder: &Path, files: &mut Vec<String>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let below = path.strip_prefix(root).unwrap_or(&path).to_string_lossy().replace('\\', "/");
+        if path.is_dir() {
+            if !WHOLE.contains(&below.as_str()) {
+                find(root, &path, files)?;
+            }
+        } else if let Some(page) = below.strip_suffix(".wgsl") {
+            files.push(page.to_owned());
+        }
+    }
+    Ok(())
+}
+
+fn generate(root: &Path, files: &[String]) -> io::Result<String> {
+    let mut code = String::new();
+    let mut entries: BTreeMap<String, String> = BTreeMap::new();
+    let mut slots: BTreeMap<&str, BTreeMap<&str, Vec<(&str, usize, String)>>> = BTreeMap::new();
+    let _ = writeln!(code, "pub(super) static FILES: [(&str, &str); {}] = [", files.len());
+    for (number, file) in files.iter().enumerate() {
+        let path = root.join(format!("{file}.wgsl"));
+        let text = fs::read_to_string(&path)?;
+        let _ = writeln!(code, "    ({file:?}, include_str!({:?})),", path.display().to_string());
+        for (name, comment) in kernels(&text) {
+            entries.insert(name, comment);
+        }
+        if let [domain, slot, variant] = file.split('/').collect::<Vec<_>>()[..] {
+            slots.entry(domain).or_default().entry(slot).or_default().push((variant, number, first_sentence(&text)));
+        }
+    }
+    code.push_str("];\n\n");
+    enumerate_kernels(&mut code, &entries);
+    for (domain, slots) in slots {
+        let _ = writeln!(code, "/// Slots of `shaders/{domain}`.\npub mod {domain} {{\n    use super::Choice;\n");
+        for (slot, variants) in slots {
+            enumerate_variants(&mut code, domain, slot, &variants);
+        }
+        code.push_str("}\n\n");
+    }
+    Ok(code)
+}
+
+fn enumerate_kernels(code: &mut String, entries: &BTreeMap<String, String>) {
+    code.push_str(
+        "/// The entry points of all kernels.\n#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]\n",
+    );
+    code.push_str("pub enum Entry {\n");
+    for (name, comment) in entries {
+        let _ = writeln!(code, "    /// {comment}\n    {},", camel(name));
+    }
+    code.push_str("}\n\nimpl Entry {\n    /// All of them.\n    pub const ALL: &'static [Self] = &[\n");
+    for name in entries.keys() {
+        let _ = writeln!(code, "        Self::{},", camel(name));
+    }
+    code.push_str("    ];\n\n    /// The name of the function.\n    #[must_use]\n    pub const fn name(self) -> &'static str {\n        match self {\n");
+    for name in entries.keys() {
+        let _ = writeln!(code, "            Self::{} => {name:?},", camel(name));
+    }
+    code.push_str("        }\n    }\n}\n\n");
+}
+
+fn enumerate_variants(code: &mut String, domain: &str, slot: &str, variants: &[(&str, usize, String)]) {
+    let name = camel(slot);
+    let _ = writeln!(
+        code,
+        "    /// Variants of the slot `{domain}/{slot}`.\n    #[derive(Debug, Clone, Copy, PartialEq, Eq)]\n    pub enum {name} {{"
+    );
+    for (variant, _, comment) in variants {
+        let _ = writeln!(code, "        /// {comment}\n        {},", camel(variant));
+    }
+    let _ = writeln!(
+        code,
+        "    }}\n\n    impl From<{name}> for Choice {{\n        fn from(variant: {name}) -> Self {{\n            Self(match variant {{"
+    );
+    for (variant, number, _) in variants {
+        let _ = writeln!(code, "                {name}::{} => {number},", camel(variant));
+    }
+    code.push_str("            })\n        }\n    }\n\n");
+}
+
+/// Kernels of a file, with the first sentence of the comment above each.
+fn kernels(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("@compute") {
+        let before = text.len() - rest.len() + at;
+        rest = &rest[at..];
+        let name =
+            rest.split_once("fn ").and_then(|(_, rest)| rest.split_once('(')).map_or("", |(name, _)| name.trim());
+        found.push((name.to_owned(), comment_above(&text[..before]).unwrap_or_else(|| first_sentence(text))));
+        rest = &rest["@compute".len()..];
+    }
+    found
+}
+
+/// The comment that ends where a text ends.
+fn comment_above(text: &str) -> Option<String> {
+    let lines: Vec<&str> = text.trim_end().lines().rev().take_while(|line| line.starts_with("//")).collect();
+    (!lines.is_empty()).then(|| first_sentence(&lines.into_iter().rev().collect::<Vec<_>>().join("\n")))
+}
+
+/// The first sentence of the comment with which a text begins.
+fn first_sentence(text: &str) -> String {
+    let comment =
+        text.lines().take_while(|line| line.starts_with("//")).map(|line| line.trim_start_matches('/').trim());
+    let comment = comment.collect::<Vec<_>>().join(" ");
+    let end = comment.find(". ").map_or(comment.len(), |end| end + 1);
+    let sentence = comment[..end].trim().replace('[', "\\[").replace(']', "\\]").replace('<', "\\<");
+    if sentence.is_empty() { "Without a comment.".to_owned() } else { sentence }
+}
+
+/// `discrete_gradient` as `DiscreteGradient`.
+fn camel(name: &str) -> String {
+    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+    name.split('_').map(capital).collect()
+}

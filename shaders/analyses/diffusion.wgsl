@@ -1,0 +1,42 @@
+override DISPLACEMENT: f32;  // squared length over its quantum
+override VELOCITY: f32;      // square of momentum per mass over its quantum
+
+struct Tracker {
+    last: vec4<u32>,     // position at the last sample
+    turns: vec4<i32>,    // times round the box since the window began
+    origin: vec4<u32>,   // position when the window began
+    momentum: vec4<i32>, // momentum when the window began
+}
+var<storage, read_write> trackers: array<Tracker>;
+
+@compute @workgroup_size(WORKGROUP)
+fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let id = group * WORKGROUP + lane;
+    var squared = Sum64(0u);
+    var kept = Sum64(0u);
+    if (id < PARTICLES) {
+        let particle = stored_particle(id);
+        var tracker = trackers[id];
+        if (samples[0].y % WINDOW == 0u) {
+            tracker = Tracker(particle.position, vec4<i32>(0), particle.position, particle.momentum);
+        }
+        tracker.turns += crossings(tracker.last, particle.position);
+        tracker.last = particle.position;
+        trackers[id] = tracker;
+        // 64-bit difference from the origin, as a real number.
+        let low = particle.position - tracker.origin;
+        let borrow = select(vec4<i32>(0), vec4<i32>(1), particle.position < tracker.origin);
+        let high = tracker.turns - borrow;
+        let parts = vec4<f32>(high) * 4294967296.0 + vec4<f32>(low);
+        let travelled = component_lengths(parts);
+        squared = sum64_of_f32(dot(travelled, travelled) * DISPLACEMENT);
+        let now = Vector(steps_of(particle.momentum));
+        let then = Vector(steps_of(tracker.momentum));
+        let inverse_mass = inverse_mass_at(particle.position, particle.momentum);
+        let inverse_mass_then = inverse_mass_at(tracker.origin, tracker.momentum);
+        kept = sum64_of_f32(dot(now, then) * inverse_mass * inverse_mass_then * VELOCITY);
+    }
+    reduce_quantity(group, lane, 0u, squared);
+    reduce_quantity(group, lane, 1u, kept);
+}

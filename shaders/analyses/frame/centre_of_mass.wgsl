@@ -1,0 +1,1 @@
+fn in_frame(velocity: vec3<f32>) -> vec3<f32> { return velocity - centre[0].xyz; }

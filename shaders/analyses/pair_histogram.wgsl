@@ -1,0 +1,47 @@
+override PARTS: u32;    // workgroups that share the rows around each of its particles
+override HISTOGRAM_RANGE: f32;
+var<storage, read_write> histogram: array<u32>; // low and high word of each bin
+var<workgroup> local_bins: array<atomic<u32>, BINS>;
+
+@compute @workgroup_size(WORKGROUP)
+fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    for (var bin = lane; bin < BINS; bin += WORKGROUP) { atomicStore(&local_bins[bin], 0u); }
+    workgroupBarrier();
+    let share = share_of(linear_workgroup(workgroup));
+    let group = share / PARTS;
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
+            count_pairs(row, share % PARTS, position_at(index));
+        }
+    }
+    workgroupBarrier();
+    for (var bin = lane; bin < BINS; bin += WORKGROUP) {
+        let found = atomicLoad(&local_bins[bin]);
+        if (found > 0u) {
+            let before = atomicAdd(&histogram[2u * bin], found);
+            if (before + found < before) { atomicAdd(&histogram[2u * bin + 1u], 1u); }
+        }
+    }
+    report_turns(workgroup.x >> 16u);
+}
+
+fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
+    let column = column_of(fraction_of(position));
+    for (var across = part; across < SPAN_Y * SPAN_Z; across += PARTS) {
+        let other_row = row_at(row, across);
+        for (var along = 0u; along < SPAN_X; along++) {
+            let other_column = (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X;
+            let cell = cell_index(other_row, other_column);
+            let cell_end = cell_at(cell + 1u);
+            for (var other = cell_at(cell); other < cell_end; other++) {
+                let there = position_at(other);
+                let d = separation(position, there);
+                let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));
+                if (position.w < there.w && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }
+            }
+        }
+    }
+}

@@ -1,0 +1,1 @@
+fn sampled(id: u32) -> vec3<f32> { return vec3<f32>(reported_forces[id].xyz); }

@@ -1,0 +1,4 @@
+fn sampled(id: u32) -> vec3<f32> {
+    let momentum = reported_momenta[id];
+    return in_frame(vec3<f32>(momentum.xyz) * inverse_mass_of(momentum.w));
+}

@@ -1,6 +1,0 @@
-// A report looks at the baths of bonds and leaves them as they are.
-override BATH_SQUARE: f32; // inverse quantum of the square of a bath
-
-fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) {
-    if (kind.remembers) { observe_bath(bath * bath * kind.bath_energy, bath * bath * BATH_SQUARE); }
-}

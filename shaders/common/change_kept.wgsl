@@ -1,4 +1,0 @@
-// What came through the faces, and will come once more in the other half of the step.
-@group(0) @binding(19) var<storage, read_write> pushes: array<vec4<i32>>; // momentum of each cell
-
-fn take_change(slot: u32) -> vec4<i32> { return pushes[slot]; }

@@ -1,8 +1,0 @@
-// What came through the faces, once.
-@group(0) @binding(16) var<storage, read_write> exchanges: array<vec4<i32>>; // momentum, mass, energy of each cell
-
-fn take_change(slot: u32) -> vec4<i32> {
-    let change = exchanges[slot];
-    exchanges[slot] = vec4<i32>(0);
-    return change;
-}

@@ -1,2 +1,0 @@
-// Particles in bins are where they should be.
-fn collect(cell: u32, bin: Bin) {}

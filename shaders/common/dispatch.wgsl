@@ -1,8 +1,0 @@
-// Lanes of a workgroup, a power of two: no result depends on it.
-override WORKGROUP: u32 = 64u;
-
-// Workgroups side by side where a dispatch of more than 65 535 of them is folded into two dimensions. A constant, for DirectX
-// does not know the number of workgroups where a buffer says it.
-override FOLD: u32 = 65535u;
-
-fn linear_workgroup(workgroup: vec3<u32>) -> u32 { return workgroup.x + workgroup.y * FOLD; }

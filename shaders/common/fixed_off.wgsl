@@ -1,2 +1,0 @@
-// Every particle can move.
-fn is_fixed(species: i32) -> bool { return false; }

@@ -1,7 +1,0 @@
-// Impulses of half a step by the conservative forces alone, gathered for a report.
-@group(0) @binding(39) var<storage, read_write> forces: array<atomic<i32>>; // four words a slot
-
-fn add_force(slot: u32, force: Steps) {
-    atomicAdd(&forces[4u * slot], force.x);
-    atomicAdd(&forces[4u * slot + 1u], force.y);
-}

@@ -1,2 +1,0 @@
-// No force of this scene is conservative.
-fn add_force(slot: u32, force: Steps) {}

@@ -1,3 +1,0 @@
-// Columns of the mesh as lines of a Fourier transform; invocations at the same place of all columns follow each other.
-fn site_of(index: u32) -> Site { return Site(index % LINES, index / LINES); }
-fn element(line: u32, place: u32) -> u32 { return place * LINES + line; }

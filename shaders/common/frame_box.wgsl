@@ -1,2 +1,0 @@
-// Velocities as they are.
-fn in_frame(velocity: vec3<f32>) -> vec3<f32> { return velocity; }

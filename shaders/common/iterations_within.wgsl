@@ -1,2 +1,0 @@
-// Iterations are those of a loop.
-fn demand_iterations() {}

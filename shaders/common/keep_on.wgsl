@@ -1,6 +1,0 @@
-// A later pass visits the same pairs again.
-@group(0) @binding(1) var<storage, read_write> found: array<array<u32, KEPT_WORDS>>; // the buffer of the particles
-
-fn keep_mask(row: u32, index: u32, word: u32, mask: u32) {
-    if (word < KEPT_WORDS) { found[unframed_index(row, index)][word] = mask; }
-}

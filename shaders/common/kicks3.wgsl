@@ -1,8 +1,0 @@
-// Impulses of half a step on every particle, gathered from all couplings: integers, so that their order does not matter.
-@group(0) @binding(22) var<storage, read_write> kicks: array<atomic<i32>>; // four words a slot
-
-fn add_kick(slot: u32, kick: Steps) {
-    atomicAdd(&kicks[4u * slot], kick.x);
-    atomicAdd(&kicks[4u * slot + 1u], kick.y);
-    atomicAdd(&kicks[4u * slot + 2u], kick.z);
-}

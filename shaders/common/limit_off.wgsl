@@ -1,2 +1,0 @@
-// Nothing that crosses a face can run out.
-fn report_cuts() {}

@@ -1,6 +1,0 @@
-// Nothing but energy crosses the faces.
-@group(0) @binding(16) var<storage, read_write> exchanges: array<atomic<i32>>; // momentum, mass, energy of each cell
-
-fn move_units(cell: u32, units: vec4<i32>) {
-    atomicAdd(&exchanges[4u * cell + 3u], units.w);
-}

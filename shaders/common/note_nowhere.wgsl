@@ -1,2 +1,0 @@
-// No analysis asks for cells by their numbers.
-fn note_report(cell: Particle) {}

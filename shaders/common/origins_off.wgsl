@@ -1,2 +1,0 @@
-// Nobody asks where a particle was stored before.
-fn note_origin(slot: u32, before: u32) {}

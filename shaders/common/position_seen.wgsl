@@ -1,9 +1,0 @@
-// A report of the baths on coordinates.
-override BATH_SQUARE: f32; // inverse quantum of the square of a bath
-
-fn note_position_bath(species: i32, bath: Vector) {
-    for (var axis = 0u; axis < DIMENSION; axis++) {
-        let square = bath[axis] * bath[axis];
-        observe_bath(square * position_energy(species), square * BATH_SQUARE);
-    }
-}

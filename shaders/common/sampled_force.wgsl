@@ -1,4 +1,0 @@
-// The force on a particle in units of the impulse; components beyond the box's dimension are zero.
-@group(0) @binding(41) var<storage, read_write> reported_forces: array<vec4<i32>>; // by id
-
-fn sampled(id: u32) -> vec3<f32> { return vec3<f32>(reported_forces[id].xyz); }

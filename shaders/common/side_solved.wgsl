@@ -1,7 +1,0 @@
-// Cells with the mean velocity of before and after friction, as the solver has found it.
-@group(0) @binding(21) var<storage, read_write> estimates: array<vec4<f32>>; // mean velocity, residual
-
-fn side_of(slot: u32, cell: Particle) -> Side {
-    let mean = estimates[slot].xy;
-    return Side(cell.position.w, mass_of(cell), mean, mean, 0.0, 0.0, 0.0, temperature_of(cell));
-}

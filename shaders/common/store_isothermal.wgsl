@@ -1,2 +1,0 @@
-// Cells at the temperature of the scene have no energy of their own.
-fn check_energy(cell: Particle) {}

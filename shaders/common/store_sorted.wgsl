@@ -1,9 +1,0 @@
-// Particles in order of their cells, sorted anew every step: for any crowd. The particles themselves stay where they lie.
-@group(0) @binding(3) var<storage, read_write> cells: array<u32>; // where each cell ends
-
-struct Bin { begin: u32, count: u32 }
-fn opened_bin(cell: u32) -> Bin {
-    let begin = select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
-    return Bin(begin, cells[cell] - begin);
-}
-fn place_in(bin: Bin, k: u32) -> u32 { return in_order(bin.begin + k); }

@@ -1,8 +1,0 @@
-// A particle of shallow water as it lies in textures: its position and velocity, and apart from them its mass and number.
-fn unpacked(motion: vec4<u32>, mass: vec2<u32>) -> Water {
-    return Water(motion.xy, bitcast<vec2<i32>>(motion.zw), mass.x, mass.y);
-}
-fn motion_word(particle: Water) -> vec4<u32> {
-    return vec4<u32>(particle.position, bitcast<vec2<u32>>(particle.velocity));
-}
-fn mass_word(particle: Water) -> vec4<u32> { return vec4<u32>(particle.mass, particle.id, 0u, 0u); }

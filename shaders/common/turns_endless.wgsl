@@ -1,2 +1,0 @@
-// Loops may have any number of turns.
-fn report_turns(nothing: u32) {}

@@ -1,5 +1,0 @@
-// Particles that are copied as they are from place to place.
-@group(0) @binding(1) var<storage, read_write> particles: array<StoredWater>;
-@group(0) @binding(2) var<storage, read_write> tidied: array<StoredWater>;
-
-fn copy_particle(from_place: u32, to_place: u32) { tidied[to_place] = particles[from_place]; }

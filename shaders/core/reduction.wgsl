@@ -1,0 +1,12 @@
+var<workgroup> lane_sums: array<vec2<u32>, WORKGROUP>;
+
+fn reduce_quantity(group: u32, lane: u32, quantity: u32, value: Sum64) {
+    workgroupBarrier();
+    lane_sums[lane] = value;
+    workgroupBarrier();
+    for (var stride = WORKGROUP / 2u; stride > 0u; stride >>= 1u) {
+        if (lane < stride) { lane_sums[lane] = sum64_add(lane_sums[lane], lane_sums[lane + stride]); }
+        workgroupBarrier();
+    }
+    if (lane == 0u) { partial_sums[group * QUANTITIES + quantity] = lane_sums[0]; }
+}

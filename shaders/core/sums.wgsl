@@ -1,0 +1,37 @@
+// 64-bit integer sums from 32-bit words, low word first: order-free where sums of f32 are not.
+alias Sum64 = vec2<u32>;
+
+fn sum64_add(a: Sum64, b: Sum64) -> Sum64 {
+    let low = a.x + b.x;
+    return Sum64(low, a.y + b.y + select(0u, 1u, low < a.x));
+}
+fn sum64_of_i32(value: i32) -> Sum64 { return Sum64(bitcast<u32>(value), bitcast<u32>(value >> 31u)); }
+// The integer nearest below a number of magnitude under 2^63.
+fn sum64_of_f32(value: f32) -> Sum64 {
+    let whole = round(value);
+    let high = floor(whole * 2.3283064e-10); // 2^-32
+    let low = whole - high * 4294967296.0;
+    return Sum64(u32(low), bitcast<u32>(i32(high)));
+}
+
+// Numbers of either sign, rounded alike: a small negative one has no place in the low word as a real number.
+fn sum64_of_signed(value: f32) -> Sum64 {
+    let magnitude = sum64_of_f32(abs(value));
+    if (value >= 0.0) { return magnitude; }
+    return sum64_add(~magnitude, Sum64(1u, 0u));
+}
+
+override FIRST_GROUP: u32; // rows of partial sums that belong to the kernels before this one
+var<private> totals: array<vec2<u32>, 12>;
+
+fn total_add(quantity: u32, value: Sum64) { totals[quantity] = sum64_add(totals[quantity], value); }
+fn total_reduce(group: u32, lane: u32) {
+    for (var quantity = 0u; quantity < QUANTITIES; quantity++) {
+        reduce_quantity(FIRST_GROUP + group, lane, quantity, totals[quantity]);
+    }
+}
+fn observe_bath(energy: f32, square: f32) {
+    total_add(9u, sum64_of_f32(energy));
+    total_add(10u, sum64_of_f32(square));
+    total_add(11u, Sum64(1u, 0u));
+}

@@ -1,0 +1,12 @@
+var<storage, read_write> bond_baths: array<f32>;
+
+fn prepare_bonds() { prepare_bond_noise(); }
+fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 {
+    let before = bond_baths[bond];
+    let after = before - kind.loss * before + kind.response * change_of_length(me, other)
+        + kind.noise * bond_noise(bond);
+    // At step 0 a bath that remembers is that of the beginning.
+    let bath = select(after, before, kind.remembers && clock_closing() == 0);
+    note_bond_bath(bond, kind, bath);
+    return -BATH_IMPULSE * bath;
+}

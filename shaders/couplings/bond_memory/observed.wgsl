@@ -1,0 +1,3 @@
+fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) {
+    if (kind.remembers) { observe_bath(bath * bath * kind.bath_energy, bath * bath * BATH_SQUARE); }
+}

@@ -1,0 +1,94 @@
+// Every bond hands the impulses of half a step to both of its ends: those of its potential and of its bath.
+override BONDS: u32;
+
+struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
+
+@compute @workgroup_size(WORKGROUP)
+fn pull_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let bond = group * WORKGROUP + lane;
+    if (bond < BONDS) { visit_bond(bond); }
+    finish_bonds(group, lane);
+}
+
+fn visit_bond(bond: u32) {
+    prepare_bonds();
+    let word = bonds[FIRST_BOND + bond];
+    let kind = bond_kind(word.z);
+    let slot = slots[word.x];
+    let other_slot = slots[word.y];
+    let ends = Ends(slot, other_slot, stored_particle(slot), stored_particle(other_slot));
+    let contact = contact_of(separation(ends.me.position, ends.other.position));
+    let stretch = stretch_of(kind, contact.distance);
+    let magnitude = stretch.force + bond_bath(bond, kind, ends.me, ends.other);
+    let impulse = Steps(round(magnitude * contact.direction));
+    add_kick(slot, impulse);
+    add_kick(other_slot, -impulse);
+    note_bond(ends, stretch, magnitude, contact);
+    raise_at(select(FAILURE_BOND, 0u, stretch.possible), bond);
+    raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
+}
+
+// Bonds between numbered particles, after a word for each species and two for each kind of bonds.
+override FIRST_KIND: u32;
+override FIRST_BOND: u32;
+var<storage, read> bonds: array<vec4<u32>>;
+
+struct BondKind {
+    stiffness: f32,      // impulse of half a step per length
+    length: f32,         // at rest
+    inverse_extent: f32, // of the largest extension; zero where there is none
+    remembers: bool,     // whether the bath has a memory
+    loss: f32,           // what one step takes from the bath
+    response: f32,       // bath per change of length
+    noise: f32,          // bath per unit noise
+    bath_energy: f32,    // energy per square of the bath, over its quantum
+}
+
+fn bond_kind(kind: u32) -> BondKind {
+    let potential = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind]);
+    let bath = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind + 1u]);
+    return BondKind(potential.x, potential.y, potential.z, potential.w != 0.0, bath.x, bath.y, bath.z, bath.w);
+}
+// Displacement in a step per unit of momentum: zero of what is held.
+fn drift_of_end(particle: Particle) -> f32 { return bitcast<f32>(bonds[species_of(particle)].x); }
+
+// The change of a bond's length over the last drift. The last positions follow from the last drifts, which are recomputed
+// to the bit.
+fn last_drift(particle: Particle) -> Steps {
+    return Steps(round(Vector(steps_of(particle.momentum)) * (drift_of_end(particle) / unit_lengths())));
+}
+fn change_of_length(me: Particle, other: Particle) -> f32 {
+    let drifted = last_drift(me) - last_drift(other);
+    let now = signed(fraction_of(me.position) - fraction_of(other.position));
+    let after = Vector(now) * unit_lengths();
+    let before = Vector(now - drifted) * unit_lengths();
+    let lengths = length(after) + length(before);
+    // The difference of two nearly equal lengths, without cancellation.
+    let change = dot(after + before, Vector(drifted) * unit_lengths());
+    return select(0.0, change / lengths, lengths > 0.0);
+}
+
+// Bonds without a potential.
+struct Stretch {
+    force: f32,     // impulse of half a step away from each other
+    energy: f32,    // in the unit of impulse and length
+    curvature: f32, // second derivative of the energy
+    possible: bool, // whether the bond can be as long as this
+}
+fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.0, 0.0, true); }
+
+// No bond has friction.
+fn prepare_bonds() {}
+fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 { return 0.0; }
+
+// The baths of bonds have no temperature.
+fn prepare_bond_noise() {}
+fn bond_noise(bond: u32) -> f32 { return 0.0; }
+
+// A step without a report.
+fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
+fn finish_bonds(group: u32, lane: u32) {}
+
+// The step goes on: what the bath of a bond has become is kept.
+fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }

@@ -1,0 +1,106 @@
+override LIST_CAPACITY: u32;  // pairs that a particle may own
+override SQUARED_RANGE: f32;  // of cutoff and margin
+
+fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
+
+@compute @workgroup_size(WORKGROUP)
+fn list_neighbours(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let position = position_at(slot);
+    let fraction = fraction_of(position);
+    let row = row_of(fraction);
+    let column = column_of(fraction);
+    var count = 0u;
+    for (var across = 0u; across < SPAN_Y * SPAN_Z; across++) {
+        let other_row = row_at(row, across);
+        for (var along = 0u; along < SPAN_X; along++) {
+            let cell = cell_index(other_row, (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X);
+            let end = cell_at(cell + 1u);
+            for (var other = cell_at(cell); other < end; other++) {
+                let there = position_at(other);
+                let d = Vector(signed(fraction - fraction_of(there))) * unit_lengths();
+                if (dot(d, d) < SQUARED_RANGE && owns(position.w, there.w)) {
+                    count += 1u;
+                    if (count <= LIST_CAPACITY) {
+                        put_next_neighbour_word(count * PARTICLES + slot, other | excluded(position.w, there.w));
+                    }
+                }
+            }
+        }
+    }
+    put_next_neighbour_word(slot, min(count, LIST_CAPACITY));
+    raise(select(0u, FAILURE_FRAMES, count > LIST_CAPACITY));
+    report_turns(workgroup.x >> 16u);
+}
+
+override START_STREAM_X: u32; // key of the stream over all steps
+override START_STREAM_Y: u32;
+
+@compute @workgroup_size(WORKGROUP)
+fn carry_memories(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let key = threefry2x32(clock_step(), vec2<u32>(START_STREAM_X, START_STREAM_Y));
+    let me = particle_at(slot);
+    let before = came_from[slot];
+    let known = neighbour_word(before);
+    let count = next_neighbour_word(slot);
+    for (var entry = 0u; entry < count; entry++) {
+        let other_slot = next_neighbour_word((entry + 1u) * PARTICLES + slot) & NEIGHBOUR_MASK;
+        let other_before = came_from[other_slot];
+        var found = known;
+        for (var old = 0u; old < known && found == known; old++) {
+            if ((neighbour_word((old + 1u) * PARTICLES + before) & NEIGHBOUR_MASK) == other_before) { found = old; }
+        }
+        var memory: vec2<u32>;
+        if (found < known) {
+            memory = pair_memory(found * PARTICLES + before);
+        } else {
+            let other = particle_at(other_slot);
+            let ids = vec2<u32>(min(me.position.w, other.position.w), max(me.position.w, other.position.w));
+            let c = coefficients_of(species_of(me), species_of(other));
+            let start = PERSISTENCE * c.noise * gaussian_of(pair_words(key, ids));
+            memory = vec2<u32>(bitcast<u32>(start), clock_step().x - 1u);
+        }
+        put_next_pair_memory(entry * PARTICLES + slot, memory);
+    }
+}
+
+
+@compute @workgroup_size(WORKGROUP)
+fn settle_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    store_particle(slot, particle_at(slot));
+}
+
+
+@compute @workgroup_size(WORKGROUP)
+fn settle_list(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let count = next_neighbour_word(slot);
+    put_neighbour_word(slot, count);
+    for (var entry = 0u; entry < count; entry++) {
+        let place = entry * PARTICLES + slot;
+        put_neighbour_word(place + PARTICLES, next_neighbour_word(place + PARTICLES));
+        put_pair_memory(place, next_pair_memory(place));
+    }
+}
+
+
+@compute @workgroup_size(WORKGROUP)
+fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let position = stored_position(slot);
+    note_slot(position.w, slot);
+    check_anchor(slot, fraction_of(position));
+}
+
+// A listed neighbour: where it is stored, and whether the pair is spared its repulsion.
+const NEIGHBOUR_MASK: u32 = 0x7fffffffu;
+
+// No pair is spared its repulsion.
+fn excluded(id: u32, other: u32) -> u32 { return 0u; }

@@ -1,0 +1,81 @@
+var<storage, read_write> kicks: array<vec4<i32>>;
+
+@compute @workgroup_size(WORKGROUP)
+fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    prepare_position_noise();
+    let me = stored_particle(slot);
+    let id = me.position.w;
+    let species = species_of(me);
+    let held = advance_hold(id);
+    let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
+    keep_position_bath(id, bath);
+    let impulse = position_impulse(bath);
+    let kick = steps_of(kicks[slot]) + Steps(round(impulse));
+    kicks[slot] = vec4<i32>(0);
+    let opening = select(kick + held.opening, Steps(0), is_fixed(species));
+    var momentum = steps_of(me.momentum) + clock_closing() * (kick + held.closing) + opening;
+    momentum = select(momentum, Steps(0), is_fixed(species));
+    let travelled = Vector(momentum) * drift_of(species);
+    raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT))
+        | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
+        | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT)));
+    let word = momentum_word(momentum, species);
+    let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
+    store_particle(slot, advanced_particle(position_word(fraction, id), word, opening));
+    check_anchor(slot, fraction);
+}
+
+var<storage, read_write> reported: array<array<vec4<u32>, 2>>;
+
+@compute @workgroup_size(WORKGROUP)
+fn observe_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) { observe_particle(slot); }
+    total_reduce(group, lane);
+}
+
+fn observe_particle(slot: u32) {
+    prepare_position_noise();
+    let me = stored_particle(slot);
+    let id = me.position.w;
+    let species = species_of(me);
+    let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
+    note_position_bath(species, bath);
+    let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + closing_of_hold(id);
+    kicks[slot] = vec4<i32>(0);
+    var momentum = steps_of(me.momentum) + clock_closing() * kick;
+    momentum = select(momentum, Steps(0), is_fixed(species));
+    begin_force();
+    add_reported_force(momentum_word(kick, 0));
+    store_force(id);
+    let p = Vector(momentum);
+    total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
+    let word = momentum_word(momentum, species);
+    total_add(2u, sum64_of_i32(word.x));
+    total_add(3u, sum64_of_i32(word.y));
+    if (DIMENSION == 3u) { total_add(4u, sum64_of_i32(word.z)); }
+    reported[id] = array<vec4<u32>, 2>(me.position, bitcast<vec4<u32>>(word));
+}
+
+// Every particle can move.
+fn is_fixed(species: i32) -> bool { return false; }
+
+// No coloured noise.
+struct Held { closing: Steps, opening: Steps }
+fn advance_hold(id: u32) -> Held { return Held(Steps(0), Steps(0)); }
+fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
+
+// No bath acts on particles by themselves.
+fn position_bath(id: u32, species: i32, drift: Vector) -> Vector { return Vector(0.0); }
+fn position_impulse(bath: Vector) -> Vector { return bath; }
+fn keep_position_bath(id: u32, bath: Vector) {}
+
+// The position baths of this scene have no temperature.
+fn prepare_position_noise() {}
+fn position_noise(id: u32, species: i32) -> Vector { return Vector(0.0); }
+
+// No bath of a particle has an energy.
+fn note_position_bath(species: i32, bath: Vector) {}

@@ -1,0 +1,19 @@
+override LOSS: f32;         // 1 - e
+override DECAY: f32;        // ln |e|
+override SPREAD: f32;       // root of 1 - e^2
+
+fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
+    let memory = pair_memory(place);
+    let missed = clock_step().x - memory.y - 1u;
+    let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, PERSISTENCE < 0.0 && (missed & 1u) == 1u);
+    let exponent = -2.0 * DECAY * (f32(missed) + 1.0);
+    let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
+    let spread = select(sqrt(lost), SPREAD, missed == 0u);
+    return kept * bitcast<f32>(memory.x) + f32(clock_closing()) * c.friction * coupling(contact.w)
+        + c.noise * spread * bath_noise(me.position.w, other.position.w);
+}
+fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
+    let bath = bath_of_pair(c, contact, me, other, place);
+    note_bath(c, contact, bath, place);
+    return push - BATH_IMPULSE * root * bath;
+}

@@ -1,0 +1,21 @@
+override TETHER: f32; // impulse of half a step per length
+var<storage, read_write> tethers: array<vec4<u32>>; // by number
+
+@compute @workgroup_size(WORKGROUP)
+fn pull_tethers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) {
+        let position = stored_position(slot);
+        let length = separation(position, tethers[position.w]);
+        let impulse = -TETHER * length;
+        add_kick(slot, Steps(round(impulse)));
+        raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT)));
+        note_tether(slot, length);
+    }
+    finish_tethers(group, lane);
+}
+
+// A step without a report.
+fn note_tether(slot: u32, length: Vector) {}
+fn finish_tethers(group: u32, lane: u32) {}

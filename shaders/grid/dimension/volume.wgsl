@@ -1,0 +1,31 @@
+override CELLS_Z: u32;
+
+fn rows() -> u32 { return CELLS_Y * CELLS_Z; }
+fn cell_along(fraction: u32, cells: u32) -> u32 {
+    return min(u32(f32(fraction >> 8u) * (f32(cells) / 16777216.0)), cells - 1u);
+}
+fn column_of(fraction: Fraction) -> u32 { return cell_along(fraction.x, CELLS_X); }
+fn row_of(fraction: Fraction) -> u32 {
+    return cell_along(fraction.z, CELLS_Z) * CELLS_Y + cell_along(fraction.y, CELLS_Y);
+}
+
+// Rows that can hold neighbours of a row's particles, the row itself in the middle of the numbering.
+fn reach_y() -> u32 { return select(1u, 3u, CELLS_Y >= 3u); }
+fn reach_z() -> u32 { return select(1u, 3u, CELLS_Z >= 3u); }
+fn neighbour_rows() -> u32 { return reach_y() * reach_z(); }
+fn neighbour_row(row: u32, index: u32) -> u32 {
+    let dz = index / reach_y();
+    let dy = index - dz * reach_y();
+    let z = row / CELLS_Y;
+    let y = row - z * CELLS_Y;
+    return ((z + dz + CELLS_Z - reach_z() / 2u) % CELLS_Z) * CELLS_Y + (y + dy + CELLS_Y - reach_y() / 2u) % CELLS_Y;
+}
+
+// Rows around a row, further than the nearest.
+fn row_at(row: u32, index: u32) -> u32 {
+    let dz = index / SPAN_Y;
+    let dy = index - dz * SPAN_Y;
+    let z = row / CELLS_Y;
+    let y = row - z * CELLS_Y;
+    return ((z + dz + CELLS_Z - SPAN_Z / 2u) % CELLS_Z) * CELLS_Y + (y + dy + CELLS_Y - SPAN_Y / 2u) % CELLS_Y;
+}

@@ -1,0 +1,25 @@
+// One step of the bath on every node, which then adds to the depth that drives the particles.
+override BATH_PERSISTENCE: f32;
+override BATH_RESPONSE: f32;    // per unit of integer mass
+var<storage, read_write> node_bath: array<f32>;
+var<storage, read_write> previous_masses: array<u32>;
+
+@compute @workgroup_size(WORKGROUP)
+fn step_mesh_bath(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let node = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (node >= CELLS_X * CELLS_Y) { return; }
+    var s = node_bath[node];
+    let mass = node_masses[node];
+    // At step 0 the variable is that of the beginning.
+    if (clock_closing() == 1) {
+        prepare_noise();
+        let change = f32(bitcast<i32>(mass - previous_masses[node]));
+        s = BATH_PERSISTENCE * s + BATH_RESPONSE * change + mesh_noise(node);
+        node_bath[node] = s;
+        raise(select(FAILURE_IMPULSE, 0u, is_number(s)));
+    }
+    previous_masses[node] = mass;
+    surface[node] = depths[node] + s;
+}
+
+fn mesh_noise(node: u32) -> f32 { return 0.0; }

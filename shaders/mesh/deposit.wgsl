@@ -1,0 +1,34 @@
+// A particle's part in the moments of its cell.
+
+// A number from 0 to 2²³ plus this is rounded to an integer, which is then in the last bits.
+const MASS_ROUNDING: f32 = 8388608.0;
+
+fn add_particle(moments: ptr<function, Moments>, particle: Water) {
+    let x = place_along(particle.position.x, CELLS_X).offset;
+    let y = place_along(particle.position.y, CELLS_Y).offset;
+    add_moments(moments, x, f32(particle.mass) * powers(y));
+}
+
+var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
+
+@compute @workgroup_size(WORKGROUP)
+fn gather_nodes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let node = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (node >= CELLS_X * CELLS_Y) { return; }
+    let column = node % CELLS_X;
+    let row = node / CELLS_X;
+    var mass = 0i;
+    var least = 0i;
+    for (var l = 0u; l < WIDTH; l++) {
+        let base = mesh_cell_along(row, l, CELLS_Y) * CELLS_X;
+        for (var k = 0u; k < WIDTH; k++) {
+            let cell = base + mesh_cell_along(column, k, CELLS_X);
+            let share = contributions[(k * WIDTH + l) * (CELLS_X * CELLS_Y) + cell];
+            mass += share;
+            least = min(least, min(share, mass));
+        }
+    }
+    // A cell has too much, or the sum has gone round.
+    raise_at(select(0u, FAILURE_CROWDING, least < LEAST_MASS), node);
+    node_masses[node] = u32(mass);
+}

@@ -1,0 +1,20 @@
+// A particle of shallow water as it lies in memory.
+struct StoredWater { position: Two, velocity: Two, mass_and_id: Two }
+
+fn unpacked(stored: StoredWater) -> Water {
+    let rest = two_words(stored.mass_and_id);
+    return Water(two_words(stored.position), bitcast<vec2<i32>>(two_words(stored.velocity)), rest.x, rest.y);
+}
+fn packed(particle: Water) -> StoredWater {
+    return StoredWater(two(particle.position), two(bitcast<vec2<u32>>(particle.velocity)),
+        two(vec2<u32>(particle.mass, particle.id)));
+}
+
+// A particle of shallow water as it lies in textures: its position and velocity, and apart from them its mass and number.
+fn unpacked_texels(motion: vec4<u32>, mass: vec2<u32>) -> Water {
+    return Water(motion.xy, bitcast<vec2<i32>>(motion.zw), mass.x, mass.y);
+}
+fn motion_word(particle: Water) -> vec4<u32> {
+    return vec4<u32>(particle.position, bitcast<vec2<u32>>(particle.velocity));
+}
+fn mass_word(particle: Water) -> vec4<u32> { return vec4<u32>(particle.mass, particle.id, 0u, 0u); }

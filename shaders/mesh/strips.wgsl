@@ -1,0 +1,26 @@
+// Visits every cell of the mesh, eight side by side in a row by the lanes of a subgroup, then those in the rows above: a strip, in
+// which cells may share what they load and what they store. For adapters whose subgroups have eight lanes and meshes of whole
+// strips.
+const STRIP: u32 = 4u; // rows
+var<private> lane_of_eight: u32;
+
+@compute @workgroup_size(WORKGROUP)
+fn visit_mesh_strips(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_id) subgroup: u32, @builtin(subgroup_invocation_id) lane: u32) {
+    let strip = linear_workgroup(workgroup) * (WORKGROUP / 8u) + subgroup;
+    let row = strip / (CELLS_X / 8u) * STRIP;
+    if (row >= CELLS_Y) { return; }
+    lane_of_eight = lane;
+    let column = strip % (CELLS_X / 8u) * 8u + lane;
+    begin_strip(column, row);
+    // Written out: what is kept from row to row costs more in a loop.
+    visit_cell((row + 0u) * CELLS_X + column);
+    visit_cell((row + 1u) * CELLS_X + column);
+    visit_cell((row + 2u) * CELLS_X + column);
+    visit_cell((row + 3u) * CELLS_X + column);
+    end_strip(column, row);
+    report_turns(workgroup.x >> 16u);
+}
+
+// Nothing to do where cells of a strip share nothing.
+fn end_strip(column: u32, row: u32) {}
+fn begin_strip(column: u32, row: u32) {}

@@ -1,0 +1,3 @@
+fn surface_at(node: u32) -> f32 { return surface[node]; }
+// The depth on the node of a cell.
+fn depth_in_cell(cell: u32, nodes: Square) -> f32 { return depths[cell]; }

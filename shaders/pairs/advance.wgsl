@@ -1,0 +1,32 @@
+const STRAIN_LIMIT: f32 = 1073741824.0;
+var<private> failures_of_particles: u32; // raised once, when all particles of an invocation are done
+
+// `strain` is the sum of the magnitudes of all impulses on the particle: it tells, where the wrapped sum cannot, that
+// the sum has left the range of integers, and it carries what is not a number.
+fn check_particle(momentum: Steps, species: i32, strain: f32) {
+    let travelled = Vector(momentum) * drift_of(species);
+    failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(strain, STRAIN_LIMIT))
+        | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
+        | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
+}
+
+fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
+    check_particle(momentum, species_of(me), strain);
+    let word = momentum_word(momentum, species_of(me));
+    let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
+    let slot = unframed_index(row, index);
+    store_particle(slot, advanced_particle(position_word(fraction, me.position.w), word, kick));
+    put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+}
+
+var<storage, read_write> particles: array<Particle>;
+
+@compute @workgroup_size(WORKGROUP)
+fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (index >= PARTICLES) { return; }
+    let particle = particles[index];
+    let fraction = fraction_of(particle.position) + unsigned(half_drift_steps(particle.momentum));
+    particles[index].position = position_word(fraction, particle.position.w);
+    put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+}

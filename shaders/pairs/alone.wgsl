@@ -1,0 +1,14 @@
+@compute @workgroup_size(WORKGROUP)
+fn visit_alone(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
+            let me = particle_at(index);
+            pass_end(row, index, me, pass_begin(me));
+        }
+    }
+    pass_finish(group, lane);
+}

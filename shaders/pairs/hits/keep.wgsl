@@ -1,0 +1,6 @@
+// A later pass visits the same pairs again.
+var<storage, read_write> found: array<array<u32, KEPT_WORDS>>; // the buffer of the particles
+
+fn keep_mask(row: u32, index: u32, word: u32, mask: u32) {
+    if (word < KEPT_WORDS) { found[unframed_index(row, index)][word] = mask; }
+}

@@ -1,0 +1,7 @@
+// No conservative force in this scene.
+fn repulsion_impulse(c: Coefficients, w: f32) -> f32 { return 0.0; }
+
+// No friction in this scene.
+fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }
+
+fn random_impulse(c: Coefficients, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }

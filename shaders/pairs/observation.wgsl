@@ -1,0 +1,55 @@
+const PAIR_QUANTITIES: u32 = 9u;
+var<private> pair_totals: array<vec2<u32>, PAIR_QUANTITIES>;
+
+fn pair_total_add(quantity: u32, value: Sum64) { pair_totals[quantity] = sum64_add(pair_totals[quantity], value); }
+
+// What a particle's pairs add up to.
+struct PairSums { energy: Sum64, conservative_virial: Sum64, virial: Sum64, laplacian: Sum64, force: Steps }
+
+fn no_pairs() -> PairSums {
+    let zero = Sum64(0u);
+    return PairSums(zero, zero, zero, zero, Steps(0));
+}
+fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: Contact) {
+    let magnitude = repulsion * contact.w;
+    (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(magnitude * contact.w * PAIR_ENERGY));
+    (*sums).conservative_virial =
+        sum64_add((*sums).conservative_virial, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
+    // Two particles in the same place exert no force, and have no curvature either.
+    let slope = contact.w / max(contact.distance, 1e-6 * CUTOFF);
+    let curvature = select(0.0, repulsion * (1.0 / CUTOFF - f32(DIMENSION - 1u) * slope), contact.distance > 0.0);
+    (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(curvature * LAPLACIAN));
+    (*sums).force += Steps(round(magnitude * contact.direction));
+}
+fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, contact: Contact) {
+    (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(magnitude * contact.distance * weight));
+}
+
+fn observe_motion(species: i32, momentum: Steps, virial: Sum64) {
+    let p = Vector(momentum);
+    pair_total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
+    pair_total_add(1u, virial);
+    let word = momentum_word(momentum, species);
+    pair_total_add(2u, sum64_of_i32(word.x));
+    pair_total_add(3u, sum64_of_i32(word.y));
+    if (DIMENSION == 3u) { pair_total_add(4u, sum64_of_i32(word.z)); }
+}
+fn observe_configuration(sums: PairSums) {
+    let f = Vector(sums.force);
+    pair_total_add(5u, sums.energy);
+    pair_total_add(6u, sums.conservative_virial);
+    pair_total_add(7u, sum64_of_f32(dot(f, f) * GRADIENT));
+    pair_total_add(8u, sums.laplacian);
+}
+// The first five quantities are of the motion, the others of the configuration.
+fn reduce_quantities(group: u32, lane: u32, first: u32, end: u32) {
+    for (var quantity = first; quantity < end; quantity++) { reduce_quantity(group, lane, quantity, pair_totals[quantity]); }
+}
+
+// No analysis asks for the forces of a report.
+fn begin_force() {}
+fn add_reported_force(impulse: vec4<i32>) {}
+fn store_force(id: u32) {}
+
+// No analysis asks for the momenta of a split step's report.
+fn store_momentum(id: u32, momentum: vec4<i32>) {}

@@ -1,0 +1,34 @@
+// The report of a leapfrog step: positions are at the step, momenta half a step behind until the closing half kick.
+
+struct Sums { kick: Steps, pairs: PairSums }
+
+fn pass_begin(me: Particle) -> Sums {
+    prepare_noise();
+    begin_force();
+    return Sums(Steps(0), no_pairs());
+}
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let other = particle_at(other_index);
+    let contact = contact_of(separation(me.position, other.position));
+    if (!contact.inside) { return; }
+    let c = coefficients_of(species_of(me), species_of(other));
+    let root = root_weight(contact.w);
+    let repulsion = repulsion_impulse(c, 1.0);
+    let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
+        + random_impulse(c, root, me, other);
+    (*sums).kick += Steps(round(magnitude * contact.direction));
+    var pairs = (*sums).pairs;
+    observe_conservative(&pairs, repulsion, contact);
+    observe_virial(&pairs, magnitude, PAIR_VIRIAL, contact);
+    (*sums).pairs = pairs;
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    let momentum = steps_of(me.momentum) + clock_closing() * sums.kick;
+    observe_motion(species_of(me), momentum, sums.pairs.virial);
+    observe_configuration(sums.pairs);
+    add_reported_force(momentum_word(sums.kick, 0));
+    store_force(me.position.w);
+    // By id, for whoever wants the particles of the report.
+    store_particle(me.position.w, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
+}
+fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, PAIR_QUANTITIES); }

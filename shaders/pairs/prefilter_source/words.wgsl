@@ -1,0 +1,1 @@
+fn candidate_probe(index: u32, middle: Middle) -> Probe { return probe_of_word(probes[index], middle); }

@@ -1,0 +1,5 @@
+var<private> force: vec4<i32>;
+
+fn begin_force() { force = vec4<i32>(0); }
+fn add_reported_force(impulse: vec4<i32>) { force += impulse; }
+fn store_force(id: u32) { reported_forces[id] = force; }

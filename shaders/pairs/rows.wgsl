@@ -1,0 +1,77 @@
+@compute @workgroup_size(WORKGROUP)
+fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
+            visit_particle_of_row(row, index);
+        }
+    }
+    report_turns(workgroup.x >> 16u);
+    pass_finish(group, lane);
+}
+
+fn visit_particle_of_row(row: u32, index: u32) {
+    let me = particle_at(index);
+    let column = column_of(fraction_of(me.position));
+    prepare_row_hits(row, me);
+    let last_column = column + 2u * frame();
+    var sums = pass_begin(me);
+    var masks: array<u32, WORDS>;
+    var bases: array<u32, WORDS>;
+    var word_number = 0u;
+    var neighbour = 0u;
+    var base = 0u;
+    var end = 0u;
+    loop {
+        var filled = 0u;
+        while (filled < WORDS) {
+            if (base >= end) {
+                if (neighbour == neighbour_rows()) { break; }
+                let start = neighbour_row(row, neighbour) * row_width();
+                base = cell_at(start + column);
+                end = cell_at(start + last_column + 1u);
+                neighbour += 1u;
+                continue;
+            }
+            let mask = hits_of_row(row, index, word_number, base, min(32u, end - base));
+            word_number += 1u;
+            masks[filled] = mask;
+            bases[filled] = base;
+            filled += select(0u, 1u, mask != 0u);
+            base += 32u;
+        }
+        var word = 0u;
+        var mask = masks[0];
+        var word_base = bases[0];
+        while (word < filled) {
+            pass_pair(&sums, me, word_base + firstTrailingBit(mask));
+            mask &= mask - 1u;
+            if (mask == 0u) {
+                word += 1u;
+                mask = masks[word & 31u];
+                word_base = bases[word & 31u];
+            }
+        }
+        if (base >= end && neighbour == neighbour_rows()) { break; }
+    }
+    pass_end(row, index, me, sums);
+}
+
+
+fn prepare_row_hits(row: u32, me: Particle) {
+    hits_middle = row_middle(row);
+    hits_probe = probe_of(fraction_of(me.position), hits_middle);
+}
+fn hits_of_row(row: u32, index: u32, word: u32, base: u32, count: u32) -> u32 {
+    var mask = 0u;
+    for (var bit = 0u; bit < count; bit++) {
+        mask |= select(0u, 1u << bit, probe_hits(hits_probe, candidate_probe(base + bit, hits_middle)));
+    }
+    let own = index - base;
+    mask &= ~select(0u, 1u << (own & 31u), own < 32u);
+    keep_mask(row, index, word, mask);
+    return mask;
+}

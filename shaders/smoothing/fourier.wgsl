@@ -1,0 +1,89 @@
+// Fourier transforms of many lines at once, one small radix a pass, sorted on the way (Stockham). A pass back is one
+// forth of numbers whose real and imaginary parts have changed places.
+override LENGTH: u32; // of a line
+override LINES: u32;  // number of lines
+override ROW_LENGTH: u32; // of the mesh
+override SPAN: u32;   // length of the transforms that the passes before have finished
+
+var<storage, read_write> symbols: array<f32>; // of the smoothing, up to the middle of both axes
+var<storage, read_write> roots: array<vec2<f32>>; // of unity, clockwise
+
+// Where an invocation works: which line, and which of its LENGTH / RADIX butterflies.
+struct Butterfly {
+    line: u32,
+    place: u32,
+}
+
+fn source(butterfly: Butterfly, leg: u32) -> u32 { return butterfly.place + leg * (LENGTH / RADIX); }
+fn target_of(butterfly: Butterfly, leg: u32) -> u32 {
+    let within = butterfly.place % SPAN;
+    return (butterfly.place - within) * RADIX + within + leg * SPAN;
+}
+
+// The smoothing of the wave that a leg is, where the lines are columns.
+fn symbol(butterfly: Butterfly, leg: u32) -> f32 {
+    let wave = source(butterfly, leg);
+    return symbols[min(wave, LENGTH - wave) * LINES + butterfly.line];
+}
+
+fn times(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(fma(a.x, b.x, -(a.y * b.y)), fma(a.x, b.y, a.y * b.x));
+}
+// By -i: a quarter of a turn.
+fn quarter(a: vec2<f32>) -> vec2<f32> { return vec2<f32>(a.y, -a.x); }
+
+// Transforms of four and of eight numbers, and the roots of unity within those of sixteen.
+const ROOT_HALF = 0.70710678118654752440;
+const SIXTEENTH = vec2<f32>(0.92387953251128675613, -0.38268343236508977173);
+const THREE_SIXTEENTHS = vec2<f32>(0.38268343236508977173, -0.92387953251128675613);
+
+fn eighth(a: vec2<f32>) -> vec2<f32> { return ROOT_HALF * vec2<f32>(a.x + a.y, a.y - a.x); }
+
+fn fourier4(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>) -> array<vec2<f32>, 4> {
+    let even_sum = a + c;
+    let even_difference = a - c;
+    let odd_sum = b + d;
+    let odd_difference = quarter(b - d);
+    return array<vec2<f32>, 4>(
+        even_sum + odd_sum,
+        even_difference + odd_difference,
+        even_sum - odd_sum,
+        even_difference - odd_difference,
+    );
+}
+
+fn fourier8(
+    a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>, e: vec2<f32>, f: vec2<f32>, g: vec2<f32>, h: vec2<f32>,
+) -> array<vec2<f32>, 8> {
+    let even = fourier4(a, c, e, g);
+    let odd = fourier4(b, d, f, h);
+    let p = eighth(odd[1]);
+    let q = quarter(odd[2]);
+    let r = quarter(eighth(odd[3]));
+    return array<vec2<f32>, 8>(
+        even[0] + odd[0], even[1] + p, even[2] + q, even[3] + r,
+        even[0] - odd[0], even[1] - p, even[2] - q, even[3] - r,
+    );
+}
+
+// One pass of a Fourier transform, one invocation a butterfly.
+@compute @workgroup_size(WORKGROUP)
+fn fourier_pass(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (index >= LINES * (LENGTH / RADIX)) { return; }
+    let butterfly = butterfly_of(index);
+    scattered(butterfly, transformed(twisted(gathered(butterfly), butterfly.place % SPAN, RADIX * SPAN)));
+}
+
+// Where the Fourier transform turns back: last pass forth, smoothing, first pass back; one invocation a butterfly.
+@compute @workgroup_size(WORKGROUP)
+fn fourier_turn(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (index >= LINES * (LENGTH / RADIX)) { return; }
+    let butterfly = butterfly_of(index);
+    let waves_there = transformed(twisted(gathered(butterfly), butterfly.place, LENGTH));
+    scattered(butterfly, transformed(weighed(waves_there, butterfly)));
+}
+
+// First pass along a line: no roots of unity yet.
+fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return legs; }

@@ -1,0 +1,7 @@
+// What the pass before has left.
+fn load_pair(butterfly: Butterfly, leg: u32) -> vec4<f32> {
+    return vec4<f32>(
+        wave(element(butterfly.line, source(butterfly, leg))),
+        wave(element(butterfly.line, source(butterfly, leg + RADIX / 2u))),
+    );
+}

@@ -1,0 +1,28 @@
+// Butterflies of two legs.
+const RADIX = 2u;
+alias Legs = array<vec2<f32>, 2>;
+
+fn transformed(v: Legs) -> Legs { return Legs(v[0] + v[1], v[0] - v[1]); }
+
+fn gathered(butterfly: Butterfly) -> Legs {
+    let a = load_pair(butterfly, 0u);
+    return Legs(a.xy, a.zw);
+}
+fn scattered(butterfly: Butterfly, v: Legs) {
+    store_pair(butterfly, 0u, vec4<f32>(v[0], v[1]));
+}
+
+// Leg j by the j-th power of a root of unity.
+fn turned(v: Legs, step: u32) -> Legs {
+    let w1 = roots[step];
+    return Legs(
+        v[0],
+        times(v[1], w1),
+    );
+}
+fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
+    return Legs(
+        v[0].yx * symbol(butterfly, 0u),
+        v[1].yx * symbol(butterfly, 1u),
+    );
+}

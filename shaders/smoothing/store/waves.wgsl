@@ -1,0 +1,5 @@
+// For the next pass.
+fn store_pair(butterfly: Butterfly, leg: u32, pair: vec4<f32>) {
+    put_wave(element(butterfly.line, target_of(butterfly, leg)), pair.xy);
+    put_wave(element(butterfly.line, target_of(butterfly, leg + RADIX / 2u)), pair.zw);
+}

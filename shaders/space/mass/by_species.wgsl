@@ -1,0 +1,34 @@
+// Species of different masses: friction is one of velocities.
+override DRIFT: f32;   // displacement in a step per unit of momentum at unit mass
+
+fn inverse_mass_of(species: i32) -> f32 { return coefficient_entry(u32(species)).w; }
+fn drift_of(species: i32) -> f32 { return DRIFT * inverse_mass_of(species); }
+fn kinetic_of(species: i32) -> f32 { return KINETIC * inverse_mass_of(species); }
+
+// Whether what belongs to this particle is computed before what belongs to the other one: at both ends that of the smaller id is
+// the first, so that both round alike even where products and sums are contracted.
+fn mine_first(me: Particle, other: Particle) -> bool { return me.position.w < other.position.w; }
+// Rate of a pair among others, from what its particles feel from these.
+// Rates are kept per mass of their particle, so that they mean the same in every unit of mass.
+fn rate_scale_of(species: i32) -> f32 { return inverse_mass_of(species); }
+fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
+    let in_order = mine_first(me, other);
+    let my_inverse = inverse_mass_of(species_of(me));
+    let their_inverse = inverse_mass_of(species_of(other));
+    let both = my_inverse + their_inverse;
+    let weighed = select(theirs, mine, in_order) * select(their_inverse, my_inverse, in_order)
+        + select(mine, theirs, in_order) * select(my_inverse, their_inverse, in_order);
+    return own * both + weighed / both * (1.0 / f32(DIMENSION));
+}
+// Masses may differ by twelve orders of magnitude: products of sums and differences of both would lose the digits of the lighter.
+// The difference of two velocities, odd under exchange to the last bit.
+fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
+    let in_order = mine_first(me, other);
+    let first = Vector(select(theirs, mine, in_order));
+    let second = Vector(select(mine, theirs, in_order));
+    let mine_inverse = inverse_mass_of(species_of(me));
+    let theirs_inverse = inverse_mass_of(species_of(other));
+    let difference = first * select(theirs_inverse, mine_inverse, in_order)
+        - second * select(mine_inverse, theirs_inverse, in_order);
+    return select(-difference, difference, in_order);
+}

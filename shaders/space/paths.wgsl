@@ -1,0 +1,30 @@
+// How often something crosses the ends of the box on its way, which is shorter than half of it, from one fraction to
+// another: a signed step that carries out of the fraction is a crossing.
+fn crossings(before: vec4<u32>, now: vec4<u32>) -> vec4<i32> {
+    let moved = bitcast<vec4<i32>>(now - before);
+    let forward = (moved >= vec4<i32>(0)) & (now < before);
+    let backward = (moved < vec4<i32>(0)) & (now > before);
+    return select(vec4<i32>(0), vec4<i32>(1), forward) - select(vec4<i32>(0), vec4<i32>(1), backward);
+}
+
+// How often each particle has gone round the box, by id. It is followed so often that it cannot go half round the box in
+// between.
+struct Path {
+    last: vec4<u32>,   // position when it was last followed
+    images: vec4<i32>, // times round the box until then
+}
+var<storage, read_write> paths: array<Path>;
+
+// `position` has zeros in the words that are no coordinates.
+fn follow(id: u32, position: vec4<u32>) {
+    paths[id] = Path(position, paths[id].images + crossings(paths[id].last, position));
+}
+
+
+@compute @workgroup_size(WORKGROUP)
+fn follow_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let position = stored_position(slot);
+    follow(position.w, position_word(fraction_of(position), 0u));
+}

@@ -1,0 +1,71 @@
+// The faces of Voronoi cells as `tessellate` leaves them: face f of the cell in a slot is element f * PARTICLES + slot.
+//
+// A word names the neighbour's slot and which of its periodic images is meant: the separation r_k - r_l is the shortest one
+// less (sx, sy) boxes, with (sx + 1) + 3 (sy + 1) in the upper four bits.
+var<storage, read_write> face_counts: array<u32>;
+var<storage, read_write> face_words: array<u32>;
+var<storage, read_write> face_lengths: array<f32>;
+var<storage, read_write> face_offsets: array<f32>; // from the middle of the particles, along the tangent
+var<storage, read_write> volumes: array<f32>;
+
+fn neighbour_of(word: u32) -> u32 { return word & 0x0fffffffu; }
+fn image_of(word: u32) -> vec2<i32> {
+    let code = word >> 28u;
+    return vec2<i32>(i32(code % 3u), i32(code / 3u)) - 1;
+}
+fn face_word(slot: u32, image: vec2<i32>) -> u32 {
+    let code = vec2<u32>(image + 1);
+    return slot | ((code.x + 3u * code.y) << 28u);
+}
+
+// From the neighbour's image to me, r_k - r_l.
+fn separation_across(me: Fraction, other: Fraction, word: u32) -> Vector {
+    return (Vector(signed(me - other)) - 4294967296.0 * Vector(image_of(word))) * unit_lengths();
+}
+// The direction that goes with e = (r_k - r_l) / r: seen from the other side both turn round.
+fn tangent(e: Vector) -> Vector { return Vector(-e.y, e.x); }
+
+// Of the two cells at a face one reckons what crosses it, by their numbers: the smaller of an odd sum, the larger of an
+// even one. Nothing crosses between a cell and its own image.
+fn owns_face(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
+
+// The image of the larger number seen from the smaller one: both ends find the same code.
+fn common_image(id: u32, other_id: u32, me: Fraction, other: Fraction, word: u32) -> u32 {
+    // Exactly half a box away the shortest separation has the same sign from both sides.
+    let half = signed(me - other) == Steps(i32(-2147483647) - 1);
+    let back = -image_of(word) - vec2<i32>(half);
+    return select(face_word(0u, back), word, id < other_id) >> 28u;
+}
+
+// A face as one of its cells sees it.
+struct Facet {
+    direction: Vector, // e, from the neighbour to the cell
+    distance: f32,     // r
+    length: f32,       // l
+    image: u32,        // that both cells find
+}
+
+fn facet_of(face: u32, word: u32, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
+    let apart = separation_across(fraction_of(mine), fraction_of(theirs), word);
+    let distance = length(apart);
+    let image = common_image(mine.w, theirs.w, fraction_of(mine), fraction_of(theirs), word);
+    return Facet(apart / distance, distance, face_lengths[face], image);
+}
+
+
+fn face_noise(mine: u32, theirs: u32, image: u32, part: u32) -> vec2<f32> {
+    let counters = vec2<u32>(min(mine, theirs) | (image << 28u), max(mine, theirs) | (part << 28u));
+    return two_gaussians_of(pair_words(noise_key, counters));
+}
+
+// What a cell brings to an exchange through its faces.
+struct Side {
+    id: u32,
+    mass: f32,
+    velocity: Vector,    // when the exchange begins
+    mean: Vector,        // of before and after it
+    pressure: f32,
+    density: f32,        // of mass
+    energy_density: f32, // of internal energy
+    temperature: f32,
+}

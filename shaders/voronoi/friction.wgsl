@@ -1,0 +1,226 @@
+// What the conjugate gradients of the friction have come to: Chronopoulos and Gear, doi:10.1016/0377-0427(89)90045-9,
+// whose iterations need a single sum over all cells. Sums are of single precision, in an order that depends on nothing but
+// where the cells are.
+struct Solver {
+    key: vec2<u32>,   // of the step's random words
+    iterations: u32,
+    running: u32,     // 1 as long as the residual is too large
+    step_length: f32, // along the direction of search
+    turn: f32,        // part of the last direction in the next
+    square: f32,      // of the residual, in the norm of the preconditioner
+    scale: f32,       // the same of the right-hand side
+    residual: f32,    // relative to that
+    sums: array<vec4<f32>>, // of each workgroup: squares of residual, its image, and the right-hand side
+}
+var<storage, read_write> solver: Solver;
+
+// Sums of single precision over a workgroup, always in the same order.
+const LANES: u32 = 64u;
+var<workgroup> solver_lane_sums: array<vec4<f32>, LANES>;
+
+fn sum_of_lanes(lane: u32, value: vec4<f32>) -> vec4<f32> {
+    solver_lane_sums[lane] = value;
+    workgroupBarrier();
+    for (var stride = LANES / 2u; stride > 0u; stride >>= 1u) {
+        if (lane < stride) { solver_lane_sums[lane] += solver_lane_sums[lane + stride]; }
+        workgroupBarrier();
+    }
+    return solver_lane_sums[0];
+}
+
+// What a cell shows its neighbours in an iteration. Where it is are words: their bits as a real number might not survive.
+struct Search { residual: Vector, place: Fraction } // the residual preconditioned
+
+// The inverse of a cell's own 2 by 2 block of the equations, xx, xy, yy, times a vector.
+fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
+    return Vector(inverse.x * v.x + inverse.y * v.y, inverse.y * v.x + inverse.z * v.y);
+}
+
+var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
+var<storage, read_write> searches: array<Search>;
+
+// The image of the preconditioned residual.
+fn image_of_search(slot: u32, mine: Search) -> Vector {
+    var image = preconditioners[slot].w * mine.residual;
+    let count = face_counts[slot];
+    for (var number = 0u; number < count; number++) {
+        let face = number * PARTICLES + slot;
+        let word = face_words[face];
+        let other = neighbour_of(word);
+        if (other == slot) { continue; }
+        let theirs = searches[other];
+        let apart = separation_across(mine.place, theirs.place, word);
+        let square = dot(apart, apart);
+        let v = mine.residual - theirs.residual;
+        image += VISCOSITY * face_lengths[face] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
+    }
+    return image;
+}
+// What a cell adds to the sums of an iteration.
+fn products_of(slot: u32, mine: Search, image: Vector) -> vec4<f32> {
+    return vec4<f32>(dot(estimates[slot].zw, mine.residual), dot(image, mine.residual), 0.0, 0.0);
+}
+// A step along the direction of search, from the last one with its image, which is returned.
+fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
+    let search = searches[slot];
+    // What is left of an earlier step need not be a number.
+    let direction = vec4<f32>(search.residual, image) + select(vec4<f32>(0.0), solver.turn * last, solver.turn != 0.0);
+    let length = vec4<f32>(vec2<f32>(solver.step_length), vec2<f32>(-solver.step_length));
+    let estimate = estimates[slot] + length * direction;
+    estimates[slot] = estimate;
+    searches[slot] = Search(preconditioned(preconditioners[slot].xyz, estimate.zw), search.place);
+    return direction;
+}
+
+// Whether another iteration is needed, and how far it goes.
+override CELL_GROUPS: u32; // workgroups that have left sums of the right-hand side
+override TOLERANCE: f32;
+override ITERATIONS: u32;
+
+fn judge(sums: vec4<f32>) {
+    let first = solver.iterations == 0u;
+    if (first) { solver.scale = sums.z; }
+    let square = sums.x;
+    let turn = select(square / solver.square, 0.0, first);
+    let curvature = sums.y - select(turn * square / solver.step_length, 0.0, first);
+    solver.residual = select(0.0, sqrt(square / solver.scale), square > 0.0);
+    // What is not a number ends the iterations too.
+    let numbers = is_number(square) && is_number(curvature);
+    if (numbers && solver.iterations < ITERATIONS && square > TOLERANCE * TOLERANCE * solver.scale && curvature > 0.0) {
+        solver.square = square;
+        solver.turn = turn;
+        solver.step_length = square / curvature;
+        solver.iterations += 1u;
+    } else {
+        solver.running = 0u;
+    }
+}
+
+// Begins to solve for the velocities after friction.
+@compute @workgroup_size(1)
+fn friction_begin() {
+    solver.key = clock_key();
+    solver.iterations = 0u;
+    solver.running = 1u;
+    solver.residual = 0.0;
+    demand_iterations();
+}
+
+var<storage, read_write> images: array<vec2<f32>>;
+
+@compute @workgroup_size(LANES)
+fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * LANES + lane;
+    var products = vec4<f32>(0.0);
+    if (slot < PARTICLES) {
+        let mine = searches[slot];
+        let image = image_of_search(slot, mine);
+        images[slot] = image;
+        products = products_of(slot, mine, image);
+    }
+    let sum = sum_of_lanes(lane, products);
+    // The sum of the right-hand side stays.
+    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = vec4<f32>(sum.xy, solver.sums[group].zw); }
+}
+
+// Whether this iteration is needed, for all lanes alike: what lies in storage may look different to each.
+var<workgroup> running: u32;
+
+@compute @workgroup_size(LANES)
+fn friction_judge(@builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) { running = solver.running; }
+    if (workgroupUniformLoad(&running) == 0u) { return; }
+    var own = vec4<f32>(0.0);
+    for (var group = lane; group < CELL_GROUPS; group += LANES) { own += solver.sums[group]; }
+    let sums = sum_of_lanes(lane, own);
+    if (lane == 0u) {
+        judge(sums);
+        if (solver.running == 0u) {
+            for (var axis = 0u; axis < 3u; axis++) { demands[3u + axis] = 0u; }
+        }
+    }
+}
+
+
+@compute @workgroup_size(LANES)
+fn friction_setup(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * LANES + lane;
+    var square = 0.0;
+    if (slot < PARTICLES) { square = set_up(slot); }
+    let sum = sum_of_lanes(lane, vec4<f32>(0.0, 0.0, square, 0.0));
+    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = sum; }
+}
+
+// Returns the square of the right-hand side.
+fn set_up(slot: u32) -> f32 {
+    prepare_noise();
+    let me = stored_particle(slot);
+    let velocity = velocity_of(me);
+    let temperature = temperature_of(me);
+    let inertia = 2.0 * mass_of(me);
+    var friction = Vector(0.0);
+    var noise = Vector(0.0);
+    var block = vec3<f32>(inertia, 0.0, inertia); // xx, xy, yy
+    let count = face_counts[slot];
+    for (var number = 0u; number < count; number++) {
+        let face = number * PARTICLES + slot;
+        let word = face_words[face];
+        let other = neighbour_of(word);
+        if (other == slot) { continue; }
+        let they = stored_particle(other);
+        let facet = facet_of(face, word, me.position, they.position);
+        let e = facet.direction;
+        friction += drag(facet, velocity - velocity_of(they));
+        noise += random_face_impulse(facet, me.position.w, they.position.w,
+            noise_temperature(temperature, temperature_of(they)));
+        block += rubbing(facet) * vec3<f32>(1.0 + e.x * e.x, e.x * e.y, 1.0 + e.y * e.y);
+    }
+    let inverse = vec3<f32>(block.z, -block.y, block.x) / (block.x * block.z - block.y * block.y);
+    let residual = friction + noise;
+    preconditioners[slot] = vec4<f32>(inverse, inertia);
+    estimates[slot] = vec4<f32>(velocity, residual);
+    searches[slot] = Search(preconditioned(inverse, residual), me.position.xy);
+    let right = inertia * velocity + noise;
+    return dot(right, preconditioned(inverse, right));
+}
+
+var<storage, read_write> directions: array<vec4<f32>>; // of search, and its image; images behind them
+
+@compute @workgroup_size(LANES)
+fn friction_solve(@builtin(local_invocation_index) lane: u32) {
+    var right = 0.0;
+    for (var group = lane; group < CELL_GROUPS; group += LANES) { right += solver.sums[group].z; }
+    for (var iteration = 0u; iteration <= ITERATIONS; iteration++) {
+        var products = vec4<f32>(0.0, 0.0, right, 0.0);
+        for (var slot = lane; slot < PARTICLES; slot += LANES) {
+            let mine = searches[slot];
+            let image = image_of_search(slot, mine);
+            directions[PARTICLES + slot] = vec4<f32>(image, 0.0, 0.0);
+            products += products_of(slot, mine, image);
+        }
+        let sums = sum_of_lanes(lane, products);
+        if (lane == 0u) {
+            judge(sums);
+            running = solver.running;
+        }
+        storageBarrier();
+        if (workgroupUniformLoad(&running) == 0u) { break; }
+        for (var slot = lane; slot < PARTICLES; slot += LANES) {
+            directions[slot] = step_along(slot, directions[PARTICLES + slot].xy, directions[slot]);
+        }
+        storageBarrier();
+    }
+}
+
+
+@compute @workgroup_size(LANES)
+fn friction_step(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * LANES + lane;
+    if (slot >= PARTICLES) { return; }
+    directions[slot] = step_along(slot, images[slot], directions[slot]);
+}
+
+// Iterations are those of a loop.
+fn demand_iterations() {}

@@ -1,0 +1,325 @@
+// The Voronoi cell of every particle, as long as single precision is sure of it and it has few corners: the rectangle between
+// its own images, cut along the bisectors of the particles around it until none further away can cut it. The others are left
+// to `tessellate_exactly`.
+
+// Particles that are looked at before those that have found a bisector go on to cut.
+const TURNS: u32 = 4u;
+// Particles that are looked at in all.
+const PATIENCE: u32 = 2000u;
+
+var<private> looked_at: u32;
+
+// Looks for a bisector that cuts the polygon.
+fn look_around() -> bool {
+    var found = false;
+    for (var turn = 0u; turn < TURNS && !found && !finished; turn++) {
+        if (other >= end) { next_stretch(); }
+        if (other < end) {
+            let word = face_word(other, vec2<i32>(0));
+            let steps = signed(home - place_of(other));
+            let away = -Vector(steps);
+            let d = away * scale();
+            let squared = dot(d, d);
+            other += 1u;
+            if (squared < reach && squared > 0.0) { found = cuts_few(Site(word, steps, away), squared); }
+        }
+        looked_at += 1u;
+    }
+    return found;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn tessellate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    home = place_of(slot);
+    begin_polygon(slot);
+    begin_rows();
+    doubtful = min(CELLS_X, CELLS_Y) < LEAST_CELLS;
+    looked_at = 0u;
+    loop {
+        if (doubtful || finished) { break; }
+        let found = look_around();
+        doubtful = doubtful || looked_at > PATIENCE;
+        if (found && !doubtful) { cut(); }
+    }
+    store_faces(slot);
+    // A loop, not a branch, for the sake of the atomic.
+    for (var pending = doubtful; pending; pending = false) {
+        places.elements[PARTICLES + atomicAdd(&places.doubtful, 1u)] = vec2<u32>(slot, 0u);
+    }
+}
+
+fn store_faces(slot: u32) {
+    if (doubtful) { return; }
+    var volume = 0.0;
+    var begin = bitcast<Vector>(vec2<u32>(one_of(xs, sides - 1u), one_of(ys, sides - 1u)));
+    for (var i = 0u; i < sides; i++) {
+        let word = words.a.x;
+        let corner = bitcast<Vector>(vec2<u32>(xs.a.x, ys.a.x));
+        let there = site_with(word, bitcast<Steps>(vec2<u32>(steps_x.a.x, steps_y.a.x))).away * scale();
+        let distance = length(there);
+        let normal = there / distance;
+        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
+        let element = i * PARTICLES + slot;
+        face_words[element] = word;
+        face_lengths[element] = face_length * SPACING;
+        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
+        volume += 0.25 * face_length * distance;
+        begin = corner;
+        // The next side comes first.
+        xs = corners_turned(xs);
+        ys = corners_turned(ys);
+        words = corners_turned(words);
+        steps_x = corners_turned(steps_x);
+        steps_y = corners_turned(steps_y);
+    }
+    face_counts[slot] = sides;
+    volumes[slot] = volume * SPACING * SPACING;
+}
+
+// A convex polygon of at most twelve corners in registers: no index but is known to the compiler, and no branch. It knows
+// when it does not know which side of a bisector a corner is on.
+//
+// Side i, counter-clockwise, ends at corner i, where side i + 1 begins. With every corner goes its blur: the radius of the
+// circle around it within which the true one certainly is. Beyond the last corner all is zero, which no bisector cuts off.
+const MOST: u32 = 12u;
+// A word of every corner.
+struct Twelve { a: vec4<u32>, b: vec4<u32>, c: vec4<u32> }
+var<private> xs: Twelve;
+var<private> ys: Twelve;
+var<private> corner_blurs: Twelve;
+// The sites of the sides: as faces are named, and their separations, for memory is slow.
+var<private> words: Twelve;
+var<private> steps_x: Twelve;
+var<private> steps_y: Twelve;
+var<private> sides: u32;
+// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner.
+var<private> reach: f32;
+var<private> doubtful: bool;
+
+// The bisector that is looked at, and the corners beyond it, a bit each.
+var<private> site: Site;
+var<private> beyond: u32;
+
+// The rectangle between a particle and its own images.
+fn begin_polygon(slot: u32) {
+    let half = 2147483648.0 * scale();
+    let blur = bitcast<u32>(100.0 * ROUNDING * length(half));
+    let corner = bitcast<vec2<u32>>(half);
+    let opposite = bitcast<vec2<u32>>(-half);
+    let none = vec4<u32>(0u);
+    sides = 4u;
+    xs = Twelve(vec4<u32>(corner.x, opposite.x, opposite.x, corner.x), none, none);
+    ys = Twelve(vec4<u32>(corner.y, corner.y, opposite.y, opposite.y), none, none);
+    corner_blurs = Twelve(vec4<u32>(blur), none, none);
+    words = Twelve(vec4<u32>(face_word(slot, vec2<i32>(1, 0)), face_word(slot, vec2<i32>(0, 1)),
+        face_word(slot, vec2<i32>(-1, 0)), face_word(slot, vec2<i32>(0, -1))), none, none);
+    steps_x = Twelve(none, none, none);
+    steps_y = steps_x;
+    reach = EVERYWHERE * EVERYWHERE;
+    doubtful = false;
+}
+
+// Of four corners those that are surely beyond a bisector, a bit each, and above them those in doubt.
+fn beyond_of(x: vec4<u32>, y: vec4<u32>, blur: vec4<u32>, direction: Vector, half: f32) -> u32 {
+    let over = bitcast<vec4<f32>>(x) * direction.x + bitcast<vec4<f32>>(y) * direction.y - half;
+    let width = bitcast<vec4<f32>>(blur);
+    let sure = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), over > width);
+    let unsure = select(vec4<u32>(0u), vec4<u32>(65536u), abs(over) <= width);
+    let bits = sure | unsure;
+    return (bits.x | bits.y) | (bits.z | bits.w);
+}
+
+// Whether the bisector of a site so far away (squared) cuts anything off.
+fn cuts_few(there: Site, squared: f32) -> bool {
+    site = there;
+    let inverse = inverseSqrt(squared);
+    let direction = there.away * scale() * inverse;
+    let half = 0.5 * squared * inverse;
+    let all = beyond_of(xs.a, ys.a, corner_blurs.a, direction, half)
+        | (beyond_of(xs.b, ys.b, corner_blurs.b, direction, half) << 4u)
+        | (beyond_of(xs.c, ys.c, corner_blurs.c, direction, half) << 8u);
+    doubtful = doubtful || all >= 65536u;
+    beyond = all & 4095u;
+    return all != 0u;
+}
+
+fn one_of(v: Twelve, index: u32) -> u32 {
+    let none = vec4<u32>(0u);
+    let bits = select(none, v.a, vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(index))
+        | select(none, v.b, vec4<u32>(4u, 5u, 6u, 7u) == vec4<u32>(index))
+        | select(none, v.c, vec4<u32>(8u, 9u, 10u, 11u) == vec4<u32>(index));
+    return (bits.x | bits.y) | (bits.z | bits.w);
+}
+
+fn site_of_side(index: u32) -> Site {
+    return site_with(one_of(words, index), bitcast<Steps>(vec2<u32>(one_of(steps_x, index), one_of(steps_y, index))));
+}
+
+// How corners move for a cut: those before `kept` stay, the others come from `down` places further on or, if `up`, from one
+// place before; the two ends of the cut go to `cut_at`; from `sides` on there is nothing.
+struct Move { kept: u32, down: u32, up: bool, cut_at: u32, sides: u32 }
+
+fn four_moved(own: vec4<u32>, others: vec4<u32>, index: vec4<u32>, m: Move, entry: u32, leaving: u32) -> vec4<u32> {
+    var four = select(others, own, index < vec4<u32>(m.kept));
+    four = select(four, vec4<u32>(entry), index == vec4<u32>(m.cut_at));
+    four = select(four, vec4<u32>(leaving), index == vec4<u32>(m.cut_at + 1u));
+    return select(four, vec4<u32>(0u), index >= vec4<u32>(m.sides));
+}
+
+fn corners_moved(v: Twelve, m: Move, entry: u32, leaving: u32) -> Twelve {
+    let none = vec4<u32>(0u);
+    let four = (m.down & 4u) != 0u;
+    let a = select(v.a, v.b, four);
+    let b = select(v.b, v.c, four);
+    let c = select(v.c, none, four);
+    let two = (m.down & 2u) != 0u;
+    let d = select(a, vec4<u32>(a.zw, b.xy), two);
+    let e = select(b, vec4<u32>(b.zw, c.xy), two);
+    let f = select(c, vec4<u32>(c.zw, 0u, 0u), two);
+    let one = (m.down & 1u) != 0u;
+    let g = select(select(d, vec4<u32>(d.yzw, e.x), one), vec4<u32>(0u, v.a.xyz), m.up);
+    let h = select(select(e, vec4<u32>(e.yzw, f.x), one), vec4<u32>(v.a.w, v.b.xyz), m.up);
+    let i = select(select(f, vec4<u32>(f.yzw, 0u), one), vec4<u32>(v.b.w, v.c.xyz), m.up);
+    return Twelve(
+        four_moved(v.a, g, vec4<u32>(0u, 1u, 2u, 3u), m, entry, leaving),
+        four_moved(v.b, h, vec4<u32>(4u, 5u, 6u, 7u), m, entry, leaving),
+        four_moved(v.c, i, vec4<u32>(8u, 9u, 10u, 11u), m, entry, leaving));
+}
+
+fn farthest_of(x: vec4<u32>, y: vec4<u32>) -> f32 {
+    let u = bitcast<vec4<f32>>(x);
+    let v = bitcast<vec4<f32>>(y);
+    let squares = u * u + v * v;
+    return max(max(squares.x, squares.y), max(squares.z, squares.w));
+}
+fn widest_of(blur: vec4<u32>) -> f32 {
+    let width = bitcast<vec4<f32>>(blur);
+    return max(max(width.x, width.y), max(width.z, width.w));
+}
+
+// Cuts the corners beyond the bisector off.
+fn cut() {
+    let wrapped = (beyond & 1u) != 0u && (beyond >> (sides - 1u)) == 1u;
+    let left = ~beyond & ((1u << sides) - 1u);
+    let first = select(firstTrailingBit(beyond), firstLeadingBit(left) + 1u, wrapped);
+    let last = select(firstLeadingBit(beyond), firstTrailingBit(left) - 1u, wrapped);
+    let gone = select(last + 1u - first, sides + last + 1u - first, wrapped);
+    let up = !wrapped && gone == 1u;
+    let down = select(select(gone - 2u, 0u, up), last + 1u, wrapped);
+    let count = sides + 2u - gone;
+    let cut_at = select(first, first - last - 1u, wrapped);
+    let next = select(last + 1u, 0u, last + 1u == sides);
+    // More than there is room for, or (never in exact arithmetic) nothing left.
+    if (left == 0u || count > MOST || down > 7u) {
+        doubtful = true;
+        return;
+    }
+    let before = site_of_side(first);
+    let entry = meeting(before, site);
+    let leaving = meeting(site, site_of_side(next));
+    let m = Move(select(first, 0u, wrapped), down, up, cut_at, count);
+    xs = corners_moved(xs, m, bitcast<u32>(entry.x), bitcast<u32>(leaving.x));
+    ys = corners_moved(ys, m, bitcast<u32>(entry.y), bitcast<u32>(leaving.y));
+    corner_blurs = corners_moved(corner_blurs, m, bitcast<u32>(entry.z), bitcast<u32>(leaving.z));
+    words = corners_moved(words, m, before.word, site.word);
+    let before_steps = bitcast<vec2<u32>>(before.steps);
+    let steps = bitcast<vec2<u32>>(site.steps);
+    steps_x = corners_moved(steps_x, m, before_steps.x, steps.x);
+    steps_y = corners_moved(steps_y, m, before_steps.y, steps.y);
+    sides = count;
+    let farthest = max(max(farthest_of(xs.a, ys.a), farthest_of(xs.b, ys.b)), farthest_of(xs.c, ys.c));
+    let far = sqrt(farthest) + max(max(widest_of(corner_blurs.a), widest_of(corner_blurs.b)), widest_of(corner_blurs.c));
+    reach = 4.00001 * far * far;
+}
+
+fn corners_turned(v: Twelve) -> Twelve { return Twelve(vec4<u32>(v.a.yzw, v.b.x), vec4<u32>(v.b.yzw, v.c.x), vec4<u32>(v.c.yzw, v.a.x)); }
+
+// The particles around one, in stretches of slots: rows of grid cells, first the nearest columns of every row, then
+// whatever else is within reach and no more than FARTHEST grid cells away.
+const FARTHEST_CELL: i32 = 4;
+// Columns to both sides that come first in the particle's own row and the two beside it.
+const NEAR: i32 = 2;
+// Stretches of all rows, before what is to the left and right of these columns.
+const SIDEWAYS: u32 = 9u;
+// Grid cells on an axis for which every particle so far away is nearer than its images.
+const LEAST_CELLS: u32 = 12u;
+
+// Stretches begun so far.
+var<private> stretch: u32;
+// What is left of a stretch: columns, counted through from one box into the next, and the slots in hand.
+var<private> row: u32;
+var<private> column: i32;
+var<private> last_column: i32;
+var<private> other: u32;
+var<private> end: u32;
+var<private> finished: bool;
+// Where the particle is, in grid cells.
+var<private> place: Vector;
+var<private> home_column: i32;
+var<private> home_row: i32;
+
+fn begin_rows() {
+    stretch = 0u;
+    column = 0;
+    last_column = -1;
+    other = 0u;
+    end = 0u;
+    finished = false;
+    place = Vector(home) * (1.0 / 4294967296.0) * Vector(f32(CELLS_X), f32(CELLS_Y));
+    home_column = i32(column_of(home));
+    home_row = i32(row_of(home));
+}
+
+fn next_row() {
+    let columns = f32(CELLS_X);
+    let rows = f32(CELLS_Y);
+    let width = UNIT_X / SPACING * 4294967296.0 / columns;
+    let height = UNIT_Y / SPACING * 4294967296.0 / rows;
+    let above = place.y - f32(home_row);
+    let beside = place.x - f32(home_column);
+    // Rows 0, 1, -1, 2, -2 and so on; once none further away is within reach, the first three again.
+    let row_pair = i32((stretch + 1u) >> 1u);
+    let nearest = height * max(min(f32(row_pair) - above, above + f32(row_pair) - 1.0) - STRAY * rows, 0.0);
+    let rows_done = stretch < SIDEWAYS && row_pair > NEAR && (stretch & 1u) == 1u && nearest * nearest >= reach;
+    stretch = select(stretch, SIDEWAYS, rows_done);
+    let sideways = stretch >= SIDEWAYS;
+    let index = select(stretch, (stretch - SIDEWAYS) >> 1u, sideways);
+    let across = select(-i32(index >> 1u), i32((index + 1u) >> 1u), (index & 1u) == 1u);
+    let gap = height * max(max(f32(across) - above, above - f32(across) - 1.0) - STRAY * rows, 0.0);
+    let rest = reach - gap * gap;
+    let extent = min(1.00001 * sqrt(max(rest, 0.0)) * (1.0 / width) + STRAY * columns, 4096.0);
+    let leftward = sideways && (stretch & 1u) == 1u;
+    let rightward = sideways && !leftward;
+    let most = select(FARTHEST_CELL, NEAR, !sideways && abs(across) < NEAR);
+    let least = max(i32(floor(place.x - extent)), home_column - most);
+    let greatest = min(i32(floor(place.x + extent)), home_column + most);
+    column = select(least, home_column + NEAR + 1, rightward);
+    last_column = select(greatest, home_column - NEAR - 1, leftward);
+    last_column = select(last_column, column - 1, rest <= 0.0);
+    let side = min(beside, 1.0 - beside) - STRAY * columns;
+    let near_margin = width * (f32(NEAR) + side);
+    finished = sideways && (near_margin * near_margin >= reach || stretch >= SIDEWAYS + 6u);
+    // What is farther than the farthest rows and columns has not been looked for.
+    let up_or_down = min(above, 1.0 - above) - STRAY * rows;
+    let margin = min(width * (f32(FARTHEST_CELL) + side), height * (f32(FARTHEST_CELL) + up_or_down));
+    doubtful = doubtful || (finished && reach > margin * margin);
+    let unfolded = home_row + across;
+    row = u32(unfolded + select(0, i32(CELLS_Y), unfolded < 0) - select(0, i32(CELLS_Y), unfolded >= i32(CELLS_Y)));
+    stretch += 1u;
+}
+
+// Goes on to the next slots that follow one another.
+fn next_stretch() {
+    if (column > last_column) { next_row(); }
+    let columns = i32(CELLS_X);
+    let exists = !finished && column <= last_column;
+    let box_end = select(select(2 * columns, columns, column < columns), 0, column < 0);
+    let stop = min(last_column + 1, box_end);
+    let folded = column + select(0, columns, column < 0) - select(0, columns, column >= columns);
+    let cell = select(0u, cell_index(row, u32(folded)), exists);
+    other = cell_at(cell);
+    end = select(other, cell_at(cell + select(0u, u32(stop - column), exists)), exists);
+    column = select(column, stop, exists);
+}

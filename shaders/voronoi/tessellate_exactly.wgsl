@@ -1,0 +1,325 @@
+// The grid cell to look into next, as the distance from the particle's: on a ring around it, row by row.
+var<private> ring: i32;
+var<private> across: i32;
+var<private> along: i32;
+// What is left of the grid cell that is looked into, and how many boxes away it is.
+var<private> candidate: u32;
+var<private> candidates_end: u32;
+var<private> boxes: vec2<i32>;
+var<private> search_finished: bool;
+
+// Square of the distance to which a search through so many rings of grid cells is complete. Beyond a whole box on an axis
+// there is nothing on it.
+fn searched(rings: i32) -> f32 {
+    let count = Vector(f32(CELLS_X), f32(CELLS_Y));
+    let column = Vector(f32(column_of(home)), f32(row_of(home)));
+    let within = Vector(home) * (1.0 / 4294967296.0) * count - column;
+    let narrower = (min(within, 1.0 - within) + f32(rings)) / count - STRAY;
+    let margin = max(narrower * 4294967296.0 * scale(), Vector(0.0));
+    let whole = Vector(f32(rings)) >= count;
+    let least = min(select(margin.x, EVERYWHERE, whole.x), select(margin.y, EVERYWHERE, whole.y));
+    return least * least;
+}
+
+// Columns to both sides in a row of the ring: all, or its two ends.
+fn width() -> i32 { return select(ring, min(ring, i32(CELLS_X)), abs(across) == ring); }
+
+fn next_cell() {
+    let count = vec2<i32>(i32(CELLS_X), i32(CELLS_Y));
+    let wide = width();
+    let unfolded = vec2<i32>(i32(column_of(home)) + along, i32(row_of(home)) + across);
+    boxes = select(vec2<i32>(0), vec2<i32>(1), unfolded >= count) - select(vec2<i32>(0), vec2<i32>(1), unfolded < vec2<i32>(0));
+    let place = vec2<u32>(unfolded - boxes * count);
+    // A row with ends beyond the whole box has none.
+    let exists = wide <= i32(CELLS_X);
+    let corner = Vector(unfolded) / Vector(f32(CELLS_X), f32(CELLS_Y)) - Vector(home) * (1.0 / 4294967296.0);
+    let opposite = corner + 1.0 / Vector(f32(CELLS_X), f32(CELLS_Y));
+    let gap = max(max(corner, -opposite) - STRAY, Vector(0.0)) * 4294967296.0 * scale();
+    let worth = exists && dot(gap, gap) < polygon_reach;
+    let cell = select(0u, cell_index(place.y, place.x), worth);
+    candidate = cell_at(cell);
+    candidates_end = select(candidate, cell_at(cell + 1u), worth);
+    along += select(max(2 * ring, 1), 1, abs(across) == ring);
+    if (along > wide || !exists) {
+        across += 1;
+        if (across > min(ring, i32(CELLS_Y))) {
+            ring += 1;
+            across = -min(ring, i32(CELLS_Y));
+        }
+        along = -width();
+    }
+}
+
+// Goes on to a grid cell with particles that is not too far away.
+fn next_particle() {
+    for (; candidate >= candidates_end;) {
+        // The next ring begins with its first row.
+        let begins = across == -min(ring, i32(CELLS_Y)) && along == -width();
+        search_finished = begins && ring > 0 && searched(ring - 1) >= polygon_reach;
+        if (search_finished) { break; }
+        next_cell();
+    }
+}
+
+// Looks through particles until the bisector of one may cut the polygon.
+fn look_around_exactly() {
+    loop {
+        next_particle();
+        if (search_finished) { break; }
+        if (candidate < candidates_end) {
+            let fraction = place_of(candidate);
+            let steps = signed(home - fraction);
+            let image = boxes + vec2<i32>(home < fraction) - vec2<i32>(steps < Steps(0));
+            let away = 4294967296.0 * Vector(image) - Vector(steps);
+            let d = away * scale();
+            let squared = dot(d, d);
+            let near = squared < polygon_reach && squared > 0.0 && all(abs(image) <= vec2<i32>(1));
+            let word = face_word(candidate, image);
+            candidate += 1u;
+            if (near) {
+                if (may_cut(Site(word, steps, away), squared)) { break; }
+            }
+        }
+    }
+}
+
+fn make_cell(slot: u32) {
+    home = place_of(slot);
+    ring = 0;
+    across = 0;
+    along = 0;
+    candidate = 0u;
+    candidates_end = 0u;
+    search_finished = false;
+    begin_at(slot);
+    begin_exact_polygon(slot);
+    loop {
+        loop {
+            if (!in_doubt && known_place == NOT_KNOWN) {
+                look_around_exactly();
+                if (search_finished) { break; }
+                begin_search();
+            }
+            search();
+            if (in_doubt) { break; }
+            cut_exactly();
+        }
+        if (search_finished) { break; }
+        decide();
+    }
+    store_exact_faces(slot);
+    raise(select(0u, FAILURE_FRAMES, overflown));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn tessellate_exactly(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let count = atomicLoad(&places.doubtful);
+    // The dispatch may be folded, and then has a few workgroups too many.
+    if (group < GROUPS) {
+        for (var entry = group * WORKGROUP + lane; entry < count; entry += GROUPS * WORKGROUP) {
+            make_cell(places.elements[PARTICLES + entry].x);
+        }
+    }
+    report_turns(workgroup.x >> 16u);
+}
+
+fn store_exact_faces(slot: u32) {
+    var volume = 0.0;
+    var begin = corner_at(polygon_sides - 1u);
+    for (var i = 0u; i < polygon_sides; i++) {
+        let word = side_word(i);
+        let corner = corner_at(i);
+        let there = site_of(word).away * scale();
+        let distance = length(there);
+        let normal = there / distance;
+        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
+        let element = i * PARTICLES + slot;
+        face_words[element] = word;
+        face_lengths[element] = face_length * SPACING;
+        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
+        volume += 0.25 * face_length * distance;
+        begin = corner;
+    }
+    face_counts[slot] = polygon_sides;
+    volumes[slot] = volume * SPACING * SPACING;
+}
+
+// A convex polygon around a particle that is cut along bisectors. Side i, counter-clockwise, ends at corner i, where side
+// i + 1 begins. With every corner goes its blur: the radius of the circle around it within which the true one certainly is.
+var<private> polygon_sides: u32;
+// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
+// brought up to date as corners are looked at.
+var<private> polygon_reach: f32;
+var<private> overflown: bool;
+
+fn after(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == polygon_sides); }
+fn before(index: u32) -> u32 { return select(index, polygon_sides, index == 0u) - 1u; }
+
+// The rectangle between a particle and its own images.
+fn begin_exact_polygon(slot: u32) {
+    let half = 2147483648.0 * scale();
+    let blur = 100.0 * ROUNDING * length(half);
+    polygon_sides = 4u;
+    set_side(0u, face_word(slot, vec2<i32>(1, 0)), vec3<f32>(half.x, half.y, blur));
+    set_side(1u, face_word(slot, vec2<i32>(0, 1)), vec3<f32>(-half.x, half.y, blur));
+    set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half.x, -half.y, blur));
+    set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half.x, -half.y, blur));
+    overflown = false;
+    in_doubt = false;
+    known_place = NOT_KNOWN;
+    polygon_reach = EVERYWHERE * EVERYWHERE;
+}
+
+// The bisector that is looked at: its site, the unit vector towards it, and half the way.
+var<private> bisected_site: Site;
+var<private> direction: Vector;
+var<private> half: f32;
+
+fn height(index: u32) -> f32 { return dot(corner_at(index), direction) - half; }
+
+// Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
+const FEW: u32 = 12u;
+
+// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date, and finds the corner
+// that is surest beyond, if there are few.
+fn may_cut(there: Site, squared: f32) -> bool {
+    bisected_site = there;
+    let inverse = inverseSqrt(squared);
+    direction = there.away * scale() * inverse;
+    half = 0.5 * squared * inverse;
+    var highest = -4.0 * UNKNOWN;
+    var surest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
+    corner = 0u;
+    for (var i = 0u; i < FEW; i++) {
+        let exists = i < polygon_sides;
+        let blur = blur_at(i);
+        let over = dot(corner_at(i), direction);
+        let sure = select(-4.0 * UNKNOWN, over - blur, exists);
+        corner = select(corner, i, sure > surest);
+        surest = max(surest, sure);
+        highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
+        farthest = max(farthest, select(0.0, dot(corner_at(i), corner_at(i)), exists));
+        widest = max(widest, select(0.0, blur, exists));
+    }
+    let far = sqrt(farthest) + widest;
+    let all = polygon_sides <= FEW;
+    polygon_reach = select(polygon_reach, 4.00001 * far * far, all);
+    return !all || highest > half;
+}
+
+// A search along the corners for those to cut: first for one beyond the bisector, from the surest on, then to both sides of
+// it for more, among them those on it, so that no side without length is left.
+const SEARCHING: u32 = 0u;
+const FORWARD: u32 = 1u;
+const BACKWARD: u32 = 2u;
+const FOUND: u32 = 3u;
+var<private> phase: u32;
+var<private> corner: u32;
+var<private> tried: u32;
+var<private> first: u32;
+var<private> last: u32;
+var<private> gone: u32;
+// Single precision cannot tell where the corner is; where it is, once that is known.
+var<private> in_doubt: bool;
+var<private> known_place: i32;
+const NOT_KNOWN: i32 = 2;
+
+// Of many corners it looks at all first, which `may_cut` has not done.
+fn begin_search() {
+    let many = polygon_sides > FEW;
+    var surest = -4.0 * UNKNOWN;
+    var highest = -4.0 * UNKNOWN;
+    var farthest = 0.0;
+    var widest = 0.0;
+    for (var i = 0u; many && i < polygon_sides; i++) {
+        let place = corner_at(i);
+        let blur = blur_at(i);
+        let over = dot(place, direction) - half;
+        corner = select(corner, i, over - blur > surest);
+        surest = max(surest, over - blur);
+        highest = max(highest, over + blur);
+        farthest = max(farthest, dot(place, place));
+        widest = max(widest, blur);
+    }
+    let far = sqrt(farthest) + widest;
+    polygon_reach = select(polygon_reach, 4.00001 * far * far, many);
+    phase = select(SEARCHING, FOUND, many && highest <= 0.0);
+    tried = 0u;
+    gone = 0u;
+    known_place = NOT_KNOWN;
+}
+
+// Goes on until corners are found or there are none, or one is in doubt.
+fn search() {
+    loop {
+        if (phase == FOUND) { break; }
+        let over = height(corner);
+        var place = i32(sign(over));
+        if (abs(over) <= blur_at(corner)) {
+            in_doubt = known_place == NOT_KNOWN;
+            if (in_doubt) { break; }
+            place = known_place;
+            known_place = NOT_KNOWN;
+        }
+        if (phase == SEARCHING) {
+            tried += 1u;
+            if (place > 0) {
+                first = corner;
+                last = corner;
+                gone = 1u;
+                phase = FORWARD;
+            } else if (tried == polygon_sides) {
+                phase = FOUND;
+            }
+            corner = after(corner);
+        } else if (place >= 0) {
+            gone += 1u;
+            first = select(first, corner, phase == BACKWARD);
+            last = select(last, corner, phase == FORWARD);
+            corner = select(after(corner), before(corner), phase == BACKWARD);
+            // Never in exact arithmetic: the particle is not beyond.
+            if (gone == polygon_sides) { phase = FOUND; }
+        } else {
+            phase += 1u;
+            corner = before(first);
+        }
+    }
+}
+
+// Settles a doubt.
+fn decide() {
+    known_place = in_circle(site_of(side_word(corner)), site_of(side_word(after(corner))), bisected_site);
+    in_doubt = false;
+}
+
+// Cuts the corners that were found off the polygon.
+fn cut_exactly() {
+    if (gone == 0u || gone == polygon_sides) { return; }
+    if (polygon_sides + 2u - gone > CORNERS) {
+        overflown = true;
+        return;
+    }
+    let entry = meeting(site_of(side_word(first)), bisected_site);
+    let leaving = meeting(bisected_site, site_of(side_word(after(last))));
+    let first_word = side_word(first);
+    // What follows the cut moves up or down to leave room for two corners.
+    let wrapped = last < first;
+    let up = !wrapped && gone == 1u;
+    let shift = select(2 - i32(gone), -i32(last) - 1, wrapped);
+    let moved = select(select(polygon_sides - last - 1u, 0u, gone == 2u), first - last, wrapped);
+    var origin = select(i32(last) + 1, i32(polygon_sides) - 1, up);
+    let way = select(1, -1, up);
+    for (var i = 0u; i < moved; i++) {
+        let place = u32(origin + shift);
+        let from_there = u32(origin);
+        set_side(place, side_word(from_there), vec3<f32>(corner_at(from_there), blur_at(from_there)));
+        origin += way;
+    }
+    if (wrapped) { first = first - last - 1u; }
+    polygon_sides = polygon_sides + 2u - gone;
+    set_side(first, first_word, entry);
+    set_side(first + 1u, bisected_site.word, leaving);
+}

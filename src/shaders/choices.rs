@@ -1,0 +1,117 @@
+//! Variants chosen for a kernel.
+
+use super::generated::{FILES, arrays};
+
+/// A variant of a slot: its number among all files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Choice(pub(super) u16);
+
+impl Choice {
+    /// Path below `shaders`, without the extension.
+    ///
+    /// ```
+    /// use mesoscope::shaders::{Choice, pairs::Friction};
+    ///
+    /// assert_eq!(Choice::from(Friction::Velocity).path(), "pairs/friction/velocity");
+    /// assert_eq!(Choice::from(Friction::Velocity).slot(), "pairs/friction");
+    /// ```
+    #[must_use]
+    pub fn path(self) -> &'static str {
+        FILES[usize::from(self.0)].0
+    }
+
+    /// The slot, `domain/slot`.
+    #[must_use]
+    pub fn slot(self) -> &'static str {
+        self.path().rsplit_once('/').map_or("", |(slot, _)| slot)
+    }
+}
+
+/// At most one variant of every slot.
+///
+/// ```
+/// use mesoscope::shaders::{Choices, pairs::Friction};
+///
+/// let choices = Choices::new().with(Friction::Velocity).with(Friction::DiscreteGradient);
+/// assert_eq!(choices.paths().collect::<Vec<_>>(), ["pairs/friction/discrete_gradient"]);
+/// assert!(choices.has(Friction::DiscreteGradient) && !choices.has(Friction::Velocity));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub struct Choices(Vec<Choice>);
+
+impl Choices {
+    /// None.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Chooses a variant, in place of one that was chosen for its slot.
+    pub fn choose(&mut self, variant: impl Into<Choice>) {
+        let choice = variant.into();
+        self.0.retain(|known| known.slot() != choice.slot());
+        let place = self.0.partition_point(|known| *known < choice);
+        self.0.insert(place, choice);
+    }
+
+    /// These and a variant.
+    #[must_use]
+    pub fn with(mut self, variant: impl Into<Choice>) -> Self {
+        self.choose(variant);
+        self
+    }
+
+    /// These and a variant, under a condition.
+    #[must_use]
+    pub fn with_if(self, condition: bool, variant: impl Into<Choice>) -> Self {
+        if condition { self.with(variant) } else { self }
+    }
+
+    /// These and a variant, if there is one.
+    #[must_use]
+    pub fn with_any(self, variant: Option<impl Into<Choice>>) -> Self {
+        match variant {
+            Some(variant) => self.with(variant),
+            None => self,
+        }
+    }
+
+    /// These and others, which replace those of the same slots.
+    #[must_use]
+    pub fn and(mut self, others: &Self) -> Self {
+        others.0.iter().for_each(|choice| self.choose(*choice));
+        self
+    }
+
+    /// Whether a variant is chosen.
+    #[must_use]
+    pub fn has(&self, variant: impl Into<Choice>) -> bool {
+        self.0.contains(&variant.into())
+    }
+
+    /// Paths of the variants.
+    pub fn paths(&self) -> impl Iterator<Item = &'static str> + '_ {
+        self.0.iter().map(|choice| choice.path())
+    }
+
+    /// These, with buffers for all arrays of which nothing is said.
+    pub(super) fn with_arrays_in_buffers(&self) -> Self {
+        arrays_in_buffers().and(self)
+    }
+}
+
+fn arrays_in_buffers() -> Choices {
+    Choices::new()
+        .with(arrays::Cells::Buffer)
+        .with(arrays::Coefficients::Buffer)
+        .with(arrays::Memories::Buffer)
+        .with(arrays::MemoriesNext::Buffer)
+        .with(arrays::Neighbours::Buffer)
+        .with(arrays::NeighboursNext::Buffer)
+        .with(arrays::Order::Buffer)
+        .with(arrays::Particles::Buffer)
+        .with(arrays::Ranks::Buffer)
+        .with(arrays::Sorted::Buffer)
+        .with(arrays::Waves::Buffer)
+        .with(arrays::WavesNext::Buffer)
+}

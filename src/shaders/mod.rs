@@ -1,0 +1,53 @@
+//! The library of shaders: pages and variants below `shaders`, and the linker that makes a kernel of them.
+//!
+//! The path of a file says what it is. A page, `domain/topic.wgsl`, holds one topic whole, kernels beside their functions. A variant,
+//! `domain/slot/variant.wgsl`, is one of several that provide the same functions. A kernel is an [`Entry`] and the variants chosen
+//! for it, by enumerations made from the folders.
+//!
+//! ```
+//! use mesoscope::shaders::{Choices, Entry, linked_text, mesh};
+//!
+//! let choices = Choices::new().with(mesh::Spline::Linear).with(mesh::Particles::InPlace);
+//! let linked = linked_text(Entry::BinWater, &choices)?;
+//! assert!(linked.text.contains("fn bin_water"));
+//! assert!(linked.parts.iter().any(|part| part.path == "mesh/spline/linear"));
+//!
+//! // Without a spline nobody knows the cell of a particle.
+//! let error = linked_text(Entry::BinWater, &Choices::new()).unwrap_err();
+//! assert!(error.reason.contains("mesh/spline/cubic"), "{}", error.reason);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod choices;
+mod linker;
+mod words;
+
+use std::sync::OnceLock;
+
+pub use choices::{Choice, Choices};
+pub use generated::*;
+pub use linker::{Declaration, File, Kind, Library, LinkedText, Part, Unlinked};
+
+/// What `build.rs` has found.
+mod generated {
+    use super::Choice;
+
+    include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+}
+
+/// All pages and variants.
+///
+/// # Errors
+/// [`Unlinked`] where a file holds something that is no declaration.
+pub fn library() -> Result<&'static Library, Unlinked> {
+    static LIBRARY: OnceLock<Result<Library, Unlinked>> = OnceLock::new();
+    LIBRARY.get_or_init(|| Library::new(&generated::FILES)).as_ref().map_err(Clone::clone)
+}
+
+/// The text of a kernel. An array lies in a buffer unless a choice says otherwise.
+///
+/// # Errors
+/// [`Unlinked`] if a name cannot be resolved with these choices.
+pub fn linked_text(entry: Entry, choices: &Choices) -> Result<LinkedText, Unlinked> {
+    library()?.link(entry.name(), &choices.with_arrays_in_buffers().paths().collect::<Vec<_>>())
+}
