@@ -8,13 +8,125 @@ use std::{env, fs, io};
 /// Folders whose files are whole shaders by themselves.
 const WHOLE: [&str; 2] = ["plot", "check"];
 
+/// An array that kernels come to by functions, so that it lies in a buffer or in a texture.
+struct Array {
+    name: &'static str,
+    purpose: &'static str,
+    element: Element,
+    /// The function that loads an element, and the one that stores one, if kernels do that.
+    load: Option<&'static str>,
+    store: Option<&'static str>,
+}
+
+/// What an array holds.
+#[derive(Clone, Copy)]
+enum Element {
+    Word,
+    Words,
+    Complex,
+    /// Four real numbers that kernels only read.
+    Entry,
+}
+
+const fn array(
+    name: &'static str,
+    purpose: &'static str,
+    element: Element,
+    load: Option<&'static str>,
+    store: Option<&'static str>,
+) -> Array {
+    Array { name, purpose, element, load, store }
+}
+
+const ARRAYS: [Array; 10] = [
+    array("cells", "Where each cell begins", Element::Word, Some("cell_at"), Some("put_cell")),
+    array("coefficients", "The table of pairs of species", Element::Entry, Some("coefficient_entry"), None),
+    array(
+        "memories",
+        "What the bath of every listed pair remembers",
+        Element::Words,
+        Some("pair_memory"),
+        Some("put_pair_memory"),
+    ),
+    array(
+        "memories_next",
+        "The same for the list that is being made",
+        Element::Words,
+        Some("next_pair_memory"),
+        Some("put_next_pair_memory"),
+    ),
+    array(
+        "neighbours",
+        "The number of a particle's pairs, then its pairs, one row of particles after the other",
+        Element::Word,
+        Some("neighbour_word"),
+        Some("put_neighbour_word"),
+    ),
+    array(
+        "neighbours_next",
+        "The same of the list that is being made",
+        Element::Word,
+        Some("next_neighbour_word"),
+        Some("put_next_neighbour_word"),
+    ),
+    array(
+        "order",
+        "Where the particles lie in the order of their cells",
+        Element::Word,
+        Some("in_order"),
+        Some("set_order"),
+    ),
+    array("ranks", "Place of each particle in its cell", Element::Word, Some("rank_of"), Some("put_rank")),
+    array("waves", "The depth in Fourier space", Element::Complex, Some("wave"), None),
+    array("waves_next", "The same after this pass", Element::Complex, None, Some("put_wave")),
+];
+
+impl Array {
+    /// The variants for a buffer and for a texture.
+    fn variants(&self) -> [(String, String); 2] {
+        let (name, purpose) = (self.name, self.purpose);
+        let (of, format, load, store, access) = match self.element {
+            Element::Word => ("u32", "r32uint", "LOADED.x", "vec4<u32>(value)", "read_write"),
+            Element::Words => ("vec2<u32>", "rg32uint", "LOADED.xy", "vec4<u32>(value, 0u, 0u)", "read_write"),
+            Element::Complex => (
+                "vec2<f32>",
+                "rg32uint",
+                "bitcast<vec2<f32>>(LOADED.xy)",
+                "vec4<u32>(bitcast<vec2<u32>>(value), 0u, 0u)",
+                "read_write",
+            ),
+            Element::Entry => ("vec4<f32>", "rgba32uint", "bitcast<vec4<f32>>(LOADED)", "", "read"),
+        };
+        let load = load.replace("LOADED", &format!("textureLoad({name}, texel(index))"));
+        let mut buffer = format!("// {purpose}, in a buffer.\nvar<storage, {access}> {name}: array<{of}>;\n\n");
+        let mut texture =
+            format!("// {purpose}, in a texture.\nvar {name}: texture_storage_2d<{format}, read_write>;\n\n");
+        if let Some(function) = self.load {
+            let _ = writeln!(buffer, "fn {function}(index: u32) -> {of} {{ return {name}[index]; }}");
+            let _ = writeln!(texture, "fn {function}(index: u32) -> {of} {{ return {load}; }}");
+        }
+        if let Some(function) = self.store {
+            let _ = writeln!(buffer, "fn {function}(index: u32, value: {of}) {{ {name}[index] = value; }}");
+            let _ = writeln!(
+                texture,
+                "fn {function}(index: u32, value: {of}) {{ textureStore({name}, texel(index), {store}); }}"
+            );
+        }
+        [(format!("arrays/{name}/buffer"), buffer), (format!("arrays/{name}/texture"), texture)]
+    }
+}
+
 fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=shaders");
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join("shaders");
-    let mut files = Vec::new();
-    find(&root, &root, &mut files)?;
-    files.sort();
-    let code = generate(&root, &files)?;
+    let mut paths = Vec::new();
+    find(&root, &root, &mut paths)?;
+    let mut files: BTreeMap<String, String> = ARRAYS.iter().flat_map(Array::variants).collect();
+    for path in paths {
+        let text = fs::read_to_string(root.join(format!("{path}.wgsl")))?;
+        files.insert(path, text);
+    }
+    let code = generate(&files);
     fs::write(PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs"), code)
 }
 
@@ -34,20 +146,18 @@ fn find(root: &Path, folder: &Path, files: &mut Vec<String>) -> io::Result<()> {
     Ok(())
 }
 
-fn generate(root: &Path, files: &[String]) -> io::Result<String> {
+fn generate(files: &BTreeMap<String, String>) -> String {
     let mut code = String::new();
     let mut entries: BTreeMap<String, String> = BTreeMap::new();
     let mut slots: BTreeMap<&str, BTreeMap<&str, Vec<(&str, usize, String)>>> = BTreeMap::new();
     let _ = writeln!(code, "pub(super) static FILES: [(&str, &str); {}] = [", files.len());
-    for (number, file) in files.iter().enumerate() {
-        let path = root.join(format!("{file}.wgsl"));
-        let text = fs::read_to_string(&path)?;
-        let _ = writeln!(code, "    ({file:?}, include_str!({:?})),", path.display().to_string());
-        for (name, comment) in kernels(&text) {
+    for (number, (file, text)) in files.iter().enumerate() {
+        let _ = writeln!(code, "    ({file:?}, {text:?}),");
+        for (name, comment) in kernels(text) {
             entries.insert(name, comment);
         }
         if let [domain, slot, variant] = file.split('/').collect::<Vec<_>>()[..] {
-            slots.entry(domain).or_default().entry(slot).or_default().push((variant, number, first_sentence(&text)));
+            slots.entry(domain).or_default().entry(slot).or_default().push((variant, number, first_sentence(text)));
         }
     }
     code.push_str("];\n\n");
@@ -59,7 +169,7 @@ fn generate(root: &Path, files: &[String]) -> io::Result<String> {
         }
         code.push_str("}\n\n");
     }
-    Ok(code)
+    code
 }
 
 fn enumerate_kernels(code: &mut String, entries: &BTreeMap<String, String>) {

@@ -1,3 +1,4 @@
+// The total momentum, as exact integers. Reads the particles in the order of their ids.
 @compute @workgroup_size(WORKGROUP)
 fn sum_momenta(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -9,6 +10,7 @@ fn sum_momenta(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     }
 }
 
+// Adds up the workgroups' sums of momenta and divides by the total mass: the velocity of the centre of mass.
 override INVERSE_TOTAL_MASS: f32;
 
 @compute @workgroup_size(WORKGROUP)

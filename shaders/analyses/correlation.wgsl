@@ -1,3 +1,4 @@
+// The products of each particle's vector with what it was when the window began.
 override PRODUCT: f32; // a product of two sampled vectors over its quantum
 var<storage, read_write> origins: array<vec4<f32>>;
 

@@ -1,3 +1,5 @@
+// How far each particle has come, and how much of its velocity it has kept, since the window began. Reads the particles
+// in the order of their ids.
 override DISPLACEMENT: f32;  // squared length over its quantum
 override VELOCITY: f32;      // square of momentum per mass over its quantum
 

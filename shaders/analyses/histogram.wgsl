@@ -1,3 +1,5 @@
+// Counts a value of each particle into bins of equal width, and sums its powers. Values outside the bins have entries of
+// their own; particles so far outside that their powers would leave the range of integers are counted apart.
 override COUNTS: u32;       // the bins; then below, above, and, of particles, far beyond
 override HALF_BINS: f32;    // half bins per unit of what is sampled
 override HALF_BELOW: i32;   // half bins below zero

@@ -1,3 +1,4 @@
+// Distances of all pairs up to a range, counted into bins: one invocation a particle, each pair seen from its smaller id.
 override PARTS: u32;    // workgroups that share the rows around each of its particles
 override HISTOGRAM_RANGE: f32;
 var<storage, read_write> histogram: array<u32>; // low and high word of each bin

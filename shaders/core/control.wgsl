@@ -79,6 +79,7 @@ fn begin_plain_step() { begin_step(); }
 // kernels of the list or leaves them without workgroups.
 override CONDITIONAL: u32; // kernels that depend on it
 
+// Workgroups of each such kernel, x, y, z: first as they are, then as they are to be in this step.
 @compute @workgroup_size(64)
 fn begin_listed_step(@builtin(local_invocation_index) lane: u32) {
     let demanded = atomicLoad(&control.demand) != 0u;

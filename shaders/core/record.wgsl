@@ -1,3 +1,4 @@
+// Adds up the workgroups' sums and appends one row, headed by the step, to the samples of a batch.
 @compute @workgroup_size(WORKGROUP)
 fn record_sample(@builtin(local_invocation_index) lane: u32) {
     let row = 1u + samples[0].x * (QUANTITIES + 1u);
@@ -22,6 +23,7 @@ fn record_sample(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
+// Appends the histogram as one row, headed by the step, to the samples of a batch, and clears it.
 var<storage, read_write> histogram: array<vec2<u32>>;
 
 @compute @workgroup_size(WORKGROUP)

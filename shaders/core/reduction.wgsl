@@ -1,3 +1,4 @@
+// Sums over a workgroup, one row of QUANTITIES sums a workgroup.
 var<workgroup> lane_sums: array<vec2<u32>, WORKGROUP>;
 
 fn reduce_quantity(group: u32, lane: u32, quantity: u32, value: Sum64) {

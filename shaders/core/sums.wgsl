@@ -21,6 +21,9 @@ fn sum64_of_signed(value: f32) -> Sum64 {
     return sum64_add(~magnitude, Sum64(1u, 0u));
 }
 
+// What a kernel of a report adds up, each in integers of a unit that the plan states: kinetic energy, virial of all forces,
+// three components of momentum, potential energy, virial of the conservative forces, squared force, curvature; energy,
+// square and number of baths with memory.
 override FIRST_GROUP: u32; // rows of partial sums that belong to the kernels before this one
 var<private> totals: array<vec2<u32>, 12>;
 

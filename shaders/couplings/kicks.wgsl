@@ -1,3 +1,4 @@
+// The squares of the conservative forces, once all couplings have added theirs.
 var<storage, read_write> forces: array<vec4<i32>>;
 
 @compute @workgroup_size(WORKGROUP)

@@ -1,3 +1,5 @@
+// Lists the neighbours of every particle within the cutoff and a margin. Every pair is listed once, by its owner, which
+// its numbers tell: the smaller of an odd sum, the larger of an even one, so that all own about as many.
 override LIST_CAPACITY: u32;  // pairs that a particle may own
 override SQUARED_RANGE: f32;  // of cutoff and margin
 
@@ -34,6 +36,8 @@ fn list_neighbours(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     report_turns(workgroup.x >> 16u);
 }
 
+// Carries what the baths of listed pairs remember from one list to the next. Pairs that meet anew remember what the law at
+// rest gives them.
 override START_STREAM_X: u32; // key of the stream over all steps
 override START_STREAM_Y: u32;
 
@@ -68,6 +72,7 @@ fn carry_memories(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
 }
 
 
+// Makes the new order of the particles the one that counts.
 @compute @workgroup_size(WORKGROUP)
 fn settle_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -76,6 +81,7 @@ fn settle_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
 }
 
 
+// Makes the new list the one that counts.
 @compute @workgroup_size(WORKGROUP)
 fn settle_list(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -90,6 +96,7 @@ fn settle_list(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
 }
 
 
+// After an upload: where the particles are, and whether their neighbours have to be listed.
 @compute @workgroup_size(WORKGROUP)
 fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;

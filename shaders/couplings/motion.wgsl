@@ -1,3 +1,7 @@
+// The report of every particle's motion, once all couplings have left their half kicks, and the particle by its number with
+// its momentum at the full step.
+// The end of a step for every particle: closing and opening half kicks by all couplings, then the drift, Cotter and Reich
+// (14)-(17), doi:10.1209/epl/i2003-00621-8.
 var<storage, read_write> kicks: array<vec4<i32>>;
 
 @compute @workgroup_size(WORKGROUP)

@@ -1,3 +1,5 @@
+// Visits every listed pair, from its owner: first finds those in contact, then computes their impulses and hands them to
+// both ends.
 @compute @workgroup_size(WORKGROUP)
 fn visit_listed_pairs(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -50,6 +52,7 @@ fn spared(neighbour: u32) -> bool { return false; }
 fn note_pair(slot: u32, other_slot: u32, repulsion: f32, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
+// The bath of pairs has no temperature.
 fn bath_noise(id: u32, other: u32) -> f32 { return 0.0; }
 
 // The step goes on: what the bath of a pair has become is kept.

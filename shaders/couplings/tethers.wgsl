@@ -1,3 +1,4 @@
+// A spring from every particle to where it started.
 override TETHER: f32; // impulse of half a step per length
 var<storage, read_write> tethers: array<vec4<u32>>; // by number
 

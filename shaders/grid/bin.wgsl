@@ -1,3 +1,4 @@
+// Counts freshly uploaded particles into cells; every later step counts as it advances.
 @compute @workgroup_size(WORKGROUP)
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -6,6 +7,8 @@ fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
 
+// Puts every particle into its cell, notes what others ask for about its place, and clears the counts for the next time.
+// Puts every particle into its cell, and its copy into the frame of the row, and clears the counts for the next step.
 override CELLS: u32;
 
 @compute @workgroup_size(WORKGROUP)

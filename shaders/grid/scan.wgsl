@@ -69,6 +69,8 @@ fn scan_cells(@builtin(local_invocation_index) lane: u32) {
     scan_all_rows(lane);
 }
 
+// Last of three levels of the prefix sum over cells: where each cell of each row begins.
+// Second of three levels of the prefix sum over cells: the blocks, in one workgroup. Begins the step.
 // First of three levels of the prefix sum over cells: 256 rows a workgroup.
 var<storage, read_write> row_sums: array<vec2<u32>>; // one a row, then one a block of 256 rows
 

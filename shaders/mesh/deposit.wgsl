@@ -9,6 +9,7 @@ fn add_particle(moments: ptr<function, Moments>, particle: Water) {
     add_moments(moments, x, f32(particle.mass) * powers(y));
 }
 
+// The mass of each node, from the cells whose splines reach it.
 var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
 @compute @workgroup_size(WORKGROUP)

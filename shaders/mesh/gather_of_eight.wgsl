@@ -1,3 +1,5 @@
+// The mass of four nodes above each other, from what strips of cells bring to them: the one they lie in, those below and above,
+// and the ones beside these.
 var<storage, read_write> contributions: array<Four>; // [strip][column][which rows], then [strip][eight][column beside it][which rows]
 var<private> gathered_shares: vec4<i32>;
 var<private> least: vec4<i32>;

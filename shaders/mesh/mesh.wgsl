@@ -1,3 +1,4 @@
+// The periodic mesh of shallow water. A cell belongs to its lower node, or, for splines of even order, is centred on it.
 // Where there is no mass, rounding alone leaves no less than this.
 const LEAST_MASS: i32 = -65536;
 

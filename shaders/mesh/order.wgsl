@@ -1,3 +1,4 @@
+// Counts freshly uploaded particles in the cells of the mesh; every later step keeps count as it advances.
 @compute @workgroup_size(WORKGROUP)
 fn bin_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -5,6 +6,10 @@ fn bin_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     atomicAdd(&counts[cell_of(stored_water_position(index))], 1u);
 }
 
+// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers. The
+// lanes of a subgroup of eight with the same cell, which most have, take their numbers with one addition: software adapters add
+// lane by lane.
+// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers.
 var<storage, read_write> cells: array<u32>; // where each cell begins, then where it ends
 
 @compute @workgroup_size(WORKGROUP)
@@ -42,6 +47,7 @@ fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(lo
 }
 
 
+// Copies the particles in the order of cells.
 @compute @workgroup_size(WORKGROUP)
 fn tidy_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -50,6 +56,7 @@ fn tidy_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
 }
 
 
+// Takes the particles as they were copied in the order of cells.
 @compute @workgroup_size(WORKGROUP)
 fn keep_tidied_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,3 +1,4 @@
+// Follows particles of shallow water that lie in one array on their ways round the box.
 @compute @workgroup_size(WORKGROUP)
 fn follow_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,3 +1,4 @@
+// Brings the particles of a cell to the report point, and sums what is observed of them and of the cell's node.
 override POTENTIAL: f32;      // energy per unit of mass and depth, over its quantum
 override MOMENTUM: f32;       // product of mass and velocity, over its quantum
 

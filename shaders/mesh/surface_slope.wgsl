@@ -22,6 +22,7 @@ fn check_motion(velocity: vec2<i32>) {
 // There is no rotation in this scene.
 fn turned_by_rotation(velocity: vec2<i32>) -> vec2<i32> { return velocity; }
 
+// The smoothed depth drives the particles.
 fn surface_at(node: u32) -> f32 { return depths[node]; }
 // The depth on the node of a cell, given the surface on the nodes under its splines.
 fn depth_in_cell(cell: u32, nodes: Square) -> f32 { return nodes[NODES_BEFORE][NODES_BEFORE]; }

@@ -1,3 +1,5 @@
+// Appends a row with the positions and velocities of all tracers by id, headed by the step, to the samples of a batch.
+// Brings tracers to the report point.
 // Moves tracers by one step, as the water around them.
 override TRACERS: u32;
 var<storage, read_write> tracers: array<Water>;

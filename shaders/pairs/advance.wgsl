@@ -1,3 +1,4 @@
+// The end of a step for one particle: drift, and count it into its next cell.
 const STRAIN_LIMIT: f32 = 1073741824.0;
 var<private> failures_of_particles: u32; // raised once, when all particles of an invocation are done
 
@@ -19,6 +20,7 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
 
+// The second half of a drift that a report has interrupted.
 var<storage, read_write> particles: array<Particle>;
 
 @compute @workgroup_size(WORKGROUP)

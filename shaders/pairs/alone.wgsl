@@ -1,3 +1,4 @@
+// Visits every particle and no pair: for scenes without a pair force.
 @compute @workgroup_size(WORKGROUP)
 fn visit_alone(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

@@ -1,3 +1,5 @@
+// Visits every pair from both ends, eight particles of a row at a time: the lanes of a subgroup of eight share the
+// loading of candidates and hand them round by shuffles. For adapters whose subgroups have eight lanes.
 @compute @workgroup_size(8)
 fn visit_clusters(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_invocation_id) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -135,6 +137,7 @@ fn cluster_stretches(row: u32, lane: u32, column: u32) -> Stretches {
     return stretches_of(own, cell_at(own_start + to_cell) - own, begin, length);
 }
 
+// The hits of eight particles among their common candidates, by the prefilter: each lane loads one candidate of eight.
 var<private> hits_next: Probe; // the candidate of this lane among the next eight, loaded while others are looked at
 
 fn prepare_cluster_hits(row: u32, me: Particle, lane: u32, s: Stretches) {

@@ -1,3 +1,4 @@
+// What is summed over all particles at a report, each in integers of a unit that the plan states.
 const PAIR_QUANTITIES: u32 = 9u;
 var<private> pair_totals: array<vec2<u32>, PAIR_QUANTITIES>;
 

@@ -1,3 +1,5 @@
+// Visits every pair from both ends, one invocation a particle: each stretch of candidates is turned into masks of hits,
+// and the hits are visited in a second loop that has little else to do. For any subgroup size.
 @compute @workgroup_size(WORKGROUP)
 fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -61,6 +63,7 @@ fn visit_particle_of_row(row: u32, index: u32) {
 }
 
 
+// The hits of a particle among a stretch of candidates, by the prefilter.
 fn prepare_row_hits(row: u32, me: Particle) {
     hits_middle = row_middle(row);
     hits_probe = probe_of(fraction_of(me.position), hits_middle);

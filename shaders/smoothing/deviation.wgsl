@@ -1,3 +1,4 @@
+// The depth of a node is its mass; what is smoothed is its deviation from the mean.
 // The difference of integers is exact, and keeps all digits of a small deviation.
 fn deviation(node: u32) -> f32 { return f32(i32(node_masses[node] - MEAN_MASS)) * MASS_UNIT; }
 

@@ -21,6 +21,7 @@ fn follow(id: u32, position: vec4<u32>) {
 }
 
 
+// Follows the particles, in the order in which they are stored, on their ways round the box.
 @compute @workgroup_size(WORKGROUP)
 fn follow_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,3 +1,4 @@
+// A Voronoi cell as particles store it: position.z is its mass and momentum.z its total energy, both in integer units.
 override MOMENTUM_UNIT: f32;
 
 fn mass_of(cell: Particle) -> f32 { return f32(cell.position.z) * MASS_UNIT; }
@@ -16,6 +17,8 @@ fn drifted(cell: Particle, velocity: Vector) -> vec4<u32> {
 }
 
 
+// Half a drift of every cell, which is then counted into the grid: A in a split step is one half before its exchanges and
+// one after them.
 @compute @workgroup_size(WORKGROUP)
 fn drift_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -56,6 +59,8 @@ fn order_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     for (var first = index == 0u; first; first = false) { atomicStore(&places.doubtful, 0u); }
 }
 
+// Where the particles are, in their order and without what else they carry; after them the slots of the cells that
+// `tessellate` leaves to `tessellate_exactly`, in any order.
 struct Places {
     doubtful: atomic<u32>,     // number of such cells
     unused: u32,

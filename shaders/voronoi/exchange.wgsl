@@ -1,3 +1,5 @@
+// What crosses the faces: the owner of each computes it once, rounds it to integers, and hands it to both cells with
+// opposite signs. So momentum, mass and energy are constant to the last bit.
 override IMPULSE_STEPS: f32; // units of momentum in one
 override MASS_STEPS: f32;    // units of mass in one
 override ENERGY_STEPS: f32;  // units of energy in one

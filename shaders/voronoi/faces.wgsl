@@ -53,6 +53,8 @@ fn facet_of(face: u32, word: u32, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
 }
 
 
+// Two independent standard Gaussian numbers of a face, the same from either cell. `part`
+// tells the draws of a face from each other, and the image the faces of a pair.
 fn face_noise(mine: u32, theirs: u32, image: u32, part: u32) -> vec2<f32> {
     let counters = vec2<u32>(min(mine, theirs) | (image << 28u), max(mine, theirs) | (part << 28u));
     return two_gaussians_of(pair_words(noise_key, counters));

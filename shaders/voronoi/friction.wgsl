@@ -36,6 +36,9 @@ fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
     return Vector(inverse.x * v.x + inverse.y * v.y, inverse.y * v.x + inverse.z * v.y);
 }
 
+// Sets up the equations of friction; the velocities before it are the first guess.
+// The equations of Crank and Nicolson's friction: for the mean W of the velocities U before and after it,
+// (2M + dt G) W = 2MU + J with the friction G and the random impulses J.
 var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
 var<storage, read_write> searches: array<Search>;
 
@@ -106,6 +109,8 @@ fn friction_begin() {
     demand_iterations();
 }
 
+// The second half of an iteration: a step along its direction of search.
+// The first half of an iteration: images of the preconditioned residuals, and the sums that it needs.
 var<storage, read_write> images: array<vec2<f32>>;
 
 @compute @workgroup_size(LANES)
@@ -124,6 +129,8 @@ fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = vec4<f32>(sum.xy, solver.sums[group].zw); }
 }
 
+// Whether another iteration is needed, for all lanes alike: what lies in storage may look different to each.
+// Adds up the sums of an iteration, and leaves the kernels of the next without workgroups if none is needed.
 // Whether this iteration is needed, for all lanes alike: what lies in storage may look different to each.
 var<workgroup> running: u32;
 
@@ -186,6 +193,7 @@ fn set_up(slot: u32) -> f32 {
     return dot(right, preconditioned(inverse, right));
 }
 
+// All iterations in one workgroup: of few cells there is less to compute than to dispatch.
 var<storage, read_write> directions: array<vec4<f32>>; // of search, and its image; images behind them
 
 @compute @workgroup_size(LANES)

@@ -1,3 +1,4 @@
+// The report of every cell: sums of its motion, mass, volume and what its equation of state gives.
 override VOLUME_STEPS: f32;    // and in a volume
 
 @compute @workgroup_size(WORKGROUP)

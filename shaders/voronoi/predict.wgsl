@@ -1,3 +1,5 @@
+// What is to come of an exchange: the mean velocity of before and after it, at which impulses do their work, and the
+// pressure in the middle of it. Neither has to be exact for anything to be conserved.
 @compute @workgroup_size(WORKGROUP)
 fn predict_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;

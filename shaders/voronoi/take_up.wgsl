@@ -1,3 +1,4 @@
+// Every cell takes up what came through its faces.
 const UNITS_LIMIT: i32 = 1073741824; // 2^30
 
 @compute @workgroup_size(WORKGROUP)

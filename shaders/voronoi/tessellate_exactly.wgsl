@@ -1,3 +1,8 @@
+// The Voronoi cell of every particle: the rectangle between its own images, cut along the bisectors of the particles around
+// it, ring by ring of grid cells, until none further away can cut it.
+//
+// Particles of a subgroup go on together from one step of the work to the next: looking for a bisector that may cut, cutting,
+// and, rarely, deciding exactly.
 // The grid cell to look into next, as the distance from the particle's: on a ring around it, row by row.
 var<private> ring: i32;
 var<private> across: i32;

@@ -28,7 +28,8 @@ pub use choices::{Choice, Choices};
 pub use generated::*;
 pub use linker::{Declaration, File, Kind, Library, LinkedText, Part, Unlinked};
 
-/// What `build.rs` has found.
+/// What `build.rs` has found; its comments are those of the shaders.
+#[allow(clippy::doc_markdown, clippy::too_long_first_doc_paragraph)]
 mod generated {
     use super::Choice;
 

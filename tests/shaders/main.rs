@@ -7,5 +7,6 @@ mod support;
 mod canonical;
 mod compilers;
 mod elementary;
+mod index;
 mod unchanged;
 mod variants;

@@ -1,3 +1,4 @@
+// Puts a particle among the sorted ones, its position and its momentum in textures of their own.
 // Particles ordered by cell, positions and momenta in textures of their own; where rows have frames, with those filled in.
 var sorted_positions: texture_storage_2d<rgba32uint, read_write>;
 var sorted_momenta: texture_storage_2d<rgba32uint, read_write>;

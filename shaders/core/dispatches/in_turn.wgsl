@@ -1,3 +1,4 @@
+// Dispatches share the work, as many shares each: systems that watch over their displays end what takes an adapter seconds.
 var<storage, read_write> dispatches_done: u32;
 
 // A folded dispatch has a few workgroups too many: no row is theirs.

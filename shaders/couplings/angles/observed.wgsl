@@ -1,3 +1,5 @@
+// A report of angles: energy, curvature, and the forces themselves. An angle is the same on every scale, and so has no
+// virial.
 override ANGLE_LAPLACIAN: f32;   // second derivative per impulse and inverse length, over its quantum
 
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {

@@ -1,3 +1,5 @@
+// A bath with exponential memory on every bond, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8; bonds of a kind
+// without memory, beside others, forget everything in a step.
 var<storage, read_write> bond_baths: array<f32>;
 
 fn prepare_bonds() { prepare_bond_noise(); }

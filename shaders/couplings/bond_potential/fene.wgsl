@@ -1,3 +1,4 @@
+// Finitely extensible bonds, doi:10.1063/1.458541; where nothing limits the extension they are harmonic.
 // -ln(1 - x)/x, without cancellation where x is small.
 fn logarithmic_growth(x: f32) -> f32 {
     let series = 1.0 + x * (1.0 / 2.0 + x * (1.0 / 3.0 + x * (1.0 / 4.0 + x * (1.0 / 5.0))));

@@ -1,3 +1,4 @@
+// Harmonic bonds.
 fn stretch_of(kind: BondKind, distance: f32) -> Stretch {
     let extension = distance - kind.length;
     let pull = kind.stiffness * extension;

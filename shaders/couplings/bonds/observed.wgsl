@@ -1,3 +1,4 @@
+// A report of bonds: energy, virials, curvature, and the conservative forces themselves.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {
     total_add(1u, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
     total_add(5u, sum64_of_f32(stretch.energy * PAIR_VIRIAL));

@@ -1,3 +1,4 @@
+// A report of the baths on coordinates.
 fn note_position_bath(species: i32, bath: Vector) {
     for (var axis = 0u; axis < DIMENSION; axis++) {
         let square = bath[axis] * bath[axis];

@@ -1,3 +1,4 @@
+// Particles that have moved stay where they lie; those that go to another cell are counted there.
 fn begin_moving(cell: u32) {}
 fn store_moved(cell: u32, bin: Bin, index: u32, particle: Water) {
     store_motion(index, particle);

@@ -1,3 +1,4 @@
+// Moves the particles of a cell by one step, from before the closing kick or, after a report, from the report point.
 override LEAST_DEPTH: f32; // less its mean
 
 fn visit_cell(cell: u32) {

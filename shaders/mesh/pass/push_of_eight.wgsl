@@ -1,3 +1,5 @@
+// Moves the particles of eight cells by one step, eight at a time whichever their cells, from before the closing kick or, after a
+// report, from the report point.
 override LEAST_DEPTH: f32; // less its mean
 var<private> dry_cell: u32 = NO_CELL; // the first without a depth
 

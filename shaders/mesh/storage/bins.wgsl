@@ -1,3 +1,6 @@
+// Every cell has a bin: a stretch for the particles that stay, and two for those that arrive, one of the step before and
+// one of this step, in turn. What stays in its cell stays in its bin, so that no sort is needed; only a crowd in one cell
+// does not fit.
 override ARRIVALS: u32; // of each stretch of those that arrive
 var<storage, read_write> stayed: array<u32>;          // and, in the highest bit, whose turn it is
 var<storage, read_write> arrived: array<u32>; // in the first stretch, then in the second

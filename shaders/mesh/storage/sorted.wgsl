@@ -8,4 +8,5 @@ fn opened_bin(cell: u32) -> Bin {
 }
 fn place_in(bin: Bin, k: u32) -> u32 { return in_order(bin.begin + k); }
 
+// The sort has collected the particles of a cell; from their number those that move are counted.
 fn collect(cell: u32, bin: Bin) { counts[cell] = bin.count; }

@@ -1,3 +1,4 @@
+// The smoothed depth and the bath drive the particles.
 fn surface_at(node: u32) -> f32 { return surface[node]; }
 // The depth on the node of a cell.
 fn depth_in_cell(cell: u32, nodes: Square) -> f32 { return depths[cell]; }

@@ -1,3 +1,5 @@
+// Noise of a pair: uniform with zero mean and unit variance, the same seen from either end.
+// Read once an invocation: a buffer that is also written cannot be cached by the compiler.
 fn prepare_noise() { noise_key = clock_key(); }
 
 fn pair_noise(id: u32, other: u32) -> f32 {

@@ -1,3 +1,4 @@
+// The impulses on each particle at a report, kept by id for the analyses of forces.
 var<private> force: vec4<i32>;
 
 fn begin_force() { force = vec4<i32>(0); }

@@ -18,18 +18,6 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 1u, vec4<f32>(v[1], v[3]));
 }
 
-// Leg j by the j-th power of a root of unity.
-fn turned(v: Legs, step: u32) -> Legs {
-    let w1 = roots[step];
-    let w2 = roots[2u * step];
-    let w3 = times(w2, w1);
-    return Legs(
-        v[0],
-        times(v[1], w1),
-        times(v[2], w2),
-        times(v[3], w3),
-    );
-}
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

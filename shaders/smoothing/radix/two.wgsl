@@ -12,14 +12,6 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 0u, vec4<f32>(v[0], v[1]));
 }
 
-// Leg j by the j-th power of a root of unity.
-fn turned(v: Legs, step: u32) -> Legs {
-    let w1 = roots[step];
-    return Legs(
-        v[0],
-        times(v[1], w1),
-    );
-}
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

@@ -16,7 +16,6 @@ fn position_word(fraction: Fraction, id: u32) -> vec4<u32> { return vec4<u32>(fr
 fn momentum_word(momentum: Steps, species: i32) -> vec4<i32> { return vec4<i32>(momentum.x, 0, 0, species); }
 fn signed(fraction: Fraction) -> Steps { return bitcast<Steps>(fraction); }
 fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
-fn sum_of_components(v: Vector) -> f32 { return v.x; }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return steps.x > limit || steps.x < -limit; }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return Vector(parts.x * UNIT_X, 0.0); }

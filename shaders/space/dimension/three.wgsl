@@ -17,7 +17,6 @@ fn position_word(fraction: Fraction, id: u32) -> vec4<u32> { return vec4<u32>(fr
 fn momentum_word(momentum: Steps, species: i32) -> vec4<i32> { return vec4<i32>(momentum, species); }
 fn signed(fraction: Fraction) -> Steps { return bitcast<Steps>(fraction); }
 fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
-fn sum_of_components(v: Vector) -> f32 { return v.x + v.y + v.z; }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return parts.xyz * unit_lengths(); }
