@@ -9,7 +9,7 @@
 //! else linking fails with the candidates. So a function in a page is the default that a chosen variant replaces, and nobody
 //! keeps lists of files.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::words::{Word, words};
 
@@ -75,6 +75,14 @@ pub struct Library {
 /// A declaration: number of its file, and its number there.
 type Place = (usize, usize);
 
+/// What an entry point has been found to reach.
+struct Reached {
+    names: HashMap<&'static str, Place>,
+    /// Each after what it uses.
+    in_order: Vec<Place>,
+    seen: HashSet<Place>,
+}
+
 /// Why a kernel does not link: the place `file:line`, and the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unlinked {
@@ -131,6 +139,20 @@ impl Library {
         &self.files[file].declarations[index]
     }
 
+    /// A failure at a declaration.
+    fn unlinked(&self, at: Place, reason: String) -> Unlinked {
+        Unlinked { place: format!("{}.wgsl:{}", self.files[at.0].path, self.declaration(at).line), reason }
+    }
+
+    /// Whether two declarations are the same but for comments and spaces.
+    fn alike(&self, a: Place, b: Place) -> bool {
+        let code = |place: Place| -> String {
+            let lines = self.declaration(place).text.lines().map(|line| line.split("//").next().unwrap_or_default());
+            lines.flat_map(str::split_whitespace).collect()
+        };
+        code(a) == code(b)
+    }
+
     fn number(&self, path: &str) -> Option<usize> {
         self.files.iter().position(|file| file.path == path)
     }
@@ -171,10 +193,7 @@ impl Library {
     /// Which declaration a name stands for, used in a file; nothing if the library does not know it.
     fn resolve(&self, name: &str, user: Place, chosen: &[usize]) -> Result<Option<Place>, Unlinked> {
         let Some(candidates) = self.by_name.get(name) else { return Ok(None) };
-        let failure = |reason: String| {
-            let place = format!("{}.wgsl:{}", self.files[user.0].path, self.declaration(user).line);
-            Unlinked { place, reason }
-        };
+        let failure = |reason: String| self.unlinked(user, reason);
         let list =
             |places: &[Place]| places.iter().map(|(file, _)| self.files[*file].path).collect::<Vec<_>>().join(", ");
         // Arrays are seen as the user declares them.
@@ -191,8 +210,7 @@ impl Library {
                 if let Some(own) = own.filter(|own| of_chosen.contains(own)) {
                     return Ok(Some(own));
                 }
-                let text = |place: &Place| self.declaration(*place).text;
-                if of_chosen.iter().all(|place| text(place) == text(&of_chosen[0])) {
+                if of_chosen.iter().all(|place| self.alike(*place, of_chosen[0])) {
                     return Ok(Some(of_chosen[0]));
                 }
                 return Err(failure(format!("`{name}` is declared by several chosen variants: {}", list(&of_chosen))));
@@ -222,41 +240,32 @@ impl Library {
         let chosen: Vec<usize> = (choices.iter())
             .map(|path| self.number(path).ok_or_else(|| nowhere(format!("there is no variant `{path}`"))))
             .collect::<Result<_, _>>()?;
-        let mut reached: BTreeSet<Place> = BTreeSet::from([*start]);
-        let mut names: BTreeMap<&str, Place> = BTreeMap::new();
-        let mut waiting = vec![*start];
-        while let Some(user) = waiting.pop() {
-            for name in &self.declaration(user).uses {
-                let Some(place) = self.resolve(name, user, &chosen)? else { continue };
-                let known = *names.entry(name).or_insert(place);
-                if known != place {
-                    let same = self
-                        .declaration(known)
-                        .text
-                        .split_once("//")
-                        .map_or(self.declaration(known).text, |x| x.0)
-                        == self.declaration(place).text.split_once("//").map_or(self.declaration(place).text, |x| x.0);
-                    if !same {
-                        return Err(Unlinked {
-                            place: format!("{}.wgsl:{}", self.files[user.0].path, self.declaration(user).line),
-                            reason: format!(
-                                "`{name}` stands for that of {} here and for that of {} elsewhere in the kernel",
-                                self.files[place.0].path, self.files[known.0].path
-                            ),
-                        });
-                    }
-                    continue;
-                }
-                if reached.insert(place) {
-                    waiting.push(place);
-                }
+        let mut reached = Reached { names: HashMap::new(), in_order: Vec::new(), seen: HashSet::new() };
+        self.reach(*start, &chosen, &mut reached)?;
+        Ok(self.text(&reached.in_order))
+    }
+
+    /// Adds what a declaration uses, and then the declaration: naga evaluates sizes of arrays in the order of the text.
+    fn reach(&self, user: Place, chosen: &[usize], reached: &mut Reached) -> Result<(), Unlinked> {
+        reached.seen.insert(user);
+        for name in &self.declaration(user).uses {
+            let Some(place) = self.resolve(name, user, chosen)? else { continue };
+            let known = *reached.names.entry(name).or_insert(place);
+            if known != place && !self.alike(known, place) {
+                let (here, elsewhere) = (self.files[place.0].path, self.files[known.0].path);
+                let reason = format!("`{name}` is that of {here} here and that of {elsewhere} elsewhere in the kernel");
+                return Err(self.unlinked(user, reason));
+            }
+            if !reached.seen.contains(&known) {
+                self.reach(known, chosen, reached)?;
             }
         }
-        Ok(self.text(&reached))
+        reached.in_order.push(user);
+        Ok(())
     }
 
     /// The text of some declarations. Arrays get their numbers, and elements that the kernel changes atomically are atomics.
-    fn text(&self, reached: &BTreeSet<Place>) -> LinkedText {
+    fn text(&self, reached: &[Place]) -> LinkedText {
         let mut atomics: BTreeSet<&str> = BTreeSet::new();
         for place in reached {
             let found = words(self.declaration(*place).text).collect::<Vec<_>>();
@@ -292,7 +301,7 @@ impl Library {
             if !linked.text.ends_with('\n') {
                 linked.text.push('\n');
             }
-            lines = linked.text.lines().count() as u32;
+            lines += declaration.text.lines().count() as u32;
         }
         linked
     }
@@ -371,13 +380,79 @@ fn declaration(text: &'static str, line: u32) -> Option<Declaration> {
     };
     let locals: BTreeSet<&str> =
         (head + 1..all.len()).filter(|index| own(*index)).map(|index| all[index].text).collect();
-    let used = |word: &&Word<'static>| {
-        !word.member
-            && !(word.typed && keyword == "struct")
-            && !(word.attribute && word.text != "WORKGROUP" && word.text != "SCAN_LANES")
-    };
-    let uses: BTreeSet<&str> = (all.iter().filter(used).map(|word| word.text))
-        .filter(|word| *word != name && !(locals.contains(word) && keyword != "struct"))
-        .collect();
-    Some(Declaration { kind, name, text, line, uses: uses.into_iter().collect(), locals: locals.into_iter().collect() })
+    let used = |word: &&Word<'static>| !word.member && !(word.typed && keyword == "struct") && !word.attribute;
+    let mut uses: Vec<&str> = Vec::new();
+    for word in all.iter().filter(used).map(|word| word.text) {
+        if word != name && !(locals.contains(word) && keyword != "struct") && !uses.contains(&word) {
+            uses.push(word);
+        }
+    }
+    Some(Declaration { kind, name, text, line, uses, locals: locals.into_iter().collect() })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Kind, Library};
+
+    const KERNEL: &str = "// A kernel.\n@compute @workgroup_size(WORKGROUP)\nfn kernel(@builtin(workgroup_id) workgroup: vec3<u32>) {\n    \
+        let size = 1u; // of nothing\n    if (counts[0] == size) { store(law(workgroup.x)); }\n}\n";
+
+    fn library(files: &[(&'static str, &'static str)]) -> Library {
+        let common = [
+            ("core/kernel", KERNEL),
+            ("core/size", "override WORKGROUP: u32;\n"),
+            ("core/law", "// Off.\nfn law(a: u32) -> u32 { return 0u; }\n"),
+            ("core/arrays", "var<storage, read_write> counts: array<u32>; // of cells\n"),
+            ("core/store", "fn store(a: u32) { atomicAdd(&counts[a], 1u); }\n"),
+        ];
+        Library::new(&[&common[..], files].concat()).unwrap()
+    }
+
+    #[test]
+    fn names_are_those_of_chosen_variants_then_of_the_file_then_of_the_only_page() {
+        let on = ("core/law/on", "struct Law { size: u32 }\nfn law(a: u32) -> u32 { return Law(a).size; }\n");
+        let library = library(&[on]);
+        let off = library.link("kernel", &[]).unwrap();
+        assert!(off.text.contains("return 0u;") && !off.text.contains("struct Law"), "{}", off.text);
+        let chosen = library.link("kernel", &["core/law/on"]).unwrap();
+        assert!(!chosen.text.contains("return 0u;") && chosen.text.contains("struct Law"), "{}", chosen.text);
+        // Elements that are changed atomically are atomics, and arrays are numbered.
+        assert!(
+            off.text.contains("@group(0) @binding(0) var<storage, read_write> counts: array<atomic<u32>>;"),
+            "{}",
+            off.text
+        );
+        let law = off.parts.iter().find(|part| part.path == "core/law").unwrap();
+        assert_eq!((law.line, off.text.lines().nth(law.begins as usize - 1)), (1, Some("// Off.")));
+    }
+
+    #[test]
+    fn what_is_not_unique_is_refused() {
+        let twice = library(&[("core/other", "fn law(a: u32) -> u32 { return 2u; }\n")]);
+        assert_eq!(twice.ambiguous(), ["`law` is declared by core/law, core/other"]);
+        assert!(twice.link("kernel", &[]).unwrap_err().reason.contains("several pages: core/law, core/other"));
+        let slots = library(&[("core/a/one", "const A: u32 = 1u;"), ("core/b/one", "const A: u32 = 2u;")]);
+        assert_eq!(slots.ambiguous(), ["`A` is declared by core/a/one, core/b/one"]);
+        let none = library(&[]).link("kernel", &["core/law/on"]).unwrap_err();
+        assert_eq!(none.reason, "there is no variant `core/law/on`");
+        assert!(Library::new(&[("core/text", "nothing to declare;")]).is_err());
+    }
+
+    #[test]
+    fn declarations_know_their_kinds_and_their_own_names() {
+        let library = library(&[("core/more", "var<private> sum: vec2<f32>;\nfn more(p: u32) { var sum_of = p; }\n")]);
+        let of = |name: &str| {
+            let all = library.files().iter().flat_map(|file| &file.declarations);
+            all.into_iter().find(|own| own.name == name).unwrap()
+        };
+        assert_eq!(
+            [of("kernel").kind, of("counts").kind, of("sum").kind, of("WORKGROUP").kind],
+            [Kind::Entry, Kind::Array, Kind::Variable, Kind::Constant]
+        );
+        assert_eq!(of("more").locals, ["p", "sum_of"]);
+        assert_eq!(of("kernel").locals, ["size", "workgroup"]);
+        assert!(of("kernel").uses.contains(&"law") && of("kernel").uses.contains(&"WORKGROUP"));
+        assert!(!of("kernel").uses.contains(&"size") && !of("kernel").uses.contains(&"nothing"));
+    }
 }

@@ -7,7 +7,7 @@ pub struct Word<'a> {
     pub text: &'a str,
     /// Whether a dot precedes it: a member or a swizzle.
     pub member: bool,
-    /// Whether `@` precedes it, or it is an argument of an attribute.
+    /// Whether it is the name of an attribute, or an argument of one that names no constant: sizes of workgroups do.
     pub attribute: bool,
     /// Whether a colon follows it: a member of a structure, a parameter, or a variable with its type.
     pub typed: bool,
@@ -22,7 +22,8 @@ pub fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
     let bytes = text.as_bytes();
     let starts = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
     let continues = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
-    let (mut at, mut before, mut in_attribute, mut after_var, mut in_template) = (0, None, 0_u32, false, false);
+    let (mut at, mut before, mut in_attribute, mut sizes) = (0, None, 0_u32, false);
+    let (mut after_var, mut in_template) = (false, false);
     std::iter::from_fn(move || {
         while at < bytes.len() {
             let byte = bytes[at];
@@ -48,11 +49,14 @@ pub fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
                 let word = Word {
                     text: &text[begin..at],
                     member: before == Some(b'.'),
-                    attribute: before == Some(b'@') || in_attribute > 0,
+                    attribute: before == Some(b'@') || in_attribute > 0 && !sizes,
                     typed: rest.first() == Some(&b':') && in_attribute == 0,
                     referenced: before == Some(b'&'),
                     in_template,
                 };
+                if word.attribute {
+                    sizes = word.text == "workgroup_size";
+                }
                 // The arguments of an attribute follow its name.
                 before = if before == Some(b'@') { before } else { Some(b'a') };
                 after_var = word.text == "var";
@@ -73,4 +77,28 @@ pub fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
         }
         None
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn words_are_names_outside_comments_and_numbers() {
+        let text = "// not this.\n@group(0) var<storage> a: vec2<f32>; /* */ b.xy += 0xffu * &c[1e-5f]; // nor this";
+        let found: Vec<&str> = words(text).map(|word| word.text).collect();
+        assert_eq!(found, ["group", "var", "storage", "a", "vec2", "f32", "b", "xy", "c"]);
+        let is = |name: &str| words(text).find(|word| word.text == name);
+        assert!(is("group").is_some_and(|word| word.attribute) && is("storage").is_some_and(|word| word.in_template));
+        assert!(is("a").is_some_and(|word| word.typed) && is("xy").is_some_and(|word| word.member));
+        assert!(is("c").is_some_and(|word| word.referenced) && !is("b").is_some_and(|word| word.referenced));
+    }
+
+    #[test]
+    fn sizes_of_workgroups_name_constants() {
+        let text = "@compute @workgroup_size(LANES) fn f(@builtin(workgroup_id) group: vec3<u32>) {}";
+        let names = |attribute| words(text).filter(move |word| word.attribute == attribute).map(|word| word.text);
+        assert_eq!(names(true).collect::<Vec<_>>(), ["compute", "workgroup_size", "builtin", "workgroup_id"]);
+        assert_eq!(names(false).collect::<Vec<_>>(), ["LANES", "fn", "f", "group", "vec3", "u32"]);
+    }
 }
