@@ -24,7 +24,7 @@ fn record() -> String {
             let shader = shader_of(kernel);
             let computed = *hashes
                 .entry(std::ptr::from_ref(shader))
-                .or_insert_with(|| old(kernel).unwrap_or_else(|| hash_of_kernel(&shader.module)));
+                .or_insert_with(|| hash_of_kernel(&shader.module));
             kernels.push(computed);
             writeln!(text, "{computed:x} {}", dispatch(plan, kernel, shader)).unwrap();
         }
@@ -63,9 +63,6 @@ fn dispatch(plan: &Plan, kernel: &Kernel, shader: &LinkedShader) -> String {
         .filter(|(name, _)| shader.overrides.iter().any(|known| known == name))
         .map(|(name, value)| (*name, value.to_bits()))
         .collect();
-    if old(kernel).is_some() {
-        constants.retain(|(name, _)| *name != "QUANTITIES");
-    }
     // Those of the kernel come first and hold.
     constants.sort_by_key(|(name, _)| *name);
     constants.dedup_by_key(|(name, _)| *name);
@@ -117,26 +114,4 @@ fn kernels_and_plans_are_those_of_the_record() {
         now.lines().count(),
         differing.join("\n")
     );
-}
-
-fn old(kernel: &Kernel) -> Option<u64> {
-    use mesoscope::shaders::Entry;
-    if !matches!(
-        kernel.entry,
-        Entry::CorrelateVectors
-            | Entry::SumMomenta
-            | Entry::TrackParticles
-            | Entry::SumTransverseModes
-            | Entry::ReportWater
-            | Entry::VisitRows
-            | Entry::VisitClusters
-            | Entry::VisitAlone
-    ) {
-        return None;
-    }
-    let text = crate::variants::text(kernel);
-    let line = text.lines().find(|line| line.contains("override QUANTITIES"))?;
-    let value = kernel.constants.iter().find(|(name, _)| *name == "QUANTITIES")?.1;
-    let text = text.replace(line, &format!("const QUANTITIES: u32 = {value}u;"));
-    Some(hash_of_kernel(&naga::front::wgsl::parse_str(&text).unwrap()))
 }
