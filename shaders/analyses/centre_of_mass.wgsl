@@ -1,4 +1,6 @@
-// The total momentum, as exact integers. Reads the particles in the order of their ids.
+// The velocity of the centre of mass, for analyses that are relative to it.
+
+// Sums the momenta of all particles as exact integers. One invocation a particle, by id; writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn sum_momenta(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -10,9 +12,9 @@ fn sum_momenta(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     }
 }
 
-// Adds up the workgroups' sums of momenta and divides by the total mass: the velocity of the centre of mass.
 override INVERSE_TOTAL_MASS: f32;
 
+// Adds up the rows of `partial_sums` and divides by the total mass. One workgroup; writes `centre`.
 @compute @workgroup_size(WORKGROUP)
 fn find_centre(@builtin(local_invocation_index) lane: u32) {
     for (var axis = 0u; axis < 3u; axis++) {
@@ -34,5 +36,7 @@ fn find_centre(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
-// Velocities as they are.
+// Slot analyses/frame: the frame in which velocities are sampled.
+// Default: that of the box. The plan chooses `centre_of_mass` if the scene says so, or by default where momentum is not
+// conserved.
 fn in_frame(velocity: vec3<f32>) -> vec3<f32> { return velocity; }

@@ -1,16 +1,17 @@
-// How far each particle has come, and how much of its velocity it has kept, since the window began. Reads the particles
-// in the order of their ids.
+// Mean squared displacements and velocity correlations since the window began.
 override DISPLACEMENT: f32;  // squared length over its quantum
 override VELOCITY: f32;      // square of momentum per mass over its quantum
 
 struct Tracker {
     last: vec4<u32>,     // position at the last sample
-    turns: vec4<i32>,    // times round the box since the window began
+    turns: vec4<i32>,    // boxes crossed since the window began
     origin: vec4<u32>,   // position when the window began
     momentum: vec4<i32>, // momentum when the window began
 }
 var<storage, read_write> trackers: array<Tracker>;
 
+// Sums the squared displacements of all particles, and the products of their velocities now and at the origin. One invocation a
+// particle, by id; keeps `trackers`, writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

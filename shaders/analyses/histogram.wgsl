@@ -1,5 +1,10 @@
-// Counts a value of each particle into bins of equal width, and sums its powers. Values outside the bins have entries of
-// their own; particles so far outside that their powers would leave the range of integers are counted apart.
+// Histograms of a value of each particle in bins of equal width, with sums of its powers. Values outside the bins have entries of
+// their own; particles so far outside that their powers would leave the range of integers are counted separately.
+//
+// Slot analyses/sampled: the vector of a particle, by id, in the units of the plan; components beyond the box's dimension are
+// zero. Variants velocity, momentum, force, acceleration; the plan follows the analysis (src/plan/analyses.rs). No default.
+// Slot analyses/counted: which values of the vector are counted. Variants components, magnitude; the same plan chooses. No
+// default.
 override COUNTS: u32;       // the bins; then below, above, and, of particles, far beyond
 override HALF_BINS: f32;    // half bins per unit of what is sampled
 override HALF_BELOW: i32;   // half bins below zero
@@ -11,6 +16,8 @@ var<storage, read_write> histogram: array<u32>; // low and high word of each ent
 var<workgroup> local_counts: array<atomic<u32>, COUNTS>;
 var<workgroup> local_moments: array<atomic<u32>, 2u * MOMENTS>;
 
+// Counts the particles of a workgroup in its own memory, and adds the result to `histogram`. One invocation several particles, by
+// id, GROUPS * WORKGROUP apart.
 @compute @workgroup_size(WORKGROUP)
 fn count_histogram(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     for (var entry = lane; entry < COUNTS; entry += WORKGROUP) { atomicStore(&local_counts[entry], 0u); }
@@ -31,6 +38,7 @@ fn count_histogram(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     }
 }
 
+// Counts the values of one particle.
 fn count(vector: vec3<f32>) {
     let place = vector * FRACTION;
     let square = dot(place, place);

@@ -1,9 +1,11 @@
-// Distances of all pairs up to a range, counted into bins: one invocation a particle, each pair seen from its smaller id.
-override PARTS: u32;    // workgroups that share the rows around each of its particles
+// Distances of all pairs up to a range, counted into bins, from which the radial distribution function follows.
+override PARTS: u32;    // workgroups that share the rows around the same particles
 override HISTOGRAM_RANGE: f32;
 var<storage, read_write> histogram: array<u32>; // low and high word of each bin
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
 
+// Counts pairs by their distance, each from its smaller id. One invocation a sorted particle and a part of the rows around it; a
+// workgroup counts in its own memory and adds the result to `histogram`. Reads the sorted particles and `cells`.
 @compute @workgroup_size(WORKGROUP)
 fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     for (var bin = lane; bin < BINS; bin += WORKGROUP) { atomicStore(&local_bins[bin], 0u); }
@@ -29,6 +31,7 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
     report_turns(workgroup.x >> 16u);
 }
 
+// Counts the pairs of one particle in its part of the rows.
 fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
     let column = column_of(fraction_of(position));
     for (var across = part; across < SPAN_Y * SPAN_Z; across += PARTS) {

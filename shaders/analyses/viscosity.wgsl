@@ -1,5 +1,7 @@
-// The longest transverse momentum waves: for every axis of the box, the momenta across it weighted with the cosine and
-// the sine of the position along it. Reads the particles in the order of their ids.
+// The longest transverse momentum waves, from whose decay the viscosity follows.
+
+// For every axis of the box, sums the momenta across it weighted with the cosine and the sine of the position along it. One
+// invocation a particle, by id; writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn sum_transverse_modes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

@@ -1,6 +1,6 @@
 // Numbers that kernels of several pages share. The host sets those without a value when it makes a pipeline.
 
-// How much there is.
+// Sizes.
 override PARTICLES: u32;
 override CELLS_X: u32; // of the grid, or of the mesh
 override CELLS_Y: u32;
@@ -10,7 +10,7 @@ override GROUPS: u32; // workgroups that share the work, or whose sums are added
 override CAPACITY: u32; // places of the sorted array with its frames, or of a bin
 override QUANTITIES: u32; // sums in a row of a report or an analysis
 override BINS: u32; // of a histogram
-override WINDOW: u32; // samples of an analysis that are compared with the first
+override WINDOW: u32; // samples of an analysis that are compared with the first of them
 // Cells to visit on each axis, centred on the particle's.
 override SPAN_X: u32;
 override SPAN_Y: u32;
@@ -25,19 +25,19 @@ override LAPLACIAN: f32; // second derivative per impulse and inverse length
 override BATH_SQUARE: f32; // square of a bath variable
 
 // Physics of the step.
-override DISPLACEMENT_LIMIT: f32; // how far a particle may go in a step along an axis
+override DISPLACEMENT_LIMIT: f32; // the largest displacement in a step along an axis
 override CLOSES: u32; // 1 where a step goes on from before its closing kick, 0 from the report point
 override BATH_IMPULSE: f32; // impulse of half a step per bath
-override PERSISTENCE: f32; // part of a bath that a step leaves
+override PERSISTENCE: f32; // the part of a bath that remains after a step
 override MASS_UNIT: f32; // mass of an integer unit
 override MEAN_MASS: u32; // of a mesh node, in integer units
 override VISCOSITY: f32; // of Voronoi cells, times the time step
 
 // A momentum beyond this is near the end of its range.
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
-// How far a particle may be beside its grid cell, as a fraction of the box.
+// How far a particle may lie outside its grid cell, as a fraction of the box.
 const STRAY: f32 = 3e-5;
-// Words of hits, one bit a candidate, that an invocation has in hand.
+// Words of hits, one bit a candidate, that an invocation holds at once.
 const WORDS: u32 = 32u;
 // No cell of the mesh.
 const NO_CELL: u32 = 0xffffffffu;

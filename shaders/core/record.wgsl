@@ -1,4 +1,7 @@
-// Adds up the workgroups' sums and appends one row, headed by the step, to the samples of a batch.
+// Appends what a report or an analysis has summed as a row to the samples of a batch, headed by the step.
+
+// Adds up the rows of `partial_sums` of all workgroups and appends one row of QUANTITIES sums to `samples`. One workgroup; its
+// lanes share the rows, and lane 0 adds up what they have found.
 @compute @workgroup_size(WORKGROUP)
 fn record_sample(@builtin(local_invocation_index) lane: u32) {
     let row = 1u + samples[0].x * (QUANTITIES + 1u);
@@ -23,9 +26,10 @@ fn record_sample(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
-// Appends the histogram as one row, headed by the step, to the samples of a batch, and clears it.
+// What an analysis has counted, 64-bit integers.
 var<storage, read_write> histogram: array<vec2<u32>>;
 
+// Appends the histogram as one row to `samples`, and clears it. One workgroup; a lane copies every WORKGROUP-th bin.
 @compute @workgroup_size(WORKGROUP)
 fn record_histogram(@builtin(local_invocation_index) lane: u32) {
     let row = 1u + samples[0].x * (BINS + 1u);

@@ -1,4 +1,4 @@
-// 64-bit integer sums from 32-bit words, low word first: order-free where sums of f32 are not.
+// 64-bit integer sums from 32-bit words, low word first: unlike sums of f32 they do not depend on the order.
 alias Sum64 = vec2<u32>;
 
 fn sum64_add(a: Sum64, b: Sum64) -> Sum64 {
@@ -6,25 +6,24 @@ fn sum64_add(a: Sum64, b: Sum64) -> Sum64 {
     return Sum64(low, a.y + b.y + select(0u, 1u, low < a.x));
 }
 fn sum64_of_i32(value: i32) -> Sum64 { return Sum64(bitcast<u32>(value), bitcast<u32>(value >> 31u)); }
-// The integer nearest below a number of magnitude under 2^63.
+// The nearest integer of a number of magnitude under 2^63.
 fn sum64_of_f32(value: f32) -> Sum64 {
     let whole = round(value);
     let high = floor(whole * 2.3283064e-10); // 2^-32
     let low = whole - high * 4294967296.0;
     return Sum64(u32(low), bitcast<u32>(i32(high)));
 }
-
-// Numbers of either sign, rounded alike: a small negative one has no place in the low word as a real number.
+// The same for a number of either sign, rounded alike: a small negative number would lose digits in the low word.
 fn sum64_of_signed(value: f32) -> Sum64 {
     let magnitude = sum64_of_f32(abs(value));
     if (value >= 0.0) { return magnitude; }
     return sum64_add(~magnitude, Sum64(1u, 0u));
 }
 
-// What a kernel of a report adds up, each in integers of a unit that the plan states: kinetic energy, virial of all forces,
-// three components of momentum, potential energy, virial of the conservative forces, squared force, curvature; energy,
-// square and number of baths with memory.
 override FIRST_GROUP: u32; // rows of partial sums that belong to the kernels before this one
+// What a kernel of a report adds up, each in integers of a unit that the plan states: 0 kinetic energy, 1 virial of all forces,
+// 2 to 4 momentum, 5 potential energy, 6 virial of the conservative forces, 7 squared force, 8 curvature; 9 energy, 10 square and
+// 11 number of baths with memory.
 var<private> totals: array<vec2<u32>, 12>;
 
 fn total_add(quantity: u32, value: Sum64) { totals[quantity] = sum64_add(totals[quantity], value); }

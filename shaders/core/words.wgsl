@@ -1,4 +1,7 @@
 // How words lie in memory: in vectors of two and four.
+//
+// Slot core/words: types `Two` and `Four`, and functions to pack two or four words and to unpack them. The words are the same.
+// Default: vectors. The plan chooses `pairs` for kernels that mostly move words on software adapters (src/plan/serial_memory.rs).
 alias Two = vec2<u32>;
 alias Four = vec4<u32>;
 

@@ -1,8 +1,8 @@
-// Every angle hands the impulses of half a step to its three particles: V = k (1 + cos), least where a chain is straight.
+// Angles between three particles of a chain: V = k (1 + cos), least where the chain is straight.
 override ANGLES: u32;
 override FIRST_ANGLE: u32;
-// A word for each species, 1 if it can move; then for each angle the numbers of three particles, the middle of the angle in
-// the middle, and the bits of the stiffness: an impulse times a length.
+// A word for each species, 1 if it can move; then for each angle the ids of three particles, the vertex second, and the bits of
+// the stiffness: an impulse of half a step times a length.
 var<storage, read> angles: array<vec4<u32>>;
 
 struct Corner {
@@ -13,16 +13,9 @@ struct Corner {
     inverse_lengths: vec2<f32>, // of the arms
 }
 
-@compute @workgroup_size(WORKGROUP)
-fn bend_angles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let angle = group * WORKGROUP + lane;
-    if (angle < ANGLES) { visit_angle(angle); }
-    finish_angles(group, lane);
-}
-
 fn is_mobile(particle: Particle) -> bool { return angles[species_of(particle)].x == 1u; }
 
+// Adds the impulses of one angle.
 fn visit_angle(angle: u32) {
     let word = angles[FIRST_ANGLE + angle];
     let ends = vec3<u32>(slots[word.x], slots[word.y], slots[word.z]);
@@ -53,6 +46,17 @@ fn visit_angle(angle: u32) {
     raise(select(FAILURE_IMPULSE, 0u, sound));
 }
 
-// A step without a report.
+// Slot couplings/angles: `note_angle` gets each angle and the impulses on its ends, `finish_angles` ends the workgroup.
+// Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {}
 fn finish_angles(group: u32, lane: u32) {}
+
+// Adds the impulses of every angle. One invocation an angle; reads `angles`, `slots` and particles, adds the impulses of half a
+// step to `kicks` of all three.
+@compute @workgroup_size(WORKGROUP)
+fn bend_angles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let angle = group * WORKGROUP + lane;
+    if (angle < ANGLES) { visit_angle(angle); }
+    finish_angles(group, lane);
+}

@@ -1,16 +1,49 @@
-// Every bond hands the impulses of half a step to both of its ends: those of its potential and of its bath.
+// Bonds between numbered particles: each has a potential and a bath, whose impulses are opposite at its ends.
 override BONDS: u32;
+override FIRST_KIND: u32;
+override FIRST_BOND: u32;
+// A word for each species, two for each kind of bonds, then the bonds: the ids of both ends, and the kind.
+var<storage, read> bonds: array<vec4<u32>>;
+
+struct BondKind {
+    stiffness: f32,      // impulse of half a step per length
+    length: f32,         // at rest
+    inverse_extent: f32, // of the largest extension; zero where there is none
+    remembers: bool,     // whether the bath has a memory
+    loss: f32,           // the part of the bath that is lost in a step
+    response: f32,       // bath per change of length
+    noise: f32,          // bath per unit noise
+    bath_energy: f32,    // energy per square of the bath, over its quantum
+}
+
+fn bond_kind(kind: u32) -> BondKind {
+    let potential = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind]);
+    let bath = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind + 1u]);
+    return BondKind(potential.x, potential.y, potential.z, potential.w != 0.0, bath.x, bath.y, bath.z, bath.w);
+}
 
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
-@compute @workgroup_size(WORKGROUP)
-fn pull_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let bond = group * WORKGROUP + lane;
-    if (bond < BONDS) { visit_bond(bond); }
-    finish_bonds(group, lane);
+// Displacement in a step per unit of momentum; zero for what is held.
+fn drift_of_end(particle: Particle) -> f32 { return bitcast<f32>(bonds[species_of(particle)].x); }
+
+// The drift of the last step, from which the last position follows to the bit.
+fn last_drift(particle: Particle) -> Steps {
+    return Steps(round(Vector(steps_of(particle.momentum)) * (drift_of_end(particle) / unit_lengths())));
+}
+// The change of a bond's length over the last drift: even under exchange of its ends.
+fn change_of_length(me: Particle, other: Particle) -> f32 {
+    let drifted = last_drift(me) - last_drift(other);
+    let now = signed(fraction_of(me.position) - fraction_of(other.position));
+    let after = Vector(now) * unit_lengths();
+    let before = Vector(now - drifted) * unit_lengths();
+    let lengths = length(after) + length(before);
+    // The difference of two nearly equal lengths, without cancellation.
+    let change = dot(after + before, Vector(drifted) * unit_lengths());
+    return select(0.0, change / lengths, lengths > 0.0);
 }
 
+// Adds the impulses of one bond.
 fn visit_bond(bond: u32) {
     prepare_bonds();
     let word = bonds[FIRST_BOND + bond];
@@ -29,47 +62,8 @@ fn visit_bond(bond: u32) {
     raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
 }
 
-// Bonds between numbered particles, after a word for each species and two for each kind of bonds.
-override FIRST_KIND: u32;
-override FIRST_BOND: u32;
-var<storage, read> bonds: array<vec4<u32>>;
-
-struct BondKind {
-    stiffness: f32,      // impulse of half a step per length
-    length: f32,         // at rest
-    inverse_extent: f32, // of the largest extension; zero where there is none
-    remembers: bool,     // whether the bath has a memory
-    loss: f32,           // what one step takes from the bath
-    response: f32,       // bath per change of length
-    noise: f32,          // bath per unit noise
-    bath_energy: f32,    // energy per square of the bath, over its quantum
-}
-
-fn bond_kind(kind: u32) -> BondKind {
-    let potential = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind]);
-    let bath = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind + 1u]);
-    return BondKind(potential.x, potential.y, potential.z, potential.w != 0.0, bath.x, bath.y, bath.z, bath.w);
-}
-// Displacement in a step per unit of momentum: zero of what is held.
-fn drift_of_end(particle: Particle) -> f32 { return bitcast<f32>(bonds[species_of(particle)].x); }
-
-// The change of a bond's length over the last drift. The last positions follow from the last drifts, which are recomputed
-// to the bit.
-fn last_drift(particle: Particle) -> Steps {
-    return Steps(round(Vector(steps_of(particle.momentum)) * (drift_of_end(particle) / unit_lengths())));
-}
-fn change_of_length(me: Particle, other: Particle) -> f32 {
-    let drifted = last_drift(me) - last_drift(other);
-    let now = signed(fraction_of(me.position) - fraction_of(other.position));
-    let after = Vector(now) * unit_lengths();
-    let before = Vector(now - drifted) * unit_lengths();
-    let lengths = length(after) + length(before);
-    // The difference of two nearly equal lengths, without cancellation.
-    let change = dot(after + before, Vector(drifted) * unit_lengths());
-    return select(0.0, change / lengths, lengths > 0.0);
-}
-
-// Bonds without a potential.
+// Slot couplings/bond_potential: the potential of a bond at a length, even under exchange.
+// Default: off, bonds without a potential. The plan chooses `harmonic`, or `fene` if any kind limits the extension.
 struct Stretch {
     force: f32,     // impulse of half a step away from each other
     energy: f32,    // in the unit of impulse and length
@@ -78,17 +72,31 @@ struct Stretch {
 }
 fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.0, 0.0, true); }
 
-// No bond has friction.
+// Slot couplings/bond_bath: friction and noise of a bond, an impulse of half a step away from each other, even under exchange;
+// `prepare_bonds` comes first. Default: off. The plan chooses `memory` if any bath has one, else `white`.
 fn prepare_bonds() {}
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 { return 0.0; }
 
-// The baths of bonds have no temperature.
+// Slot couplings/bond_noise: a standard Gaussian number for a bond.
+// Default: off, no bath of a bond has a temperature. The plan chooses `gaussian` if any has.
 fn prepare_bond_noise() {}
 fn bond_noise(bond: u32) -> f32 { return 0.0; }
 
-// A step without a report.
+// Slot couplings/bond_memory: what is done with the new value of a bath.
+// Default: kept for the next step. The plan chooses `observed` for reports.
+fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }
+
+// Slot couplings/bonds: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
+// Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
 fn finish_bonds(group: u32, lane: u32) {}
 
-// The step goes on: what the bath of a bond has become is kept.
-fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }
+// Adds the impulses of every bond. One invocation a bond; reads `bonds`, `slots` and particles, adds the impulses of half a
+// step to `kicks` of both ends.
+@compute @workgroup_size(WORKGROUP)
+fn pull_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let bond = group * WORKGROUP + lane;
+    if (bond < BONDS) { visit_bond(bond); }
+    finish_bonds(group, lane);
+}

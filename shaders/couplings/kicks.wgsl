@@ -1,6 +1,13 @@
-// The squares of the conservative forces, once all couplings have added theirs.
+// Impulses that couplings add to particles: those of all forces, and for a report those of the conservative ones.
+//
+// Slot couplings/kicks: `add_kick` adds the impulse of half a step to a stored particle, in integer momentum units, in any order.
+// Variants plane, volume; the plan follows the box. No default.
+
+// The conservative forces, by slot.
 var<storage, read_write> forces: array<vec4<i32>>;
 
+// Sums the squares of the conservative forces, once all couplings have added theirs. One invocation a stored particle; reads and
+// clears `forces`.
 @compute @workgroup_size(WORKGROUP)
 fn square_forces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -13,5 +20,7 @@ fn square_forces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     total_reduce(group, lane);
 }
 
-// No force of this scene is conservative.
+// Slot couplings/forces: adds the conservative impulse of half a step for a report. Variants plane, volume; the plan follows
+// the box.
+// Default: off, no force of this scene is conservative.
 fn add_force(slot: u32, force: Steps) {}

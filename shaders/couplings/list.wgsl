@@ -1,10 +1,33 @@
-// Lists the neighbours of every particle within the cutoff and a margin. Every pair is listed once, by its owner, which
-// its numbers tell: the smaller of an odd sum, the larger of an even one, so that all own about as many.
+// The list of neighbours within the cutoff and a margin, for steps that visit only listed pairs.
+//
+// A list is made in arrays of its own and then copied, so that the old one is there while memories are carried over.
 override LIST_CAPACITY: u32;  // pairs that a particle may own
 override SQUARED_RANGE: f32;  // of cutoff and margin
 
+// A listed neighbour: where it is stored; the highest bit marks an excluded pair.
+const NEIGHBOUR_MASK: u32 = 0x7fffffffu;
+
+// Whether the first of two particles owns their pair. Every pair has one owner: the smaller id if the sum of the ids is odd, the
+// larger if it is even, so that all own about as many.
 fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
 
+// Slot couplings/exclusions: `excluded` gives the bit that marks a pair without repulsion; `spared`
+// (couplings/pairs) reads it. Default: off. The plan chooses `listed` if bonds exclude pairs.
+fn excluded(id: u32, other: u32) -> u32 { return 0u; }
+
+// After an upload: where the particles are stored, and whether their neighbours have to be listed. One invocation a stored
+// particle.
+@compute @workgroup_size(WORKGROUP)
+fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    let position = stored_position(slot);
+    note_slot(position.w, slot);
+    check_anchor(slot, fraction_of(position));
+}
+
+// Lists the pairs that a particle owns. One invocation a sorted particle; reads the sorted particles and `cells`, writes
+// `neighbours_next`.
 @compute @workgroup_size(WORKGROUP)
 fn list_neighbours(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -36,11 +59,12 @@ fn list_neighbours(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     report_turns(workgroup.x >> 16u);
 }
 
-// Carries what the baths of listed pairs remember from one list to the next. Pairs that meet anew remember what the law at
-// rest gives them.
-override START_STREAM_X: u32; // key of the stream over all steps
+override START_STREAM_X: u32; // key of the random words of new pairs, over all steps
 override START_STREAM_Y: u32;
 
+// Carries what the baths of listed pairs remember from one list to the next; a pair that meets for the first time draws its
+// memory from equilibrium. One invocation a sorted particle; reads both lists, `came_from` and `memories`, writes
+// `memories_next`.
 @compute @workgroup_size(WORKGROUP)
 fn carry_memories(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -71,8 +95,7 @@ fn carry_memories(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     }
 }
 
-
-// Makes the new order of the particles the one that counts.
+// Stores the particles in the new order. One invocation a sorted particle.
 @compute @workgroup_size(WORKGROUP)
 fn settle_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -80,8 +103,7 @@ fn settle_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
     store_particle(slot, particle_at(slot));
 }
 
-
-// Makes the new list the one that counts.
+// Replaces the old list and its memories by the new ones. One invocation a particle, for the pairs that it owns.
 @compute @workgroup_size(WORKGROUP)
 fn settle_list(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -94,20 +116,3 @@ fn settle_list(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         put_pair_memory(place, next_pair_memory(place));
     }
 }
-
-
-// After an upload: where the particles are, and whether their neighbours have to be listed.
-@compute @workgroup_size(WORKGROUP)
-fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (slot >= PARTICLES) { return; }
-    let position = stored_position(slot);
-    note_slot(position.w, slot);
-    check_anchor(slot, fraction_of(position));
-}
-
-// A listed neighbour: where it is stored, and whether the pair is spared its repulsion.
-const NEIGHBOUR_MASK: u32 = 0x7fffffffu;
-
-// No pair is spared its repulsion.
-fn excluded(id: u32, other: u32) -> u32 { return 0u; }

@@ -1,9 +1,11 @@
-// The report of every particle's motion, once all couplings have left their half kicks, and the particle by its number with
-// its momentum at the full step.
-// The end of a step for every particle: closing and opening half kicks by all couplings, then the drift, Cotter and Reich
-// (14)-(17), doi:10.1209/epl/i2003-00621-8.
+// The motion of particles, once all couplings have added their half kicks: Cotter and Reich (14)-(17),
+// doi:10.1209/epl/i2003-00621-8.
+
+// The impulses of half a step, by slot.
 var<storage, read_write> kicks: array<vec4<i32>>;
 
+// Ends a step: closing and opening half kicks by all couplings, then the drift. One invocation a stored particle; reads and
+// clears `kicks`, updates the particle and its baths.
 @compute @workgroup_size(WORKGROUP)
 fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -31,8 +33,10 @@ fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     check_anchor(slot, fraction);
 }
 
+// The particles of a report, by id, with momenta at the full step.
 var<storage, read_write> reported: array<array<vec4<u32>, 2>>;
 
+// Sums the motion of a report. One invocation a stored particle; reads and clears `kicks`, writes `reported` and `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn observe_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -41,6 +45,7 @@ fn observe_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     total_reduce(group, lane);
 }
 
+// Brings one particle to the report point, and adds what is observed of it.
 fn observe_particle(slot: u32) {
     prepare_position_noise();
     let me = stored_particle(slot);
@@ -64,22 +69,27 @@ fn observe_particle(slot: u32) {
     reported[id] = array<vec4<u32>, 2>(me.position, bitcast<vec4<u32>>(word));
 }
 
-// Every particle can move.
+// Slot couplings/fixed: whether a species is held where it is.
+// Default: off, every particle can move. The plan chooses `held` if any species is fixed.
 fn is_fixed(species: i32) -> bool { return false; }
 
-// No coloured noise.
+// Slot couplings/coloured_noise: impulses of a coloured noise over the half steps around this step, in integer momentum units.
+// Default: off. The plan chooses `held` if the scene has such a noise.
 struct Held { closing: Steps, opening: Steps }
 fn advance_hold(id: u32) -> Held { return Held(Steps(0), Steps(0)); }
 fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
 
-// No bath acts on particles by themselves.
+// Slot couplings/position_bath: a bath on every coordinate, from its drift in the last step; `position_impulse` is its impulse
+// of half a step, `keep_position_bath` stores it. Default: off. The plan chooses `memory` or `white`.
 fn position_bath(id: u32, species: i32, drift: Vector) -> Vector { return Vector(0.0); }
 fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 
-// The position baths of this scene have no temperature.
+// Slot couplings/position_noise: noise of position baths, in their unit. Variants one, two, three; the plan follows the box.
+// Default: off, the position baths of this scene have no temperature.
 fn prepare_position_noise() {}
 fn position_noise(id: u32, species: i32) -> Vector { return Vector(0.0); }
 
-// No bath of a particle has an energy.
+// Slot couplings/position_report: adds the energy of a position bath to a report.
+// Default: off, such baths have none. The plan chooses `observed` if they have memory.
 fn note_position_bath(species: i32, bath: Vector) {}

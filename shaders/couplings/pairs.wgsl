@@ -1,13 +1,10 @@
-// Visits every listed pair, from its owner: first finds those in contact, then computes their impulses and hands them to
-// both ends.
-@compute @workgroup_size(WORKGROUP)
-fn visit_listed_pairs(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let slot = group * WORKGROUP + lane;
-    if (slot < PARTICLES) { visit_pairs_of(slot); }
-    finish_pairs(group, lane);
-}
+// Listed pairs: each is visited once, by its owner, and its impulses are opposite at its ends.
+//
+// Slot couplings/pair_bath: `impulse_of_pair` gives the impulse of half a step along the line of centres, positive apart, from
+// `push` (the repulsion) and the bath; `place` is where the pair is listed. Even under exchange. Variants white, memory; the
+// plan follows the scene. No default. The law itself is in pairs/law.
 
+// Visits the pairs that a particle owns: first finds those in contact, then computes their impulses.
 fn visit_pairs_of(slot: u32) {
     prepare_noise();
     let me = stored_particle(slot);
@@ -45,18 +42,31 @@ fn visit_pairs_of(slot: u32) {
     raise(select(FAILURE_IMPULSE, 0u, sound));
 }
 
-// Every listed pair repels.
+// Slot couplings/exclusions: see couplings/list. Default: off, every listed pair repels.
 fn spared(neighbour: u32) -> bool { return false; }
 
-// A step without a report.
+// Slot couplings/pairs: `note_pair` gets each pair; `repulsion` is the impulse at contact, `magnitude` that of all forces.
+// `finish_pairs` ends the workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_pair(slot: u32, other_slot: u32, repulsion: f32, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
-// The bath of pairs has no temperature.
+// Slot couplings/pair_bath_noise: noise of a bath with memory, even under exchange.
+// Default: off, the baths have no temperature. The plan chooses `thermal` if they have.
 fn bath_noise(id: u32, other: u32) -> f32 { return 0.0; }
 
-// The step goes on: what the bath of a pair has become is kept.
+// Slot couplings/pair_memory: what is done with the new value of a bath.
+// Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {
     let memory = bath - LOSS * bath - c.friction * coupling(contact.w);
     put_pair_memory(place, vec2<u32>(bitcast<u32>(memory), clock_step().x));
+}
+
+// Adds the impulses of every listed pair. One invocation a stored particle, for the pairs that it owns; reads `neighbours` and
+// particles, adds the impulses of half a step to `kicks` of both ends.
+@compute @workgroup_size(WORKGROUP)
+fn visit_listed_pairs(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) { visit_pairs_of(slot); }
+    finish_pairs(group, lane);
 }

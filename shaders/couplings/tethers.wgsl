@@ -1,7 +1,14 @@
-// A spring from every particle to where it started.
+// Tethers: a spring from every particle to where it started.
 override TETHER: f32; // impulse of half a step per length
-var<storage, read_write> tethers: array<vec4<u32>>; // by number
+var<storage, read_write> tethers: array<vec4<u32>>; // where each particle started, by id
 
+// Slot couplings/tethers: `note_tether` gets the displacement of each particle, `finish_tethers` ends the workgroup.
+// Default: off, a step without a report. The plan chooses `observed` for reports.
+fn note_tether(slot: u32, length: Vector) {}
+fn finish_tethers(group: u32, lane: u32) {}
+
+// Adds the impulse of every tether. One invocation a stored particle; reads its position and `tethers`, adds the impulse of
+// half a step to its `kicks`.
 @compute @workgroup_size(WORKGROUP)
 fn pull_tethers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -16,7 +23,3 @@ fn pull_tethers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     }
     finish_tethers(group, lane);
 }
-
-// A step without a report.
-fn note_tether(slot: u32, length: Vector) {}
-fn finish_tethers(group: u32, lane: u32) {}

@@ -1,4 +1,16 @@
-// Counts freshly uploaded particles into cells; every later step counts as it advances.
+// Sorts particles by grid cell: counts them into cells and puts each into its place, between which grid/scan finds where cells
+// begin.
+//
+// Slots of grid, without defaults:
+// - grid/dimension: rows of cells along x, and the rows around a row. Variants plane, volume; plans follow the box of the scene.
+// - grid/rows: where a cell of a row is in `cells`. Variants framed (copies of the end cells at both ends of each row; pairs),
+//   plain (neighbour lists and Voronoi cells), mesh and mesh_in_pairs (shallow water).
+// - grid/copied: the particle as it is copied into the sorted array. Variants particles, fours; chosen by the plan of pairs.
+
+override CELLS: u32;
+
+// Counts newly uploaded particles into cells; every later step counts as it advances. One invocation a stored particle; reads its
+// position, adds to `counts`, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -7,10 +19,8 @@ fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
 
-// Puts every particle into its cell, notes what others ask for about its place, and clears the counts for the next time.
-// Puts every particle into its cell, and its copy into the frame of the row, and clears the counts for the next step.
-override CELLS: u32;
-
+// Puts every particle into its cell, and a copy into the frame of the row if its cell is at an end. One invocation a stored
+// particle; reads `particles`, `ranks` and `cells`, writes the sorted array, and clears `counts` for the next step.
 @compute @workgroup_size(WORKGROUP)
 fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -37,7 +47,8 @@ fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     }
 }
 
-
+// Puts every particle into its cell without frames, and notes what neighbour lists need to know of its place. One invocation a
+// stored particle; reads `particles`, `ranks` and `cells`, writes `sorted`, and clears `counts` for the next time.
 @compute @workgroup_size(WORKGROUP)
 fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -53,12 +64,14 @@ fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     note_slot(position.w, slot);
 }
 
-// No neighbours are listed.
+// Slot couplings/anchors: `note_anchor` keeps where a particle was when neighbours were listed, `check_anchor` demands a new list
+// when it has moved too far from there. Default: off, no neighbours are listed. Plans with a pair force choose `kept`.
 fn check_anchor(slot: u32, fraction: Fraction) {}
 fn note_anchor(slot: u32, position: vec4<u32>) {}
 
-// Nobody asks where a particle was stored before.
+// Slot couplings/origins: keeps where a particle was stored before the sort. Default: off. The plan chooses `kept` for pairs
+// whose bath has memory.
 fn note_origin(slot: u32, before: u32) {}
 
-// Nobody asks where a particle is stored.
+// Slot couplings/slots: keeps where a particle is stored, by id. Default: off. The plan chooses `kept` for bonds and angles.
 fn note_slot(id: u32, slot: u32) {}

@@ -1,6 +1,8 @@
-// The work of one row in the prefix sum over cells.
+// The prefix sum over cells: where each cell's particles begin in the sorted array.
+//
+// Up to some thousand cells are summed by one workgroup, more by three kernels (src/plan/prefix_sum.rs).
 
-// Particles in the row's cells with its frame (x) and without (y).
+// Particles in the row's cells with its frame (x) and without (y). Also provided by grid/rows/mesh_in_pairs.
 fn row_totals(row: u32) -> vec2<u32> {
     let base = row * CELLS_X;
     var total = 0u;
@@ -9,7 +11,7 @@ fn row_totals(row: u32) -> vec2<u32> {
     return vec2<u32>(total + framing, total);
 }
 
-// Writes where each cell of the row begins, given the totals of all rows before it.
+// Writes where each cell of the row begins, given the totals of all rows before it. Also provided by grid/rows/mesh_in_pairs.
 fn write_row(row: u32, before: vec2<u32>) {
     let base = row * CELLS_X;
     var begin = before.x;
@@ -29,7 +31,27 @@ fn write_row(row: u32, before: vec2<u32>) {
     put_cell(row_offset_index(row), before.y);
 }
 
-// The whole prefix sum over cells by one workgroup: the cheapest way for up to some thousand rows.
+// Slot grid/scan_width: lanes of the workgroup that sums.
+// Default: as many as every adapter has. Plans choose `narrow` where lanes are executed one after the other.
+const SCAN_LANES: u32 = 256u;
+
+var<workgroup> scan_lanes: array<vec2<u32>, SCAN_LANES>;
+
+// Slot grid/scan_lanes: an exclusive prefix sum over the lanes of a workgroup, of two sums at once. All lanes call it.
+// Default: through workgroup memory. The plan of pairs chooses `eight` where the workgroup is a subgroup of eight lanes.
+fn scan_of_lanes(lane: u32, value: vec2<u32>) -> vec2<u32> {
+    scan_lanes[lane] = value;
+    workgroupBarrier();
+    for (var stride = 1u; stride < SCAN_LANES; stride <<= 1u) {
+        let earlier = select(vec2<u32>(0u), scan_lanes[max(lane, stride) - stride], lane >= stride);
+        workgroupBarrier();
+        scan_lanes[lane] += earlier;
+        workgroupBarrier();
+    }
+    return scan_lanes[lane] - value;
+}
+
+// The whole prefix sum by one workgroup, a stretch of rows a lane.
 fn scan_all_rows(lane: u32) {
     let share = (rows() + SCAN_LANES - 1u) / SCAN_LANES;
     let first = lane * share;
@@ -44,36 +66,17 @@ fn scan_all_rows(lane: u32) {
     }
 }
 
-// Lanes of a workgroup of the prefix sum: as many as every adapter has.
-const SCAN_LANES: u32 = 256u;
-
-// An exclusive prefix sum over the lanes of a workgroup, of two sums at once.
-var<workgroup> scan_lanes: array<vec2<u32>, SCAN_LANES>;
-
-fn scan_of_lanes(lane: u32, value: vec2<u32>) -> vec2<u32> {
-    scan_lanes[lane] = value;
-    workgroupBarrier();
-    for (var stride = 1u; stride < SCAN_LANES; stride <<= 1u) {
-        let earlier = select(vec2<u32>(0u), scan_lanes[max(lane, stride) - stride], lane >= stride);
-        workgroupBarrier();
-        scan_lanes[lane] += earlier;
-        workgroupBarrier();
-    }
-    return scan_lanes[lane] - value;
-}
-
-// Begins the step and finds where each cell begins.
+// Begins the step and finds where each cell begins. One workgroup; reads `counts`, writes `cells`.
 @compute @workgroup_size(SCAN_LANES)
 fn scan_cells(@builtin(local_invocation_index) lane: u32) {
     if (lane == 0u) { begin_step(); }
     scan_all_rows(lane);
 }
 
-// Last of three levels of the prefix sum over cells: where each cell of each row begins.
-// Second of three levels of the prefix sum over cells: the blocks, in one workgroup. Begins the step.
-// First of three levels of the prefix sum over cells: 256 rows a workgroup.
 var<storage, read_write> row_sums: array<vec2<u32>>; // one a row, then one a block of 256 rows
 
+// First of three levels of the prefix sum: 256 rows a workgroup, one a lane. Reads `counts`; writes to `row_sums` what precedes
+// each row in its block, and the total of the block.
 @compute @workgroup_size(SCAN_LANES)
 fn scan_blocks(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let block = linear_workgroup(workgroup);
@@ -85,7 +88,7 @@ fn scan_blocks(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     if (lane == SCAN_LANES - 1u && block * SCAN_LANES < rows()) { row_sums[rows() + block] = before + own; }
 }
 
-
+// Second of three levels of the prefix sum: the totals of blocks, in one workgroup. Begins the step; updates `row_sums`.
 @compute @workgroup_size(SCAN_LANES)
 fn scan_tops(@builtin(local_invocation_index) lane: u32) {
     let blocks = (rows() + SCAN_LANES - 1u) / SCAN_LANES;
@@ -103,12 +106,15 @@ fn scan_tops(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
-
+// Last of three levels of the prefix sum: where each cell of each row begins. One invocation a row; reads `counts` and
+// `row_sums`, writes `cells`.
 @compute @workgroup_size(WORKGROUP)
 fn scan_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let row = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (row < rows()) { write_row(row, row_sums[row] + row_sums[rows() + row / 256u]); }
 }
 
-// A kernel of its own begins the next step.
+// Slot grid/end_of_step: what the workgroups of the last kernel of a step do when they are done.
+// Default: off, a kernel of its own begins the next step. The plan of pairs chooses `last_workgroup` on software adapters whose
+// subgroups have eight lanes.
 fn end_step(lane: u32) {}

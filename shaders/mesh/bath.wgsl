@@ -1,16 +1,22 @@
-// One step of the bath on every node, which then adds to the depth that drives the particles.
+// The bath of the mesh: a variable on every node that remembers the changes of its mass.
 override BATH_PERSISTENCE: f32;
 override BATH_RESPONSE: f32;    // per unit of integer mass
 var<storage, read_write> node_bath: array<f32>;
 var<storage, read_write> previous_masses: array<u32>;
 
+// Slot mesh/bath_noise: noise of the bath of a node, in its unit.
+// Default: off, a bath without a temperature. The plan chooses `gaussian`.
+fn mesh_noise(node: u32) -> f32 { return 0.0; }
+
+// One step of the bath, which then adds to the depth that drives the particles. One invocation a node; reads `node_masses` and
+// `depths`, updates `node_bath` and `previous_masses`, writes `surface`.
 @compute @workgroup_size(WORKGROUP)
 fn step_mesh_bath(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (node >= CELLS_X * CELLS_Y) { return; }
     var s = node_bath[node];
     let mass = node_masses[node];
-    // At step 0 the variable is that of the beginning.
+    // At step 0 the variable keeps its initial value.
     if (clock_closing() == 1) {
         prepare_noise();
         let change = f32(bitcast<i32>(mass - previous_masses[node]));
@@ -21,6 +27,3 @@ fn step_mesh_bath(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     previous_masses[node] = mass;
     surface[node] = depths[node] + s;
 }
-
-// The bath of this scene is cold.
-fn mesh_noise(node: u32) -> f32 { return 0.0; }

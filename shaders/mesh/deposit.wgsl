@@ -1,17 +1,18 @@
-// A particle's part in the moments of its cell.
-
-// A number from 0 to 2²³ plus this is rounded to an integer, which is then in the last bits.
+// The mass of each node, from the moments of the particles in cells.
 const MASS_ROUNDING: f32 = 8388608.0;
 
+// Adds a particle to the moments of its cell.
 fn add_particle(moments: ptr<function, Moments>, particle: Water) {
     let x = place_along(particle.position.x, CELLS_X).offset;
     let y = place_along(particle.position.y, CELLS_Y).offset;
     add_moments(moments, x, f32(particle.mass) * powers(y));
 }
 
-// The mass of each node, from the cells whose splines reach it.
+// What each cell brings to each of its nodes.
 var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
+// Sums the mass of a node from the cells whose splines reach it. One invocation a node; reads `contributions`, writes
+// `node_masses`.
 @compute @workgroup_size(WORKGROUP)
 fn gather_nodes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -29,7 +30,7 @@ fn gather_nodes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
             least = min(least, min(share, mass));
         }
     }
-    // A cell has too much, or the sum has gone round.
+    // A cell has too much, or the sum has wrapped round.
     raise_at(select(0u, FAILURE_CROWDING, least < LEAST_MASS), node);
     node_masses[node] = u32(mass);
 }

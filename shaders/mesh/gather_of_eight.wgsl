@@ -1,6 +1,8 @@
-// The mass of four nodes above each other, from what strips of cells bring to them: the one they lie in, those below and above,
-// and the ones beside these.
-var<storage, read_write> contributions: array<Four>; // [strip][column][which rows], then [strip][eight][column beside it][which rows]
+// The mass of four nodes above each other, from what strips of cells bring to them: the strip they lie in, those below and above,
+// and the ones to the left and right of these.
+
+// [strip][column][which rows], then [strip][eight][column outside it][which rows].
+var<storage, read_write> contributions: array<Four>;
 var<private> gathered_shares: vec4<i32>;
 var<private> least: vec4<i32>;
 
@@ -18,6 +20,8 @@ fn gather_column(first: u32, width: u32, strip: u32) {
     gather(vec4<i32>(0, 0, 0, bitcast<i32>(last_words(contributions[above + 1u]).x)));
 }
 
+// Sums the masses of the nodes of a column of a strip. One invocation a column of a strip; reads `contributions`, writes
+// `node_masses`.
 @compute @workgroup_size(WORKGROUP)
 fn gather_nodes_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -35,7 +39,7 @@ fn gather_nodes_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(l
     var crowded = 0xffffffffu; // the first node with too much
     for (var k = STRIP; k > 0u; k--) {
         let node = (strip * STRIP + k - 1u) * CELLS_X + column;
-        // A cell has too much, or the sum has gone round.
+        // A cell has too much, or the sum has wrapped round.
         crowded = select(crowded, node, least[k - 1u] < LEAST_MASS);
         node_masses[node] = u32(gathered_shares[k - 1u]);
     }

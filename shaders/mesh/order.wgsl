@@ -1,4 +1,10 @@
-// Counts freshly uploaded particles in the cells of the mesh; every later step keeps count as it advances.
+// The order of particles of shallow water by cell, and copies of them in that order. Within a cell the order is any: only sums of
+// integers depend on it.
+
+var<storage, read_write> cells: array<u32>; // where each cell begins, then where it ends
+
+// Counts newly uploaded particles in the cells of the mesh; every later step counts as it advances. One invocation a particle;
+// adds to `counts`.
 @compute @workgroup_size(WORKGROUP)
 fn bin_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -6,12 +12,7 @@ fn bin_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     atomicAdd(&counts[cell_of(stored_water_position(index))], 1u);
 }
 
-// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers. The
-// lanes of a subgroup of eight with the same cell, which most have, take their numbers with one addition: software adapters add
-// lane by lane.
-// Finds every particle its number in the order of cells, in any order within a cell: what is made of them are sums of integers.
-var<storage, read_write> cells: array<u32>; // where each cell begins, then where it ends
-
+// Gives every particle its number in the order of cells. One invocation a particle; adds to `cells`, writes `order`.
 @compute @workgroup_size(WORKGROUP)
 fn order_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -19,7 +20,8 @@ fn order_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     set_order(atomicAdd(&cells[cell_of(stored_water_position(index))], 1u), index);
 }
 
-
+// The number of a particle, for a subgroup of eight lanes: those with the same cell, which most have, take their numbers with one
+// addition, because software adapters add lane by lane.
 fn taken_number(cell: u32, lane: u32) -> u32 {
     var first_lane = lane;
     var before = 0u; // lanes with the same cell
@@ -36,18 +38,23 @@ fn taken_number(cell: u32, lane: u32) -> u32 {
     return subgroupShuffle(number, first_lane) + before;
 }
 
+// The same as `order_water` for adapters whose subgroups have eight lanes. One invocation a particle; adds to `cells`, writes
+// `order`.
 @compute @workgroup_size(WORKGROUP)
-fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32, @builtin(subgroup_invocation_id) lane_of_eight: u32) {
+fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32,
+    @builtin(subgroup_invocation_id) lane_of_eight: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    // All lanes stay to the end, as all are asked for their cells.
+    // All lanes stay to the end, because the shuffles need their cells.
     let inside = index < PARTICLES;
     let cell = cell_of(stored_water_position(min(index, max(PARTICLES, 1u) - 1u)));
     let number = taken_number(select(NO_CELL, cell, inside), lane_of_eight);
     if (inside) { set_order(number, index); }
 }
 
+// Slot mesh/tidied: `copy_particle` copies a stored particle. Variants buffers, textures; the plan follows where particles are.
+// No default.
 
-// Copies the particles in the order of cells.
+// Copies the particles in the order of cells. One invocation a particle; reads `order`.
 @compute @workgroup_size(WORKGROUP)
 fn tidy_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -55,8 +62,7 @@ fn tidy_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     copy_particle(in_order(number), number);
 }
 
-
-// Takes the particles as they were copied in the order of cells.
+// Copies ordered particles back, and makes the order that of memory. One invocation a particle; writes `order`.
 @compute @workgroup_size(WORKGROUP)
 fn keep_tidied_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,4 +1,6 @@
-// Follows particles of shallow water that lie in one array on their ways round the box.
+// Paths of particles of shallow water across the periodic box: see space/paths.
+
+// Follows particles in one array. One invocation a particle; updates `paths` by id.
 @compute @workgroup_size(WORKGROUP)
 fn follow_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -7,7 +9,7 @@ fn follow_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     follow(particle.id, vec4<u32>(particle.position, 0u, 0u));
 }
 
-// Follows particles of shallow water that lie in bins, those of a cell one after the other, on their ways round the box.
+// Follows particles in bins, those of a cell one after the other. One invocation a cell; updates `paths` by id.
 @compute @workgroup_size(WORKGROUP)
 fn follow_bins(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let cell = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,7 +1,9 @@
-// Brings the particles of a cell to the report point, and sums what is observed of them and of the cell's node.
+// The report of shallow water: energies, momentum and mass.
 override POTENTIAL: f32;      // energy per unit of mass and depth, over its quantum
 override MOMENTUM: f32;       // product of mass and velocity, over its quantum
 
+// Brings the particles of a cell to the report point, and sums what is observed of them and of the cell's node. One invocation
+// a cell; updates the particles, writes `partial_sums`: kinetic energy, momentum, potential energy, bath energy, mass.
 @compute @workgroup_size(WORKGROUP)
 fn report_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -33,7 +35,7 @@ fn report_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         on_node = Sum64(node_masses[cell], 0u);
         let deviation = f32(bitcast<i32>(on_node.x - MEAN_MASS));
         potential = sum64_of_f32(POTENTIAL * deviation * depths[cell]);
-        // What drives the particles beyond the depth is the bath.
+        // What drives the particles in addition to the depth is the bath.
         let s = surface_at(cell) - depths[cell];
         bath = sum64_of_f32(BATH_SQUARE * s * s);
     }

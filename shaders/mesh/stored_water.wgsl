@@ -1,4 +1,6 @@
 // A particle of shallow water as it lies in memory.
+
+// In a buffer.
 struct StoredWater { position: Two, velocity: Two, mass_and_id: Two }
 
 fn unpacked(stored: StoredWater) -> Water {
@@ -10,7 +12,7 @@ fn packed(particle: Water) -> StoredWater {
         two(vec2<u32>(particle.mass, particle.id)));
 }
 
-// A particle of shallow water as it lies in textures: its position and velocity, and apart from them its mass and number.
+// In textures: its position and velocity, and in another its mass and id.
 fn unpacked_texels(motion: vec4<u32>, mass: vec2<u32>) -> Water {
     return Water(motion.xy, bitcast<vec2<i32>>(motion.zw), mass.x, mass.y);
 }

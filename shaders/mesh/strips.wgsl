@@ -1,11 +1,18 @@
-// Visits every cell of the mesh, eight side by side in a row by the lanes of a subgroup, then those in the rows above: a strip, in
-// which cells may share what they load and what they store. For adapters whose subgroups have eight lanes and meshes of whole
-// strips.
+// Visits every cell of the mesh in strips: eight cells side by side, one a lane of a subgroup, then those in the rows above
+// them. The cells of a strip may share what they load and store. For adapters whose subgroups have eight lanes and meshes of
+// whole strips.
 const STRIP: u32 = 4u; // rows
 var<private> lane_of_eight: u32;
 
+// What the slots mesh/nodes, mesh/spread and mesh/pass do at both ends of a strip. Defaults: off, cells of a strip share nothing.
+fn begin_strip(column: u32, row: u32) {}
+fn end_strip(column: u32, row: u32) {}
+
+// Visits every cell of the mesh in strips, for subgroups of eight lanes. One lane a column of a strip, of four cells; the pass
+// decides what is read and written: slot mesh/pass, see mesh/cells.
 @compute @workgroup_size(WORKGROUP)
-fn visit_mesh_strips(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_id) subgroup: u32, @builtin(subgroup_invocation_id) lane: u32) {
+fn visit_mesh_strips(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup_id) subgroup: u32,
+    @builtin(subgroup_invocation_id) lane: u32) {
     let strip = linear_workgroup(workgroup) * (WORKGROUP / 8u) + subgroup;
     let row = strip / (CELLS_X / 8u) * STRIP;
     if (row >= CELLS_Y) { return; }
@@ -20,7 +27,3 @@ fn visit_mesh_strips(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgr
     end_strip(column, row);
     report_turns(workgroup.x >> 16u);
 }
-
-// Nothing to do where cells of a strip share nothing.
-fn end_strip(column: u32, row: u32) {}
-fn begin_strip(column: u32, row: u32) {}

@@ -1,6 +1,10 @@
 // The half kick of a particle by the slope of the surface, from the polynomial that the splines make of it in a cell.
 override KICK_X: f32; // velocity units per slope in cells
 override KICK_Y: f32;
+override VELOCITY_LIMIT: i32; // beyond which a velocity, or the displacement in a step, leaves the range of its integers
+
+// Failures are gathered and raised once, when all particles of an invocation are done.
+var<private> failures_of_motion: u32;
 
 // The coefficients of xᵃ yᵇ in a cell, from the surface on its nodes.
 fn surface_of(nodes: Square) -> Square { return transpose(SPLINE) * nodes * SPLINE; }
@@ -9,20 +13,18 @@ fn half_kick(polynomial: Square, x: f32, y: f32) -> vec2<i32> {
     return vec2<i32>(round(vec2<f32>(KICK_X, KICK_Y) * gradient(polynomial, x, y)));
 }
 
-// What the integer state can hold. Failures are gathered and raised once, when all particles of an invocation are done.
-override VELOCITY_LIMIT: i32; // beyond which a velocity, or the way of a step, leaves the range of its integers
-var<private> failures_of_motion: u32;
-
+// Checks what the integer state can hold.
 fn check_motion(velocity: vec2<i32>) {
-    // Unsigned, for the least integer is its own absolute value.
+    // Unsigned, because the least integer is its own absolute value.
     let speed = vec2<u32>(abs(velocity));
     failures_of_motion |= select(0u, FAILURE_MOMENTUM, max(speed.x, speed.y) > u32(VELOCITY_LIMIT));
 }
 
-// There is no rotation in this scene.
+// Slot mesh/turn: the rotation of velocities in a step, by integers. Default: off. The plan chooses `coriolis` if there is a
+// rotation.
 fn turned_by_rotation(velocity: vec2<i32>) -> vec2<i32> { return velocity; }
 
-// The smoothed depth drives the particles.
+// Slot mesh/surface: `surface_at` is what drives the particles on a node, `depth_in_cell` the depth on the node of a cell,
+// given the surface on the nodes under its splines. Default: the smoothed depth. The plan chooses `bath` if there is one.
 fn surface_at(node: u32) -> f32 { return depths[node]; }
-// The depth on the node of a cell, given the surface on the nodes under its splines.
 fn depth_in_cell(cell: u32, nodes: Square) -> f32 { return nodes[NODES_BEFORE][NODES_BEFORE]; }

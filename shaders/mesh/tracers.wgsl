@@ -1,9 +1,9 @@
-// Appends a row with the positions and velocities of all tracers by id, headed by the step, to the samples of a batch.
-// Brings tracers to the report point.
-// Moves tracers by one step, as the water around them.
+// Tracers: particles without mass that the water carries.
 override TRACERS: u32;
+override FIRST_TRACER: u32;
 var<storage, read_write> tracers: array<Water>;
 
+// Moves tracers by one step, like the water around them. One invocation a tracer; updates `tracers`.
 @compute @workgroup_size(WORKGROUP)
 fn push_tracers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -17,7 +17,7 @@ fn push_tracers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     raise(failures_of_motion);
 }
 
-
+// Brings tracers to the report point. One invocation a tracer; updates `tracers`.
 @compute @workgroup_size(WORKGROUP)
 fn report_tracers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -29,8 +29,8 @@ fn report_tracers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     tracers[index].velocity = closed(tracer.velocity, kick);
 }
 
-override FIRST_TRACER: u32;
-
+// Appends a row with the positions and velocities of all tracers by id, headed by the step, to `samples`. One workgroup; a lane
+// copies every 64th tracer.
 @compute @workgroup_size(64)
 fn record_tracers(@builtin(local_invocation_index) lane: u32) {
     let row = 1u + samples[0].x * (2u * TRACERS + 1u);

@@ -1,5 +1,5 @@
-// Logarithm, sine and cosine, for random numbers above all, by polynomials of least largest error: how far they are off is known on every
-// driver, where the built-in sine and cosine may be off by 2⁻¹¹, and a logarithm that may be off by 2⁻²¹ is not always below 0.
+// Logarithm, sine and cosine, for random numbers above all, by minimax polynomials: their errors are known on every driver,
+// where the built-in sine and cosine may be off by 2⁻¹¹, and a logarithm that may be off by 2⁻²¹ is not always negative.
 // `tests/shaders/elementary.rs` compares them with double precision.
 
 // In (-½, ½), from the top 24 bits, centred: an odd multiple of 2⁻²⁵.
@@ -34,11 +34,11 @@ fn sine_of_turns(turns: f32) -> f32 {
     return sine_of_quarter(select(turns, select(-0.5, 0.5, turns > 0.0) - turns, abs(turns) > 0.25));
 }
 
-// Standard Gaussian numbers from two random words, by Box and Muller's transform.
+// A standard Gaussian number from two random words, by Box and Muller's transform.
 fn gaussian_of(words: vec2<u32>) -> f32 {
     return sqrt(minus_two_log(centred_uniform(words.x))) * cosine_of_turns(centred_uniform(words.y));
 }
-// Two that are independent of each other; the first is the one above.
+// Two independent standard Gaussian numbers; the first is the one above.
 fn two_gaussians_of(words: vec2<u32>) -> vec2<f32> {
     let turns = centred_uniform(words.y);
     return sqrt(minus_two_log(centred_uniform(words.x))) * vec2<f32>(cosine_of_turns(turns), sine_of_turns(turns));

@@ -1,4 +1,4 @@
-// Threefry2x32 with 20 rounds, Salmon et al. 2011, doi:10.1145/2063384.2063405.
+// Threefry2x32 with 20 rounds (Salmon and others 2011, doi:10.1145/2063384.2063405): two random words from a counter and a key.
 fn threefry_round(x: vec2<u32>, rotation: u32) -> vec2<u32> {
     let first = x.x + x.y;
     return vec2<u32>(first, ((x.y << rotation) | (x.y >> (32u - rotation))) ^ first);

@@ -1,9 +1,9 @@
-// The end of a step for one particle: drift, and count it into its next cell.
+// The end of a step for one particle: it drifts, is checked, and is counted into its next cell.
 const STRAIN_LIMIT: f32 = 1073741824.0;
 var<private> failures_of_particles: u32; // raised once, when all particles of an invocation are done
 
-// `strain` is the sum of the magnitudes of all impulses on the particle: it tells, where the wrapped sum cannot, that
-// the sum has left the range of integers, and it carries what is not a number.
+// Checks what the integer state can hold. `strain` is the sum of the magnitudes of all impulses on the particle: it shows,
+// where the wrapped sum cannot, that the sum has left the range of integers, and it preserves what is not a number.
 fn check_particle(momentum: Steps, species: i32, strain: f32) {
     let travelled = Vector(momentum) * drift_of(species);
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(strain, STRAIN_LIMIT))
@@ -11,6 +11,7 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
+// Stores a particle after its opening kick and drift, and counts it. `momentum` and `kick` are in integer momentum units.
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
     check_particle(momentum, species_of(me), strain);
     let word = momentum_word(momentum, species_of(me));
@@ -20,9 +21,11 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
 
-// The second half of a drift that a report has interrupted.
+// The particles in a buffer: the plan holds them in no texture where a step is split.
 var<storage, read_write> particles: array<Particle>;
 
+// The second half of a drift that a report has interrupted. One invocation a stored particle; updates its position, adds to
+// `counts`, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;

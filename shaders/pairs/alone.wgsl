@@ -1,4 +1,7 @@
 // Visits every particle and no pair: for scenes without a pair force.
+
+// Visits every particle. One invocation a particle at a time; SEGMENTS workgroups share a row of cells. The pass decides what
+// is read and written: slot pairs/pass, see pairs/rows.
 @compute @workgroup_size(WORKGROUP)
 fn visit_alone(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

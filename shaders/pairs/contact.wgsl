@@ -9,6 +9,7 @@ struct Contact {
     inside: bool,      // closer than the cutoff
 }
 
+// From the other particle to this one, by the shortest way: odd under exchange.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
     return Vector(signed(fraction_of(position) - fraction_of(other))) * unit_lengths();
 }

@@ -1,12 +1,23 @@
-// What the prefilter knows of the particle whose hits are looked for.
+// Hits: the candidates that may be within the cutoff of a particle, one bit each.
+//
+// Slot pairs/hits: which candidates are visited. `prepare_row_hits` and `prepare_cluster_hits` begin with a particle;
+// `hits_of_row` and `hits_of_cluster` give a word of hits for up to 32 candidates, without the particle itself; `keep_mask`
+// gets every word found. Variants: keep (stores the words for a later pass), kept (reads them). Default: the prefilter finds
+// them and nothing is stored. The plan of pairs chooses for the two passes of a split step.
+//
+// Slot pairs/prefilter: a word of a few bits an axis that never misses a neighbour. Variants plane, volume; the plan follows
+// the box.
+// Slot pairs/prefilter_source: what is read of a candidate. Variants words, positions; the plan chooses positions where sorted
+// particles are in textures. Neither has a default.
+
+// What the prefilter knows of the particle whose hits are wanted.
 var<private> hits_probe: Probe;
 var<private> hits_middle: Middle;
 
-// The hits of each particle, kept from one pass for the next: one bit a candidate, KEPT_WORDS words a particle. They lie
-// where the particle was stored before the sort and will be stored once it has advanced: between the two, that place is
-// free. What does not fit is not lost: a word that was not kept counts as all hits, and the pass looks at the distance
-// itself.
+// Words a particle that are kept from one pass for the next. They lie where the particle was stored before the sort and will be
+// stored once it has advanced: between the two, that place is free. A word that does not fit counts as all hits, and the pass
+// tests the distance itself.
 const KEPT_WORDS: u32 = 8u;
 
-// No later pass needs the hits again.
+// Off: no later pass needs the hits again.
 fn keep_mask(row: u32, index: u32, word: u32, mask: u32) {}

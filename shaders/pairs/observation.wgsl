@@ -1,16 +1,20 @@
-// What is summed over all particles at a report, each in integers of a unit that the plan states.
+// The report of pairs: sums over all particles, each in integers of a unit that the plan states.
+
+// Of each invocation: 0 kinetic energy, 1 virial, 2 to 4 momentum, 5 potential energy, 6 conservative virial, 7 squared force,
+// 8 curvature. The first five are of the motion, the others of the configuration.
 const PAIR_QUANTITIES: u32 = 9u;
 var<private> pair_totals: array<vec2<u32>, PAIR_QUANTITIES>;
 
 fn pair_total_add(quantity: u32, value: Sum64) { pair_totals[quantity] = sum64_add(pair_totals[quantity], value); }
 
-// What a particle's pairs add up to.
+// Sums over the pairs of one particle.
 struct PairSums { energy: Sum64, conservative_virial: Sum64, virial: Sum64, laplacian: Sum64, force: Steps }
 
 fn no_pairs() -> PairSums {
     let zero = Sum64(0u);
     return PairSums(zero, zero, zero, zero, Steps(0));
 }
+// Energy, virial, curvature and force of the repulsion of a pair; `repulsion` is the impulse at contact.
 fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: Contact) {
     let magnitude = repulsion * contact.w;
     (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(magnitude * contact.w * PAIR_ENERGY));
@@ -22,6 +26,7 @@ fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: 
     (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(curvature * LAPLACIAN));
     (*sums).force += Steps(round(magnitude * contact.direction));
 }
+// The virial of an impulse; `weight` converts it to the unit of the report.
 fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, contact: Contact) {
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(magnitude * contact.distance * weight));
 }
@@ -42,15 +47,17 @@ fn observe_configuration(sums: PairSums) {
     pair_total_add(7u, sum64_of_f32(dot(f, f) * GRADIENT));
     pair_total_add(8u, sums.laplacian);
 }
-// The first five quantities are of the motion, the others of the configuration.
+// Adds quantities from `first` up to `end` over the workgroup, into `partial_sums`.
 fn reduce_quantities(group: u32, lane: u32, first: u32, end: u32) {
     for (var quantity = first; quantity < end; quantity++) { reduce_quantity(group, lane, quantity, pair_totals[quantity]); }
 }
 
-// No analysis asks for the forces of a report.
+// Slot pairs/reported_force: the impulses on each particle at a report, by id, in integer momentum units.
+// Default: off. The plan chooses `kept` if an analysis needs forces.
 fn begin_force() {}
 fn add_reported_force(impulse: vec4<i32>) {}
 fn store_force(id: u32) {}
 
-// No analysis asks for the momenta of a split step's report.
+// Slot pairs/reported_momentum: the momenta of a split step's report, by id.
+// Default: off. The plan chooses `kept` if an analysis needs velocities.
 fn store_momentum(id: u32, momentum: vec4<i32>) {}

@@ -1,20 +1,13 @@
-// Visits every pair from both ends, one invocation a particle: each stretch of candidates is turned into masks of hits,
-// and the hits are visited in a second loop that has little else to do. For any subgroup size.
-@compute @workgroup_size(WORKGROUP)
-fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let row = group / SEGMENTS;
-    if (row < rows()) {
-        let end = row_end(row);
-        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
-        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            visit_particle_of_row(row, index);
-        }
-    }
-    report_turns(workgroup.x >> 16u);
-    pass_finish(group, lane);
-}
+// Visits every pair from both ends, one invocation a particle, for any subgroup size. Candidates are first turned into masks of
+// hits; the hits are visited in a second loop that does little else.
+//
+// Slot pairs/pass: what is done with particles and pairs. `Sums` is what a particle gathers: `pass_begin` starts it,
+// `pass_pair` adds the pair with a sorted particle that may be within the cutoff, `pass_end` finishes the particle;
+// `pass_finish` ends the workgroup. Every pair is visited from both ends, which must round the same impulse. Variants: leapfrog
+// and observe_leapfrog; find, relax, observe_motion and observe_configuration of split steps. The plan of pairs chooses; no
+// default.
 
+// Visits one particle and its pairs.
 fn visit_particle_of_row(row: u32, index: u32) {
     let me = particle_at(index);
     let column = column_of(fraction_of(me.position));
@@ -62,8 +55,7 @@ fn visit_particle_of_row(row: u32, index: u32) {
     pass_end(row, index, me, sums);
 }
 
-
-// The hits of a particle among a stretch of candidates, by the prefilter.
+// Slot pairs/hits: see pairs/hits. Default: the prefilter, candidate by candidate.
 fn prepare_row_hits(row: u32, me: Particle) {
     hits_middle = row_middle(row);
     hits_probe = probe_of(fraction_of(me.position), hits_middle);
@@ -77,4 +69,21 @@ fn hits_of_row(row: u32, index: u32, word: u32, base: u32, count: u32) -> u32 {
     mask &= ~select(0u, 1u << (own & 31u), own < 32u);
     keep_mask(row, index, word, mask);
     return mask;
+}
+
+// Visits every pair from both ends, for any subgroup size. One invocation a particle at a time; SEGMENTS workgroups share a row
+// of cells. Reads the sorted particles, `cells` and what the prefilter reads; the pass decides what is written.
+@compute @workgroup_size(WORKGROUP)
+fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
+            visit_particle_of_row(row, index);
+        }
+    }
+    report_turns(workgroup.x >> 16u);
+    pass_finish(group, lane);
 }

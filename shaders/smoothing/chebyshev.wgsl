@@ -1,11 +1,11 @@
-// (1 - Λ²∇²) x = b by Chebyshev's iteration from x = 0, which makes x a fixed polynomial in the operator times b:
-// x_{k+1} = x_{k-1} + ω_{k+1} ((b - (1 - Λ²∇²) x_k)/θ + x_k - x_{k-1}).
-// One invocation works on four rows of a column.
+// Smoothing by Chebyshev's iteration. It solves (1 - Λ²∇²) x = b from x = 0, which makes x a fixed polynomial in the operator
+// times b: x_{k+1} = x_{k-1} + ω_{k+1} ((b - (1 - Λ²∇²) x_k)/θ + x_k - x_{k-1}).
 override NODES_X: u32;
 override NODES_Y: u32;
 override STIFFNESS_X: f32; // Λ²/Δx²
 override STIFFNESS_Y: f32;
 override INVERSE_CENTRE: f32; // 1/θ, θ the middle of the spectrum
+override PARITY: u32; // of the iteration: the number that others still read must not change
 
 const ROWS_AT_ONCE = 4u;
 
@@ -17,7 +17,11 @@ var<storage, read_write> iteration: Iteration;
 var<storage, read_write> waves: array<f32>;
 var<storage, read_write> waves_next: array<f32>;
 
-// First iteration: from x_0 = 0 to x_1 = b/θ.
+// Slot smoothing/source: the right-hand side b on a node.
+// Default: the deviation of its mass, for the first application. The plan chooses `smoothed` for the others.
+fn given(node: u32) -> f32 { return deviation(node); }
+
+// First iteration, from zero: x_0 = 0, x_1 = b/θ. One invocation a node; writes `waves` and `waves_next`.
 @compute @workgroup_size(WORKGROUP)
 fn chebyshev_begin(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -27,9 +31,8 @@ fn chebyshev_begin(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     waves_next[node] = given(node) * INVERSE_CENTRE;
 }
 
-// One iteration: x_k is in `waves`, and x_{k+1} takes the place of x_{k-1} in `waves_next`.
-override PARITY: u32; // of the iteration, for nobody may change the number that others still read
-
+// One iteration, from `waves` to `waves_next`: x_k is in `waves`, and x_{k+1} replaces x_{k-1} in `waves_next`. One invocation
+// four rows of a column; reads b, `waves` and the number of iterations done.
 @compute @workgroup_size(WORKGROUP)
 fn chebyshev_iterate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -57,6 +60,3 @@ fn chebyshev_iterate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
         here = above;
     }
 }
-
-// What is smoothed first.
-fn given(node: u32) -> f32 { return deviation(node); }

@@ -1,5 +1,12 @@
-// Fourier transforms of many lines at once, one small radix a pass, sorted on the way (Stockham). A pass back is one
-// forth of numbers whose real and imaginary parts have changed places.
+// Smoothing by fast Fourier transforms of many lines at once, one small radix a pass, sorted on the way (Stockham). A pass back
+// is one forth of numbers whose real and imaginary parts are exchanged.
+//
+// Slots without defaults, chosen by src/families/shallow_water/plan/smoothing.rs for each pass:
+// - smoothing/radix: `RADIX`, the numbers (`Legs`) of a butterfly, how they are loaded and stored in pairs, `transformed`, and
+//   `turned` and `weighed` by roots of unity and the smoothing. Variants two to sixty_four.
+// - smoothing/lines: where the butterflies and elements of a line are. Variants rows, columns.
+// - smoothing/load, smoothing/store: two legs, half a radix apart, from and to memory. Variants masses, rows, waves; rows,
+//   waves, depths.
 override LENGTH: u32; // of a line
 override LINES: u32;  // number of lines
 override ROW_LENGTH: u32; // of the mesh
@@ -14,6 +21,7 @@ struct Butterfly {
     place: u32,
 }
 
+// The element of its line that a leg is loaded from, and the one that it is stored to.
 fn source(butterfly: Butterfly, leg: u32) -> u32 { return butterfly.place + leg * (LENGTH / RADIX); }
 fn target_of(butterfly: Butterfly, leg: u32) -> u32 {
     let within = butterfly.place % SPAN;
@@ -66,7 +74,11 @@ fn fourier8(
     );
 }
 
-// One pass of a Fourier transform, one invocation a butterfly.
+// Slot smoothing/twist: the roots of unity between two passes along a line.
+// Default: off, the first pass along a line. The plan chooses `between_passes` for the others.
+fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return legs; }
+
+// One pass of a Fourier transform. One invocation a butterfly; loads and stores its legs.
 @compute @workgroup_size(WORKGROUP)
 fn fourier_pass(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -75,7 +87,7 @@ fn fourier_pass(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     scattered(butterfly, transformed(twisted(gathered(butterfly), butterfly.place % SPAN, RADIX * SPAN)));
 }
 
-// Where the Fourier transform turns back: last pass forth, smoothing, first pass back; one invocation a butterfly.
+// Where the Fourier transform turns back: last pass forth, smoothing, first pass back. One invocation a butterfly.
 @compute @workgroup_size(WORKGROUP)
 fn fourier_turn(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -84,6 +96,3 @@ fn fourier_turn(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let waves_there = transformed(twisted(gathered(butterfly), butterfly.place, LENGTH));
     scattered(butterfly, transformed(weighed(waves_there, butterfly)));
 }
-
-// First pass along a line: no roots of unity yet.
-fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return legs; }

@@ -1,3 +1,15 @@
+// The drift of a particle in a step, and the limits of vectors.
+//
+// Slots of space, none of which has a default:
+// - space/dimension: the types `Fraction` (position, 2^-32 of the box), `Steps` (integer momentum or displacement) and `Vector`
+//   (real numbers), and conversions between them and stored words. Variants one, two, three; plans follow the box of the scene.
+// - space/particle: the stored particle. Variants plain, predicted (friction sees a predicted momentum: lambda other than 1/2).
+// - space/mass: masses, and what depends on them in a pair: `relative_motion` is odd under exchange to the last bit, `pair_rate`
+//   even. Variants one, by_species; chosen by src/plan/species.rs.
+// - space/mass_of_particle: the inverse mass for analyses. Variants of_species; own (Voronoi cells).
+// - space/coefficients: repulsion, friction and noise of a pair, even under exchange, and the position bath of a species, all
+//   in integer momentum units. Variants single, table; chosen by src/plan/species.rs.
+
 // What the sums of impulses hold.
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27 units: several of them still fit
 
@@ -6,7 +18,8 @@ fn all_within(v: Vector, limit: f32) -> bool {
     return all((bitcast<Fraction>(v) & Fraction(0x7fffffffu)) < Fraction(bitcast<u32>(limit)));
 }
 
-// The drift of one step, rounded once to fractions of the box.
+// Slot space/drift: displacement in 2^-32 of the box, rounded once.
+// Default: that of a whole step. Plans of pairs choose `halves` for split steps, whose reports come between two halves.
 fn drift_steps(momentum: vec4<i32>) -> Steps {
     return Steps(round(Vector(steps_of(momentum)) * (drift_of(species_in(momentum)) / unit_lengths())));
 }

@@ -1,5 +1,6 @@
-// How often something crosses the ends of the box on its way, which is shorter than half of it, from one fraction to
-// another: a signed step that carries out of the fraction is a crossing.
+// How often each particle has crossed the ends of the box, so that paths can be unwrapped.
+
+// Crossings between two positions less than half a box apart: a signed step that leaves the range of fractions is a crossing.
 fn crossings(before: vec4<u32>, now: vec4<u32>) -> vec4<i32> {
     let moved = bitcast<vec4<i32>>(now - before);
     let forward = (moved >= vec4<i32>(0)) & (now < before);
@@ -7,11 +8,11 @@ fn crossings(before: vec4<u32>, now: vec4<u32>) -> vec4<i32> {
     return select(vec4<i32>(0), vec4<i32>(1), forward) - select(vec4<i32>(0), vec4<i32>(1), backward);
 }
 
-// How often each particle has gone round the box, by id. It is followed so often that it cannot go half round the box in
-// between.
+// How often each particle has crossed the box on each axis, by id. Particles are followed so often that none moves half a box
+// in between.
 struct Path {
     last: vec4<u32>,   // position when it was last followed
-    images: vec4<i32>, // times round the box until then
+    images: vec4<i32>, // boxes crossed until then
 }
 var<storage, read_write> paths: array<Path>;
 
@@ -20,8 +21,7 @@ fn follow(id: u32, position: vec4<u32>) {
     paths[id] = Path(position, paths[id].images + crossings(paths[id].last, position));
 }
 
-
-// Follows the particles, in the order in which they are stored, on their ways round the box.
+// Follows the particles across the periodic box. One invocation a stored particle; reads `particles`, updates `paths` by id.
 @compute @workgroup_size(WORKGROUP)
 fn follow_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;

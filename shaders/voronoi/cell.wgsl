@@ -1,14 +1,24 @@
-// A Voronoi cell as particles store it: position.z is its mass and momentum.z its total energy, both in integer units.
+// Voronoi cells as particles store them, and their drift: position.z is the mass of a cell and momentum.z its total energy,
+// both in integer units.
+//
+// Slots of voronoi without defaults, chosen by src/families/voronoi/plan:
+// - voronoi/gas: the equation of state: pressure, density of internal energy and temperature of a cell, and the temperature of
+//   the noise of a face (even under exchange). Variants isothermal; energy, if cells keep their energy.
+// - voronoi/side: what a cell brings to an exchange (`Side`, in voronoi/faces). Variants start, predicted, solved (friction),
+//   warm (heat).
+// - voronoi/moved: `move_units` adds integer units to what comes through the faces of a cell. Variants by what crosses: momentum,
+//   mass, energy, heat, all.
+// - voronoi/change: `take_change` gives what has come. Variants taken; kept and again, or twice, for both halves
+//   of a step.
 override MOMENTUM_UNIT: f32;
+override DRIFT_STEP: f32;
 
 fn mass_of(cell: Particle) -> f32 { return f32(cell.position.z) * MASS_UNIT; }
 fn velocity_of(cell: Particle) -> Vector {
     return Vector(steps_of(cell.momentum)) * MOMENTUM_UNIT / mass_of(cell);
 }
 
-// The drift of a cell, rounded once to fractions of the box, and no further than a few widths of a cell.
-override DRIFT_STEP: f32;
-
+// The drift of a cell, rounded once to fractions of the box; more than a few widths of a cell is a failure.
 fn drifted(cell: Particle, velocity: Vector) -> vec4<u32> {
     let way = velocity * DRIFT_STEP;
     raise(select(FAILURE_DISPLACEMENT, 0u, all_within(way, DISPLACEMENT_LIMIT)));
@@ -16,9 +26,19 @@ fn drifted(cell: Particle, velocity: Vector) -> vec4<u32> {
     return vec4<u32>(fraction, cell.position.zw);
 }
 
+// Positions in the order of the particles, without what else they carry; after them the slots of the cells that `tessellate`
+// leaves to `tessellate_exactly`, in any order.
+struct Places {
+    doubtful: atomic<u32>,     // number of such cells
+    unused: u32,
+    elements: array<vec2<u32>>,
+}
+var<storage, read_write> places: Places;
 
-// Half a drift of every cell, which is then counted into the grid: A in a split step is one half before its exchanges and
-// one after them.
+fn place_of(slot: u32) -> Fraction { return places.elements[slot]; }
+
+// Half a drift of every cell: a split step has one half before its exchanges and one after them. One invocation a cell; updates
+// its position, adds to `counts`, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn drift_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -30,9 +50,9 @@ fn drift_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
 
-// Brings the particles of every grid cell into the order of their numbers, so that nothing depends on the order in which they
-// came, and parts those at the same place: Voronoi cells have none in common.
-
+// Sorts the particles of every grid cell by id, so that nothing depends on the order in which they came, and separates those at
+// the same place: Voronoi cells have none in common. One invocation a sorted particle; reads the sorted particles and `cells`,
+// writes `particles` and `places`.
 @compute @workgroup_size(WORKGROUP)
 fn order_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -50,22 +70,11 @@ fn order_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         rank += select(0u, 1u, earlier);
         same += select(0u, 1u, earlier && all(fraction_of(place) == fraction));
     }
-    // Along a parabola, for a particle between two others on a line would have no room. Far within the margin that the
-    // search for neighbours leaves to a particle for being beside its grid cell.
+    // Along a parabola, because a particle between two others on a line would have no area. Far within the margin that the
+    // search for neighbours allows a particle outside its grid cell.
     let apart = Fraction(same, (same * same) & 65535u);
     particle.position = vec4<u32>(fraction + apart, particle.position.zw);
     store_particle(begin + rank, particle);
     places.elements[begin + rank] = fraction_of(particle.position);
     for (var first = index == 0u; first; first = false) { atomicStore(&places.doubtful, 0u); }
 }
-
-// Where the particles are, in their order and without what else they carry; after them the slots of the cells that
-// `tessellate` leaves to `tessellate_exactly`, in any order.
-struct Places {
-    doubtful: atomic<u32>,     // number of such cells
-    unused: u32,
-    elements: array<vec2<u32>>,
-}
-var<storage, read_write> places: Places;
-
-fn place_of(slot: u32) -> Fraction { return places.elements[slot]; }

@@ -1,11 +1,53 @@
-// What crosses the faces: the owner of each computes it once, rounds it to integers, and hands it to both cells with
-// opposite signs. So momentum, mass and energy are constant to the last bit.
-override IMPULSE_STEPS: f32; // units of momentum in one
-override MASS_STEPS: f32;    // units of mass in one
-override ENERGY_STEPS: f32;  // units of energy in one
+// What crosses the faces of Voronoi cells: the owner of each face computes it once, rounds it to integers, and adds it to both
+// cells with opposite signs. So momentum, mass and energy are constant to the last bit.
+override IMPULSE_STEPS: f32; // integer units in a unit of momentum
+override MASS_STEPS: f32;    // integer units in a unit of mass
+override ENERGY_STEPS: f32;  // integer units in a unit of energy
 
 const EXCHANGED_UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
 
+// The functions below give what comes into `mine` through a face in the step, and change sign under exchange of the two cells
+// but for rounding, which does not matter: one cell computes for both. Their plans are in src/families/voronoi/plan/exchange.rs
+// and mod.rs.
+
+// Slots voronoi/twist and voronoi/form: how pressures act. `twist` is the way from the middle between the cells to that of the
+// face, over their distance: even under exchange. Default: off, no pressure acts in this part of the step. Variants of
+// voronoi/form: gradient (constant mass), exchange (mass crosses the faces), whose rate and density are those of slot
+// voronoi/turning: consistent, paper. The plan follows the form of the scene.
+fn twist_of(face: u32, facet: Facet) -> Vector { return Vector(0.0); }
+fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 { return 0.0; }
+fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
+fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
+
+// Slot voronoi/sweep: the twist that limits let pass, by means of slot voronoi/turn_bound. Default: off, faces turn as they do.
+// For the form gradient the plan chooses `limited` if cells keep energy, `bounded` if they have a temperature.
+fn limited_twist(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return twist; }
+
+// Slot voronoi/swept_energy: the part of the mass whose internal energy the limit lets pass, even under exchange.
+// Default: off, mass carries no energy that is kept. The plan chooses `limited` if cells keep energy and exchange mass.
+fn part_within_energy(wanted: f32, mine: Side, theirs: Side) -> f32 { return 1.0; }
+
+// Slot voronoi/rubbing: the impulse of friction, odd under exchange. Default: off, no friction acts in this part of the step.
+// The plan chooses `viscous`.
+fn rubbing_impulse(facet: Facet, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
+
+// Slot voronoi/random_impulse: its random part, odd under exchange. Default: off, friction without a temperature has no noise.
+// The plan chooses `thermal`.
+fn random_face_impulse(facet: Facet, mine: u32, theirs: u32, temperature: f32) -> Vector { return Vector(0.0); }
+
+// Slot voronoi/conduction: heat, conducted and random, odd under exchange. Default: off, no heat is conducted in this part of
+// the step. The plan chooses `heat`.
+fn conducted_heat(facet: Facet, mine: Side, theirs: Side) -> f32 { return 0.0; }
+
+// Slot voronoi/energy: energy of impulse, mass and heat. Default: off, cells keep no energy. The plan chooses `kept` if they do.
+fn energy_through(facet: Facet, twist: Vector, impulse: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
+
+// Slot voronoi/limit: `limited` gives how much of what is wanted may cross a face, odd under exchange, and `report_cuts` counts
+// how often that was less. Default: off, nothing that crosses a face can run out. The plan chooses `counted`.
+fn report_cuts() {}
+
+// Computes what crosses the faces that a cell owns. One invocation a cell; reads particles and faces, adds integer units to
+// both cells of a face in `exchanges`.
 @compute @workgroup_size(WORKGROUP)
 fn exchange_through_faces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -39,30 +81,3 @@ fn exchange_through_faces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(
     raise(select(FAILURE_IMPULSE, 0u, fits));
     report_cuts();
 }
-
-// No heat is conducted in this part of the step.
-fn conducted_heat(facet: Facet, mine: Side, theirs: Side) -> f32 { return 0.0; }
-
-// Nobody keeps account of energies.
-fn energy_through(facet: Facet, twist: Vector, impulse: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
-
-// No pressure acts in this part of the step.
-fn twist_of(face: u32, facet: Facet) -> Vector { return Vector(0.0); }
-fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 { return 0.0; }
-fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
-fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
-
-// Faces turn as they do.
-fn limited_twist(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return twist; }
-
-// No friction acts in this part of the step.
-fn rubbing_impulse(facet: Facet, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
-
-// Nothing that crosses a face can run out.
-fn report_cuts() {}
-
-// Mass carries no energy that anybody keeps account of.
-fn part_within_energy(wanted: f32, mine: Side, theirs: Side) -> f32 { return 1.0; }
-
-// Without a temperature friction has no noise.
-fn random_face_impulse(facet: Facet, mine: u32, theirs: u32, temperature: f32) -> Vector { return Vector(0.0); }

@@ -22,14 +22,14 @@ fn face_word(slot: u32, image: vec2<i32>) -> u32 {
 fn separation_across(me: Fraction, other: Fraction, word: u32) -> Vector {
     return (Vector(signed(me - other)) - 4294967296.0 * Vector(image_of(word))) * unit_lengths();
 }
-// The direction that goes with e = (r_k - r_l) / r: seen from the other side both turn round.
+// The direction that goes with e = (r_k - r_l) / r: odd under exchange, like e.
 fn tangent(e: Vector) -> Vector { return Vector(-e.y, e.x); }
 
-// Of the two cells at a face one reckons what crosses it, by their numbers: the smaller of an odd sum, the larger of an
-// even one. Nothing crosses between a cell and its own image.
+// Which of the two cells at a face computes what crosses it, by their ids: the smaller if the sum is odd, the larger if it is
+// even. Nothing crosses between a cell and its own image.
 fn owns_face(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
 
-// The image of the larger number seen from the smaller one: both ends find the same code.
+// The image of the larger id seen from the smaller one: both ends find the same code.
 fn common_image(id: u32, other_id: u32, me: Fraction, other: Fraction, word: u32) -> u32 {
     // Exactly half a box away the shortest separation has the same sign from both sides.
     let half = signed(me - other) == Steps(i32(-2147483647) - 1);
@@ -42,7 +42,7 @@ struct Facet {
     direction: Vector, // e, from the neighbour to the cell
     distance: f32,     // r
     length: f32,       // l
-    image: u32,        // that both cells find
+    image: u32,        // the same code from both cells
 }
 
 fn facet_of(face: u32, word: u32, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
@@ -52,9 +52,8 @@ fn facet_of(face: u32, word: u32, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
     return Facet(apart / distance, distance, face_lengths[face], image);
 }
 
-
-// Two independent standard Gaussian numbers of a face, the same from either cell. `part`
-// tells the draws of a face from each other, and the image the faces of a pair.
+// Two independent standard Gaussian numbers of a face, the same from either cell. `part` distinguishes the draws of a face, the
+// image the faces of a pair.
 fn face_noise(mine: u32, theirs: u32, image: u32, part: u32) -> vec2<f32> {
     let counters = vec2<u32>(min(mine, theirs) | (image << 28u), max(mine, theirs) | (part << 28u));
     return two_gaussians_of(pair_words(noise_key, counters));

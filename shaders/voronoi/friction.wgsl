@@ -1,6 +1,14 @@
-// What the conjugate gradients of the friction have come to: Chronopoulos and Gear, doi:10.1016/0377-0427(89)90045-9,
-// whose iterations need a single sum over all cells. Sums are of single precision, in an order that depends on nothing but
-// where the cells are.
+// Implicit friction by conjugate gradients: Chronopoulos and Gear, doi:10.1016/0377-0427(89)90045-9, whose iterations need a
+// single sum over all cells. Sums are of single precision, in an order that depends on nothing but where the cells are.
+//
+// The equations of Crank and Nicolson's friction: for the mean W of the velocities U before and after it,
+// (2M + dt G) W = 2MU + J with the friction G and the random impulses J. For few cells one workgroup makes all iterations
+// (`friction_solve`); else every iteration is three kernels (src/families/voronoi/plan/friction.rs).
+override CELL_GROUPS: u32; // workgroups that sum the right-hand side
+override TOLERANCE: f32;
+override ITERATIONS: u32;
+
+// The state of the iterations.
 struct Solver {
     key: vec2<u32>,   // of the step's random words
     iterations: u32,
@@ -13,6 +21,16 @@ struct Solver {
     sums: array<vec4<f32>>, // of each workgroup: squares of residual, its image, and the right-hand side
 }
 var<storage, read_write> solver: Solver;
+
+// The inverse of a cell's own block of the equations, and 2M.
+var<storage, read_write> preconditioners: array<vec4<f32>>;
+// What neighbours read of a cell in an iteration. Its place is kept as words: their bits might not survive as a real number.
+struct Search { residual: Vector, place: Fraction } // the preconditioned residual
+var<storage, read_write> searches: array<Search>;
+// The image of each search, where iterations are kernels.
+var<storage, read_write> images: array<vec2<f32>>;
+// The last direction of search of a cell, and its image; in `friction_solve` images follow them.
+var<storage, read_write> directions: array<vec4<f32>>;
 
 // Sums of single precision over a workgroup, always in the same order.
 const LANES: u32 = 64u;
@@ -28,19 +46,13 @@ fn sum_of_lanes(lane: u32, value: vec4<f32>) -> vec4<f32> {
     return solver_lane_sums[0];
 }
 
-// What a cell shows its neighbours in an iteration. Where it is are words: their bits as a real number might not survive.
-struct Search { residual: Vector, place: Fraction } // the residual preconditioned
+// Whether an iteration is needed, for all lanes alike: what lies in storage may look different to each.
+var<workgroup> running: u32;
 
 // The inverse of a cell's own 2 by 2 block of the equations, xx, xy, yy, times a vector.
 fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
     return Vector(inverse.x * v.x + inverse.y * v.y, inverse.y * v.x + inverse.z * v.y);
 }
-
-// Sets up the equations of friction; the velocities before it are the first guess.
-// The equations of Crank and Nicolson's friction: for the mean W of the velocities U before and after it,
-// (2M + dt G) W = 2MU + J with the friction G and the random impulses J.
-var<storage, read_write> preconditioners: array<vec4<f32>>; // inverse of a cell's block; 2M
-var<storage, read_write> searches: array<Search>;
 
 // The image of the preconditioned residual.
 fn image_of_search(slot: u32, mine: Search) -> Vector {
@@ -66,7 +78,7 @@ fn products_of(slot: u32, mine: Search, image: Vector) -> vec4<f32> {
 // A step along the direction of search, from the last one with its image, which is returned.
 fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
     let search = searches[slot];
-    // What is left of an earlier step need not be a number.
+    // What an earlier step has left need not be a number.
     let direction = vec4<f32>(search.residual, image) + select(vec4<f32>(0.0), solver.turn * last, solver.turn != 0.0);
     let length = vec4<f32>(vec2<f32>(solver.step_length), vec2<f32>(-solver.step_length));
     let estimate = estimates[slot] + length * direction;
@@ -76,10 +88,6 @@ fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
 }
 
 // Whether another iteration is needed, and how far it goes.
-override CELL_GROUPS: u32; // workgroups that have left sums of the right-hand side
-override TOLERANCE: f32;
-override ITERATIONS: u32;
-
 fn judge(sums: vec4<f32>) {
     let first = solver.iterations == 0u;
     if (first) { solver.scale = sums.z; }
@@ -99,68 +107,7 @@ fn judge(sums: vec4<f32>) {
     }
 }
 
-// Begins to solve for the velocities after friction.
-@compute @workgroup_size(1)
-fn friction_begin() {
-    solver.key = clock_key();
-    solver.iterations = 0u;
-    solver.running = 1u;
-    solver.residual = 0.0;
-    demand_iterations();
-}
-
-// The second half of an iteration: a step along its direction of search.
-// The first half of an iteration: images of the preconditioned residuals, and the sums that it needs.
-var<storage, read_write> images: array<vec2<f32>>;
-
-@compute @workgroup_size(LANES)
-fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let slot = group * LANES + lane;
-    var products = vec4<f32>(0.0);
-    if (slot < PARTICLES) {
-        let mine = searches[slot];
-        let image = image_of_search(slot, mine);
-        images[slot] = image;
-        products = products_of(slot, mine, image);
-    }
-    let sum = sum_of_lanes(lane, products);
-    // The sum of the right-hand side stays.
-    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = vec4<f32>(sum.xy, solver.sums[group].zw); }
-}
-
-// Whether another iteration is needed, for all lanes alike: what lies in storage may look different to each.
-// Adds up the sums of an iteration, and leaves the kernels of the next without workgroups if none is needed.
-// Whether this iteration is needed, for all lanes alike: what lies in storage may look different to each.
-var<workgroup> running: u32;
-
-@compute @workgroup_size(LANES)
-fn friction_judge(@builtin(local_invocation_index) lane: u32) {
-    if (lane == 0u) { running = solver.running; }
-    if (workgroupUniformLoad(&running) == 0u) { return; }
-    var own = vec4<f32>(0.0);
-    for (var group = lane; group < CELL_GROUPS; group += LANES) { own += solver.sums[group]; }
-    let sums = sum_of_lanes(lane, own);
-    if (lane == 0u) {
-        judge(sums);
-        if (solver.running == 0u) {
-            for (var axis = 0u; axis < 3u; axis++) { demands[3u + axis] = 0u; }
-        }
-    }
-}
-
-
-@compute @workgroup_size(LANES)
-fn friction_setup(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let slot = group * LANES + lane;
-    var square = 0.0;
-    if (slot < PARTICLES) { square = set_up(slot); }
-    let sum = sum_of_lanes(lane, vec4<f32>(0.0, 0.0, square, 0.0));
-    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = sum; }
-}
-
-// Returns the square of the right-hand side.
+// Sets up the equations of a cell; returns the square of the right-hand side.
 fn set_up(slot: u32) -> f32 {
     prepare_noise();
     let me = stored_particle(slot);
@@ -193,9 +140,34 @@ fn set_up(slot: u32) -> f32 {
     return dot(right, preconditioned(inverse, right));
 }
 
-// All iterations in one workgroup: of few cells there is less to compute than to dispatch.
-var<storage, read_write> directions: array<vec4<f32>>; // of search, and its image; images behind them
+// Slot voronoi/friction_iterations: makes the kernels of the iterations run.
+// Default: off, iterations are those of a loop. The plan chooses `demanded` where they are kernels.
+fn demand_iterations() {}
 
+// Begins to solve for the velocities after friction. One invocation; writes `solver`.
+@compute @workgroup_size(1)
+fn friction_begin() {
+    solver.key = clock_key();
+    solver.iterations = 0u;
+    solver.running = 1u;
+    solver.residual = 0.0;
+    demand_iterations();
+}
+
+// Sets up the equations; the velocities before friction are the first guess. One invocation a cell; reads particles and faces,
+// writes `preconditioners`, `estimates`, `searches` and the sums of the right-hand side.
+@compute @workgroup_size(LANES)
+fn friction_setup(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * LANES + lane;
+    var square = 0.0;
+    if (slot < PARTICLES) { square = set_up(slot); }
+    let sum = sum_of_lanes(lane, vec4<f32>(0.0, 0.0, square, 0.0));
+    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = sum; }
+}
+
+// All iterations in one workgroup: for few cells computing costs less than dispatching. A lane takes every 64th cell; updates
+// `estimates`, `searches` and `directions`.
 @compute @workgroup_size(LANES)
 fn friction_solve(@builtin(local_invocation_index) lane: u32) {
     var right = 0.0;
@@ -222,13 +194,45 @@ fn friction_solve(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
+// The first part of an iteration: images of the preconditioned residuals, and the sums that it needs. One invocation a cell;
+// reads `searches` and faces, writes `images` and `solver.sums`.
+@compute @workgroup_size(LANES)
+fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * LANES + lane;
+    var products = vec4<f32>(0.0);
+    if (slot < PARTICLES) {
+        let mine = searches[slot];
+        let image = image_of_search(slot, mine);
+        images[slot] = image;
+        products = products_of(slot, mine, image);
+    }
+    let sum = sum_of_lanes(lane, products);
+    // The sum of the right-hand side stays.
+    if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = vec4<f32>(sum.xy, solver.sums[group].zw); }
+}
 
+// The second part: adds up the sums, and leaves the kernels of the next iteration without workgroups if none is needed. One
+// workgroup; updates `solver` and `demands`.
+@compute @workgroup_size(LANES)
+fn friction_judge(@builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) { running = solver.running; }
+    if (workgroupUniformLoad(&running) == 0u) { return; }
+    var own = vec4<f32>(0.0);
+    for (var group = lane; group < CELL_GROUPS; group += LANES) { own += solver.sums[group]; }
+    let sums = sum_of_lanes(lane, own);
+    if (lane == 0u) {
+        judge(sums);
+        if (solver.running == 0u) {
+            for (var axis = 0u; axis < 3u; axis++) { demands[3u + axis] = 0u; }
+        }
+    }
+}
+
+// The last part: a step along the direction of search. One invocation a cell; updates `estimates`, `searches` and `directions`.
 @compute @workgroup_size(LANES)
 fn friction_step(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * LANES + lane;
     if (slot >= PARTICLES) { return; }
     directions[slot] = step_along(slot, images[slot], directions[slot]);
 }
-
-// Iterations are those of a loop.
-fn demand_iterations() {}

@@ -1,6 +1,6 @@
 // Whether a particle is within the circle through three others, exactly: integers of several words, in two's complement.
 //
-// Separations are integers of 34 bits, and so are all terms up to one thing: a unit of y is not as long as one of x. Of
+// Separations are integers of 34 bits, and so are all terms but for one thing: a unit of y is not as long as one of x. Of
 // their squares the lengths are in the ratio of WEIGHT_Y to WEIGHT_X, whole numbers of two words each. A cross product then
 // has 67 bits with its sign, a squared length 130, and the sum of three of their products 199. No loops but one: software
 // adapters count them.
@@ -13,7 +13,7 @@ override WEIGHT_Y_HIGH: u32;
 alias Norm = array<u32, 5>;
 alias Sum = array<u32, 7>;
 
-// sum + a b + carry, and what is carried on.
+// sum + a b + carry, and the new carry.
 fn multiply_add(sum: u32, a: u32, b: u32, carry: u32) -> vec2<u32> {
     let a_high = a >> 16u;
     let b_high = b >> 16u;
@@ -28,7 +28,7 @@ fn multiply_add(sum: u32, a: u32, b: u32, carry: u32) -> vec2<u32> {
     return vec2<u32>(total, high + select(0u, 1u, first < sum) + select(0u, 1u, total < carry));
 }
 
-// a + b + carry, and what is carried on.
+// a + b + carry, and the new carry.
 fn add_carried(a: u32, b: u32, carry: u32) -> vec2<u32> {
     let first = a + b;
     let total = first + carry;
@@ -85,7 +85,7 @@ fn add_product(sum: Sum, norm: Norm, factor: vec3<u32>) -> Sum {
     return Sum(a[0], b[0], c[0], d.x, e.x, f.x, c[4] + select(0u, ~norm[3], negative) + f.y);
 }
 
-// A component of the separation from a site: a circle turned half round is still one.
+// A component of the separation from a site: a circle turned by half a turn is still one.
 fn component(steps: i32, image: i32) -> vec3<u32> {
     let high = (steps >> 31u) - image;
     return vec3<u32>(bitcast<u32>(steps), bitcast<u32>(high), bitcast<u32>(high >> 31u));

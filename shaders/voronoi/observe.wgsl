@@ -1,14 +1,5 @@
-// The report of every cell: sums of its motion, mass, volume and what its equation of state gives.
-override VOLUME_STEPS: f32;    // and in a volume
-
-@compute @workgroup_size(WORKGROUP)
-fn observe_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let slot = group * WORKGROUP + lane;
-    if (slot < PARTICLES) { observe_cell(slot); }
-    if (slot == 0u) { observe_run(); }
-    total_reduce(group, lane);
-}
+// The report of Voronoi cells: sums of motion, mass, volume and what the equation of state gives.
+override VOLUME_STEPS: f32;    // quanta of the sum in a volume
 
 fn observe_cell(slot: u32) {
     let me = stored_particle(slot);
@@ -24,11 +15,23 @@ fn observe_cell(slot: u32) {
     note_report(me);
 }
 
-// A gas at the temperature of the scene that exchanges mass has no potential.
+// Slot voronoi/gas_report: what the equation of state gives. The plan chooses `isothermal` or `energy`.
+// Default: off, a gas at the temperature of the scene that exchanges mass has no potential.
 fn observe_gas(cell: Particle, volume: f32) {}
 
-// Steps that solve for nothing and limit nothing have nothing more to report.
+// Slot voronoi/run_report: what the run counts. The plan chooses `limits` if there are any, `solver` if friction is solved for.
+// Default: off, neither.
 fn observe_run() {}
 
-// No analysis asks for cells by their numbers.
+// Slot voronoi/note: keeps a cell by id. Default: off, no analysis needs cells by id. The plan chooses `by_id`.
 fn note_report(cell: Particle) {}
+
+// Sums what is observed of the cells. One invocation a cell; reads particles, `volumes` and `face_counts`, writes `partial_sums`.
+@compute @workgroup_size(WORKGROUP)
+fn observe_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let slot = group * WORKGROUP + lane;
+    if (slot < PARTICLES) { observe_cell(slot); }
+    if (slot == 0u) { observe_run(); }
+    total_reduce(group, lane);
+}

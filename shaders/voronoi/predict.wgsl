@@ -1,5 +1,14 @@
-// What is to come of an exchange: the mean velocity of before and after it, at which impulses do their work, and the
+// A prediction of an exchange: the mean velocity of before and after it, at which impulses do their work, and the
 // pressure in the middle of it. Neither has to be exact for anything to be conserved.
+
+// Slot voronoi/middle: the pressure that an exchange of heat is expected to have in the middle.
+// Default: that of the internal energy halfway. The plan chooses `start` for explicit steps.
+fn middle_pressure(cell: Particle, pressure: f32, volume: f32, heat: f32) -> f32 {
+    return pressure_at(internal_energy_of(cell) + 0.5 * heat, volume);
+}
+
+// Predicts the exchange of a cell from the impulses of all its faces: slots as in voronoi/exchange. One invocation a cell; reads
+// particles and faces, writes `predictions`.
 @compute @workgroup_size(WORKGROUP)
 fn predict_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -32,9 +41,4 @@ fn predict_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
     let volume = volumes[slot];
     predictions[slot] =
         vec4<f32>(0.5 * (mine.velocity + after), middle_pressure(me, mine.pressure, volume, heat), volume);
-}
-
-// The pressure halfway through an exchange of heat.
-fn middle_pressure(cell: Particle, pressure: f32, volume: f32, heat: f32) -> f32 {
-    return pressure_at(internal_energy_of(cell) + 0.5 * heat, volume);
 }

@@ -1,10 +1,10 @@
-// Particles around the one whose cell is made, and where they are from there.
+// Particles around the one whose cell is made, their displacements, and the corners of the cell.
 //
 // Lengths are in units of the mean distance of particles, so that single precision is enough for any box.
 override SPACING: f32;
 
 struct Site {
-    word: u32,         // slot and image, as `face.wgsl` packs them
+    word: u32,         // slot and image, as `face_word` packs them
     steps: Steps,      // shortest separation, from the site to the particle of the cell
     away: Vector,      // displacement to the site in units of 2^-32 of the box, with the image's boxes
 }
@@ -12,7 +12,6 @@ struct Site {
 var<private> home: Fraction;
 
 fn scale() -> Vector { return unit_lengths() / SPACING; }
-
 fn site_with(word: u32, steps: Steps) -> Site {
     return Site(word, steps, 4294967296.0 * Vector(image_of(word)) - Vector(steps));
 }
@@ -25,9 +24,9 @@ fn between(a: Site, b: Site) -> Vector {
     return near + 4294967296.0 * round((b.away - a.away - near) * (1.0 / 4294967296.0));
 }
 
-// Corners of Voronoi cells, and how well they are known.
+// The blur of a corner of which nothing is known.
 const UNKNOWN: f32 = 1e15;
-// Further than any corner, however blurred, and its square.
+// Further than any corner, however blurred.
 const EVERYWHERE: f32 = 1e18;
 // Half the distance from 1 to the next larger number.
 const ROUNDING: f32 = 5.9604645e-8;

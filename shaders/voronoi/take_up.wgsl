@@ -1,6 +1,17 @@
-// Every cell takes up what came through its faces.
+// Voronoi cells take up what came through their faces: slot voronoi/change, see voronoi/cell.
 const UNITS_LIMIT: i32 = 1073741824; // 2^30
 
+// Slot voronoi/motion: the position after the exchange, from the velocity before it or after it.
+// Default: off, cells stay where they are in this part of the step. The plan chooses `before` (explicit) or `after` (split
+// steps).
+fn moved(cell: Particle, before: Vector) -> vec4<u32> { return cell.position; }
+
+// Slot voronoi/energy_check: raises a failure if the internal energy is negative.
+// Default: off, cells at the temperature of the scene have no energy of their own. The plan chooses `kept` if they do.
+fn check_energy(cell: Particle) {}
+
+// Every cell takes up what came through its faces. One invocation a cell; reads and clears `exchanges` or `pushes`, updates the
+// particle.
 @compute @workgroup_size(WORKGROUP)
 fn take_up_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -17,9 +28,3 @@ fn take_up_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
     me.position = moved(me, before);
     store_particle(slot, me);
 }
-
-// Cells stay where they are in this part of the step.
-fn moved(cell: Particle, before: Vector) -> vec4<u32> { return cell.position; }
-
-// Cells at the temperature of the scene have no energy of their own.
-fn check_energy(cell: Particle) {}

@@ -2,86 +2,17 @@
 // its own images, cut along the bisectors of the particles around it until none further away can cut it. The others are left
 // to `tessellate_exactly`.
 
-// Particles that are looked at before those that have found a bisector go on to cut.
+// Particles that are examined before the lanes that have found a bisector go on to cut.
 const TURNS: u32 = 4u;
-// Particles that are looked at in all.
+// Particles that are examined in all.
 const PATIENCE: u32 = 2000u;
 
 var<private> looked_at: u32;
 
-// Looks for a bisector that cuts the polygon.
-fn look_around() -> bool {
-    var found = false;
-    for (var turn = 0u; turn < TURNS && !found && !finished; turn++) {
-        if (other >= end) { next_stretch(); }
-        if (other < end) {
-            let word = face_word(other, vec2<i32>(0));
-            let steps = signed(home - place_of(other));
-            let away = -Vector(steps);
-            let d = away * scale();
-            let squared = dot(d, d);
-            other += 1u;
-            if (squared < reach && squared > 0.0) { found = cuts_few(Site(word, steps, away), squared); }
-        }
-        looked_at += 1u;
-    }
-    return found;
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn tessellate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (slot >= PARTICLES) { return; }
-    home = place_of(slot);
-    begin_polygon(slot);
-    begin_rows();
-    doubtful = min(CELLS_X, CELLS_Y) < LEAST_CELLS;
-    looked_at = 0u;
-    loop {
-        if (doubtful || finished) { break; }
-        let found = look_around();
-        doubtful = doubtful || looked_at > PATIENCE;
-        if (found && !doubtful) { cut(); }
-    }
-    store_faces(slot);
-    // A loop, not a branch, for the sake of the atomic.
-    for (var pending = doubtful; pending; pending = false) {
-        places.elements[PARTICLES + atomicAdd(&places.doubtful, 1u)] = vec2<u32>(slot, 0u);
-    }
-}
-
-fn store_faces(slot: u32) {
-    if (doubtful) { return; }
-    var volume = 0.0;
-    var begin = bitcast<Vector>(vec2<u32>(one_of(xs, sides - 1u), one_of(ys, sides - 1u)));
-    for (var i = 0u; i < sides; i++) {
-        let word = words.a.x;
-        let corner = bitcast<Vector>(vec2<u32>(xs.a.x, ys.a.x));
-        let there = site_with(word, bitcast<Steps>(vec2<u32>(steps_x.a.x, steps_y.a.x))).away * scale();
-        let distance = length(there);
-        let normal = there / distance;
-        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
-        let element = i * PARTICLES + slot;
-        face_words[element] = word;
-        face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
-        volume += 0.25 * face_length * distance;
-        begin = corner;
-        // The next side comes first.
-        xs = corners_turned(xs);
-        ys = corners_turned(ys);
-        words = corners_turned(words);
-        steps_x = corners_turned(steps_x);
-        steps_y = corners_turned(steps_y);
-    }
-    face_counts[slot] = sides;
-    volumes[slot] = volume * SPACING * SPACING;
-}
-
-// A convex polygon of at most twelve corners in registers: no index but is known to the compiler, and no branch. It knows
+// A convex polygon of at most twelve corners in registers: every index is known to the compiler, and there is no branch. It knows
 // when it does not know which side of a bisector a corner is on.
 //
-// Side i, counter-clockwise, ends at corner i, where side i + 1 begins. With every corner goes its blur: the radius of the
+// Side i, counter-clockwise, ends at corner i, where side i + 1 begins. Every corner has a blur: the radius of the
 // circle around it within which the true one certainly is. Beyond the last corner all is zero, which no bisector cuts off.
 const MOST: u32 = 12u;
 // A word of every corner.
@@ -89,7 +20,7 @@ struct Twelve { a: vec4<u32>, b: vec4<u32>, c: vec4<u32> }
 var<private> xs: Twelve;
 var<private> ys: Twelve;
 var<private> corner_blurs: Twelve;
-// The sites of the sides: as faces are named, and their separations, for memory is slow.
+// The sites of the sides: as faces are named, and their separations, because memory is slow.
 var<private> words: Twelve;
 var<private> steps_x: Twelve;
 var<private> steps_y: Twelve;
@@ -98,7 +29,7 @@ var<private> sides: u32;
 var<private> reach: f32;
 var<private> doubtful: bool;
 
-// The bisector that is looked at, and the corners beyond it, a bit each.
+// The bisector that is examined, and the corners beyond it, a bit each.
 var<private> site: Site;
 var<private> beyond: u32;
 
@@ -199,7 +130,7 @@ fn widest_of(blur: vec4<u32>) -> f32 {
     return max(max(width.x, width.y), max(width.z, width.w));
 }
 
-// Cuts the corners beyond the bisector off.
+// Cuts off the corners beyond the bisector.
 fn cut() {
     let wrapped = (beyond & 1u) != 0u && (beyond >> (sides - 1u)) == 1u;
     let left = ~beyond & ((1u << sides) - 1u);
@@ -211,7 +142,7 @@ fn cut() {
     let count = sides + 2u - gone;
     let cut_at = select(first, first - last - 1u, wrapped);
     let next = select(last + 1u, 0u, last + 1u == sides);
-    // More than there is room for, or (never in exact arithmetic) nothing left.
+    // Too many corners, or (never in exact arithmetic) none left.
     if (left == 0u || count > MOST || down > 7u) {
         doubtful = true;
         return;
@@ -234,12 +165,14 @@ fn cut() {
     reach = 4.00001 * far * far;
 }
 
-fn corners_turned(v: Twelve) -> Twelve { return Twelve(vec4<u32>(v.a.yzw, v.b.x), vec4<u32>(v.b.yzw, v.c.x), vec4<u32>(v.c.yzw, v.a.x)); }
+fn corners_turned(v: Twelve) -> Twelve {
+    return Twelve(vec4<u32>(v.a.yzw, v.b.x), vec4<u32>(v.b.yzw, v.c.x), vec4<u32>(v.c.yzw, v.a.x));
+}
 
 // The particles around one, in stretches of slots: rows of grid cells, first the nearest columns of every row, then
-// whatever else is within reach and no more than FARTHEST grid cells away.
+// whatever else is within reach and no more than FARTHEST_CELL grid cells away.
 const FARTHEST_CELL: i32 = 4;
-// Columns to both sides that come first in the particle's own row and the two beside it.
+// Columns to both sides that come first in the particle's own row and the rows above and below it.
 const NEAR: i32 = 2;
 // Stretches of all rows, before what is to the left and right of these columns.
 const SIDEWAYS: u32 = 9u;
@@ -248,7 +181,7 @@ const LEAST_CELLS: u32 = 12u;
 
 // Stretches begun so far.
 var<private> stretch: u32;
-// What is left of a stretch: columns, counted through from one box into the next, and the slots in hand.
+// What is left of a stretch: columns, counted through from one box into the next, and the current slots.
 var<private> row: u32;
 var<private> column: i32;
 var<private> last_column: i32;
@@ -301,7 +234,7 @@ fn next_row() {
     let side = min(beside, 1.0 - beside) - STRAY * columns;
     let near_margin = width * (f32(NEAR) + side);
     finished = sideways && (near_margin * near_margin >= reach || stretch >= SIDEWAYS + 6u);
-    // What is farther than the farthest rows and columns has not been looked for.
+    // Beyond the farthest rows and columns nothing has been searched.
     let up_or_down = min(above, 1.0 - above) - STRAY * rows;
     let margin = min(width * (f32(FARTHEST_CELL) + side), height * (f32(FARTHEST_CELL) + up_or_down));
     doubtful = doubtful || (finished && reach > margin * margin);
@@ -322,4 +255,75 @@ fn next_stretch() {
     other = cell_at(cell);
     end = select(other, cell_at(cell + select(0u, u32(stop - column), exists)), exists);
     column = select(column, stop, exists);
+}
+
+// Looks for a bisector that cuts the polygon.
+fn look_around() -> bool {
+    var found = false;
+    for (var turn = 0u; turn < TURNS && !found && !finished; turn++) {
+        if (other >= end) { next_stretch(); }
+        if (other < end) {
+            let word = face_word(other, vec2<i32>(0));
+            let steps = signed(home - place_of(other));
+            let away = -Vector(steps);
+            let d = away * scale();
+            let squared = dot(d, d);
+            other += 1u;
+            if (squared < reach && squared > 0.0) { found = cuts_few(Site(word, steps, away), squared); }
+        }
+        looked_at += 1u;
+    }
+    return found;
+}
+
+fn store_faces(slot: u32) {
+    if (doubtful) { return; }
+    var volume = 0.0;
+    var begin = bitcast<Vector>(vec2<u32>(one_of(xs, sides - 1u), one_of(ys, sides - 1u)));
+    for (var i = 0u; i < sides; i++) {
+        let word = words.a.x;
+        let corner = bitcast<Vector>(vec2<u32>(xs.a.x, ys.a.x));
+        let there = site_with(word, bitcast<Steps>(vec2<u32>(steps_x.a.x, steps_y.a.x))).away * scale();
+        let distance = length(there);
+        let normal = there / distance;
+        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
+        let element = i * PARTICLES + slot;
+        face_words[element] = word;
+        face_lengths[element] = face_length * SPACING;
+        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
+        volume += 0.25 * face_length * distance;
+        begin = corner;
+        // The next side comes first.
+        xs = corners_turned(xs);
+        ys = corners_turned(ys);
+        words = corners_turned(words);
+        steps_x = corners_turned(steps_x);
+        steps_y = corners_turned(steps_y);
+    }
+    face_counts[slot] = sides;
+    volumes[slot] = volume * SPACING * SPACING;
+}
+
+// Makes the cell of a particle. One invocation a particle, in the order of `places`; reads `places` and `cells`, writes the
+// faces and the volume of the cell, or adds its slot to those left to `tessellate_exactly`.
+@compute @workgroup_size(WORKGROUP)
+fn tessellate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot >= PARTICLES) { return; }
+    home = place_of(slot);
+    begin_polygon(slot);
+    begin_rows();
+    doubtful = min(CELLS_X, CELLS_Y) < LEAST_CELLS;
+    looked_at = 0u;
+    loop {
+        if (doubtful || finished) { break; }
+        let found = look_around();
+        doubtful = doubtful || looked_at > PATIENCE;
+        if (found && !doubtful) { cut(); }
+    }
+    store_faces(slot);
+    // A loop, not a branch: see `raise`.
+    for (var pending = doubtful; pending; pending = false) {
+        places.elements[PARTICLES + atomicAdd(&places.doubtful, 1u)] = vec2<u32>(slot, 0u);
+    }
 }

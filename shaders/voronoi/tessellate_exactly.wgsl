@@ -1,17 +1,54 @@
-// The Voronoi cell of every particle: the rectangle between its own images, cut along the bisectors of the particles around
-// it, ring by ring of grid cells, until none further away can cut it.
+// The Voronoi cells that need exact arithmetic or many corners: the rectangle between its own images, cut along the bisectors
+// of the particles around it, ring by ring of grid cells, until none further away can cut it.
 //
-// Particles of a subgroup go on together from one step of the work to the next: looking for a bisector that may cut, cutting,
+// Particles of a subgroup go on together from one phase of the work to the next: looking for a bisector that may cut, cutting,
 // and, rarely, deciding exactly.
-// The grid cell to look into next, as the distance from the particle's: on a ring around it, row by row.
+//
+// Slot voronoi/corners: where the polygon of a cell is kept: word, corner and blur of each side, at most CORNERS. Variants
+// private, stored; the plan chooses `stored` once a cell had too many corners. No default.
+
+// The grid cell to search next, as the distance from the particle's: on a ring around it, row by row.
 var<private> ring: i32;
 var<private> across: i32;
 var<private> along: i32;
-// What is left of the grid cell that is looked into, and how many boxes away it is.
+// What is left of the grid cell that is searched, and how many boxes away it is.
 var<private> candidate: u32;
 var<private> candidates_end: u32;
 var<private> boxes: vec2<i32>;
 var<private> search_finished: bool;
+
+// A convex polygon around a particle that is cut along bisectors. Side i, counter-clockwise, ends at corner i, where side
+// i + 1 begins. Every corner has a blur: the radius of the circle around it within which the true one certainly is.
+var<private> polygon_sides: u32;
+// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, because it is
+// updated as corners are examined.
+var<private> polygon_reach: f32;
+var<private> overflown: bool;
+
+// The bisector that is examined: its site, the unit vector towards it, and half the way.
+var<private> bisected_site: Site;
+var<private> direction: Vector;
+var<private> half: f32;
+
+// Corners that are examined at once, with indices known to the compiler: nearly every polygon has no more.
+const FEW: u32 = 12u;
+
+// A search along the corners for those to cut: first for one beyond the bisector, from the surest on, then to both sides of
+// it for more, among them those on it, so that no side without length is left.
+const SEARCHING: u32 = 0u;
+const FORWARD: u32 = 1u;
+const BACKWARD: u32 = 2u;
+const FOUND: u32 = 3u;
+var<private> phase: u32;
+var<private> corner: u32;
+var<private> tried: u32;
+var<private> first: u32;
+var<private> last: u32;
+var<private> gone: u32;
+// Single precision cannot decide where the corner is; where it is, once that is known.
+var<private> in_doubt: bool;
+var<private> known_place: i32;
+const NOT_KNOWN: i32 = 2;
 
 // Square of the distance to which a search through so many rings of grid cells is complete. Beyond a whole box on an axis
 // there is nothing on it.
@@ -66,7 +103,7 @@ fn next_particle() {
     }
 }
 
-// Looks through particles until the bisector of one may cut the polygon.
+// Examines particles until the bisector of one may cut the polygon.
 fn look_around_exactly() {
     loop {
         next_particle();
@@ -88,76 +125,6 @@ fn look_around_exactly() {
     }
 }
 
-fn make_cell(slot: u32) {
-    home = place_of(slot);
-    ring = 0;
-    across = 0;
-    along = 0;
-    candidate = 0u;
-    candidates_end = 0u;
-    search_finished = false;
-    begin_at(slot);
-    begin_exact_polygon(slot);
-    loop {
-        loop {
-            if (!in_doubt && known_place == NOT_KNOWN) {
-                look_around_exactly();
-                if (search_finished) { break; }
-                begin_search();
-            }
-            search();
-            if (in_doubt) { break; }
-            cut_exactly();
-        }
-        if (search_finished) { break; }
-        decide();
-    }
-    store_exact_faces(slot);
-    raise(select(0u, FAILURE_FRAMES, overflown));
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn tessellate_exactly(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let count = atomicLoad(&places.doubtful);
-    // The dispatch may be folded, and then has a few workgroups too many.
-    if (group < GROUPS) {
-        for (var entry = group * WORKGROUP + lane; entry < count; entry += GROUPS * WORKGROUP) {
-            make_cell(places.elements[PARTICLES + entry].x);
-        }
-    }
-    report_turns(workgroup.x >> 16u);
-}
-
-fn store_exact_faces(slot: u32) {
-    var volume = 0.0;
-    var begin = corner_at(polygon_sides - 1u);
-    for (var i = 0u; i < polygon_sides; i++) {
-        let word = side_word(i);
-        let corner = corner_at(i);
-        let there = site_of(word).away * scale();
-        let distance = length(there);
-        let normal = there / distance;
-        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
-        let element = i * PARTICLES + slot;
-        face_words[element] = word;
-        face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
-        volume += 0.25 * face_length * distance;
-        begin = corner;
-    }
-    face_counts[slot] = polygon_sides;
-    volumes[slot] = volume * SPACING * SPACING;
-}
-
-// A convex polygon around a particle that is cut along bisectors. Side i, counter-clockwise, ends at corner i, where side
-// i + 1 begins. With every corner goes its blur: the radius of the circle around it within which the true one certainly is.
-var<private> polygon_sides: u32;
-// Square of the distance beyond which no particle cuts the polygon: twice as far as the farthest corner; or more, for it is
-// brought up to date as corners are looked at.
-var<private> polygon_reach: f32;
-var<private> overflown: bool;
-
 fn after(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == polygon_sides); }
 fn before(index: u32) -> u32 { return select(index, polygon_sides, index == 0u) - 1u; }
 
@@ -176,18 +143,11 @@ fn begin_exact_polygon(slot: u32) {
     polygon_reach = EVERYWHERE * EVERYWHERE;
 }
 
-// The bisector that is looked at: its site, the unit vector towards it, and half the way.
-var<private> bisected_site: Site;
-var<private> direction: Vector;
-var<private> half: f32;
-
+// How far a corner is beyond the bisector.
 fn height(index: u32) -> f32 { return dot(corner_at(index), direction) - half; }
 
-// Corners that are looked at at once, with indices known to the compiler: nearly every polygon has no more.
-const FEW: u32 = 12u;
-
-// Takes up the bisector of a site and says whether it may cut the polygon. Brings the reach up to date, and finds the corner
-// that is surest beyond, if there are few.
+// Sets the bisector of a site and returns whether it may cut the polygon. Updates the reach, and finds the corner that is surest
+// beyond, if there are few.
 fn may_cut(there: Site, squared: f32) -> bool {
     bisected_site = there;
     let inverse = inverseSqrt(squared);
@@ -215,24 +175,7 @@ fn may_cut(there: Site, squared: f32) -> bool {
     return !all || highest > half;
 }
 
-// A search along the corners for those to cut: first for one beyond the bisector, from the surest on, then to both sides of
-// it for more, among them those on it, so that no side without length is left.
-const SEARCHING: u32 = 0u;
-const FORWARD: u32 = 1u;
-const BACKWARD: u32 = 2u;
-const FOUND: u32 = 3u;
-var<private> phase: u32;
-var<private> corner: u32;
-var<private> tried: u32;
-var<private> first: u32;
-var<private> last: u32;
-var<private> gone: u32;
-// Single precision cannot tell where the corner is; where it is, once that is known.
-var<private> in_doubt: bool;
-var<private> known_place: i32;
-const NOT_KNOWN: i32 = 2;
-
-// Of many corners it looks at all first, which `may_cut` has not done.
+// Of many corners it examines all first, which `may_cut` has not done.
 fn begin_search() {
     let many = polygon_sides > FEW;
     var surest = -4.0 * UNKNOWN;
@@ -300,7 +243,7 @@ fn decide() {
     in_doubt = false;
 }
 
-// Cuts the corners that were found off the polygon.
+// Cuts off the corners that were found.
 fn cut_exactly() {
     if (gone == 0u || gone == polygon_sides) { return; }
     if (polygon_sides + 2u - gone > CORNERS) {
@@ -310,7 +253,7 @@ fn cut_exactly() {
     let entry = meeting(site_of(side_word(first)), bisected_site);
     let leaving = meeting(bisected_site, site_of(side_word(after(last))));
     let first_word = side_word(first);
-    // What follows the cut moves up or down to leave room for two corners.
+    // What follows the cut moves up or down to make room for two corners.
     let wrapped = last < first;
     let up = !wrapped && gone == 1u;
     let shift = select(2 - i32(gone), -i32(last) - 1, wrapped);
@@ -327,4 +270,68 @@ fn cut_exactly() {
     polygon_sides = polygon_sides + 2u - gone;
     set_side(first, first_word, entry);
     set_side(first + 1u, bisected_site.word, leaving);
+}
+
+fn store_exact_faces(slot: u32) {
+    var volume = 0.0;
+    var begin = corner_at(polygon_sides - 1u);
+    for (var i = 0u; i < polygon_sides; i++) {
+        let word = side_word(i);
+        let corner = corner_at(i);
+        let there = site_of(word).away * scale();
+        let distance = length(there);
+        let normal = there / distance;
+        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
+        let element = i * PARTICLES + slot;
+        face_words[element] = word;
+        face_lengths[element] = face_length * SPACING;
+        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
+        volume += 0.25 * face_length * distance;
+        begin = corner;
+    }
+    face_counts[slot] = polygon_sides;
+    volumes[slot] = volume * SPACING * SPACING;
+}
+
+fn make_cell(slot: u32) {
+    home = place_of(slot);
+    ring = 0;
+    across = 0;
+    along = 0;
+    candidate = 0u;
+    candidates_end = 0u;
+    search_finished = false;
+    begin_at(slot);
+    begin_exact_polygon(slot);
+    loop {
+        loop {
+            if (!in_doubt && known_place == NOT_KNOWN) {
+                look_around_exactly();
+                if (search_finished) { break; }
+                begin_search();
+            }
+            search();
+            if (in_doubt) { break; }
+            cut_exactly();
+        }
+        if (search_finished) { break; }
+        decide();
+    }
+    store_exact_faces(slot);
+    raise(select(0u, FAILURE_FRAMES, overflown));
+}
+
+// Makes the cells that `tessellate` has left. One invocation several of them, GROUPS * WORKGROUP apart; reads `places` and
+// `cells`, writes the faces and the volumes of the cells.
+@compute @workgroup_size(WORKGROUP)
+fn tessellate_exactly(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let count = atomicLoad(&places.doubtful);
+    // The dispatch may be folded, and then has a few workgroups too many.
+    if (group < GROUPS) {
+        for (var entry = group * WORKGROUP + lane; entry < count; entry += GROUPS * WORKGROUP) {
+            make_cell(places.elements[PARTICLES + entry].x);
+        }
+    }
+    report_turns(workgroup.x >> 16u);
 }

@@ -1,4 +1,4 @@
-// What a histogram counts: the components of a vector from one axis up to another.
+// A histogram counts the components of a vector from one axis up to another.
 override FIRST_AXIS: u32;
 override END_AXIS: u32;
 

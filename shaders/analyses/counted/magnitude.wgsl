@@ -1,4 +1,4 @@
-// What a histogram counts: the magnitude of a vector, a single value.
+// A histogram counts the magnitude of a vector, a single value.
 const FIRST_AXIS: u32 = 0u;
 const END_AXIS: u32 = 1u;
 

@@ -1,4 +1,4 @@
-// The particles as they are stored.
+// The particles as they are stored, in a buffer.
 var<storage, read_write> particles: array<Particle>;
 
 fn stored_particle(slot: u32) -> Particle { return particles[slot]; }

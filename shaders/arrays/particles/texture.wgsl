@@ -1,4 +1,4 @@
-// The particles as they are stored, in a texture: of each a texel for its position and one for its momentum.
+// The particles as they are stored, in a texture: each has a texel for its position and one for its momentum.
 var particles: texture_storage_2d<rgba32uint, read_write>;
 
 fn stored_particle(slot: u32) -> Particle {

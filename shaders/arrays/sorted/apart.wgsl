@@ -1,5 +1,4 @@
-// Puts a particle among the sorted ones, its position and its momentum in textures of their own.
-// Particles ordered by cell, positions and momenta in textures of their own; where rows have frames, with those filled in.
+// Particles ordered by cell, positions and momenta in a texture each; where rows have frames, with those filled in.
 var sorted_positions: texture_storage_2d<rgba32uint, read_write>;
 var sorted_momenta: texture_storage_2d<rgba32uint, read_write>;
 
@@ -9,8 +8,6 @@ fn particle_at(index: u32) -> Particle { return Particle(position_at(index), mom
 fn keep_momentum(index: u32, word: vec4<i32>) {
     textureStore(sorted_momenta, texel(index), bitcast<vec4<u32>>(word));
 }
-
-
 fn put_sorted(index: u32, particle: Copied) {
     textureStore(sorted_positions, texel(index), copied_position(particle));
     textureStore(sorted_momenta, texel(index), copied_momentum(particle));

@@ -1,4 +1,4 @@
-// Particles ordered by cell; where rows have frames, with those filled in.
+// Particles ordered by cell, in a buffer; where rows have frames, with those filled in.
 var<storage, read_write> sorted: array<Particle>;
 
 fn particle_at(index: u32) -> Particle { return sorted[index]; }

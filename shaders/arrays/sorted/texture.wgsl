@@ -1,4 +1,4 @@
-// Particles ordered by cell, in a texture: of each a texel for its position and one for its momentum.
+// Particles ordered by cell, in a texture: each has a texel for its position and one for its momentum.
 var sorted: texture_storage_2d<rgba32uint, read_write>;
 
 fn position_at(index: u32) -> vec4<u32> { return textureLoad(sorted, texel(2u * index)); }

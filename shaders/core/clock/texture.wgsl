@@ -1,4 +1,5 @@
-// What kernels read of the clock, in a texel: step and key.
+// The clock as a texel that kernels read: step and key. Where software adapters load words lane by lane, a texel that every lane
+// reads costs less than a buffer.
 var clock: texture_storage_2d<rgba32uint, read_write>;
 
 fn clock_step() -> vec2<u32> { return textureLoad(clock, vec2<u32>(0u)).xy; }

@@ -1,2 +1,2 @@
-// A sort within a step: the clock stands still.
+// Off: a sort within a step leaves the clock as it is.
 fn begin_step() {}

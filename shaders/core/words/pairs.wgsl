@@ -1,5 +1,5 @@
-// How words lie in memory: in pairs, each loaded and stored at once. For adapters that do so lane by lane, at the same price
-// for eight bytes as for four.
+// Words lie in memory in pairs, each loaded and stored at once: adapters that do so lane by lane pay as much for eight bytes as
+// for four.
 alias Two = u64;
 struct Four { first: u64, second: u64 }
 

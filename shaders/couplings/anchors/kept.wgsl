@@ -1,5 +1,4 @@
-// Where the particles were when their neighbours were listed: who has come further than half the margin of the list asks
-// for a new one.
+// Positions when neighbours were listed: a particle that has moved further than half the margin of the list demands a new one.
 override SQUARED_REACH: f32; // of half the margin
 var<storage, read_write> anchors: array<vec4<u32>>;
 

@@ -1,4 +1,4 @@
-// A report looks at the baths of bonds and leaves them as they are.
+// A report reads the baths of bonds and leaves them as they are.
 fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) {
     if (kind.remembers) { observe_bath(bath * bath * kind.bath_energy, bath * bath * BATH_SQUARE); }
 }

@@ -1,4 +1,4 @@
-// Harmonic bonds.
+// Harmonic bonds, of any extension.
 fn stretch_of(kind: BondKind, distance: f32) -> Stretch {
     let extension = distance - kind.length;
     let pull = kind.stiffness * extension;

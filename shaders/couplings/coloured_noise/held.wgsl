@@ -1,5 +1,8 @@
-// A random force on every particle that is constant for random times: its impulses are integrals
-// over all jumps, wherever within a step they come. The law of the jumps is a module of its own.
+// A random force on every particle that is constant for random times, independent of the time step: its impulses are integrals
+// over all jumps, wherever within a step they come.
+//
+// Slot couplings/jump: `jump_of` gives the next force and how long it lasts, in half steps, from an id and the number of the
+// jump. Variants kangaroo, kangaroo_exponential, literal, short; the plan follows the process of the scene. No default.
 override HOLD_IMPULSE: f32; // impulse of half a step per force
 
 // Time is counted in half steps; `halves` whole ones and a `fraction` are left of the force.
@@ -13,7 +16,7 @@ var<storage, read_write> holds: array<Hold>;
 
 struct Jump { force: Vector, time: f32 }
 
-// Ends a loop whatever its data; a scene may ask for 256 jumps at most on average.
+// Ends a loop whatever its data; a scene may have at most 256 jumps on average.
 const MOST_JUMPS: u32 = 2048u;
 // The longest time that is kept, just below 2^32 half steps: no run lasts so long.
 const LONGEST_HOLD: f32 = 4294967040.0;
@@ -49,7 +52,7 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
     return impulse;
 }
 
-// Both half steps around this step: they end at it and begin with it.
+// The impulses of both half steps around this step: one ends at it, one begins with it.
 fn advance_hold(id: u32) -> Held {
     // Stored momenta of step 0 are full-step ones, and its process begins with it.
     let crossed = u32(1 + clock_closing());
@@ -68,14 +71,14 @@ fn advance_hold(id: u32) -> Held {
     holds[id].halves = left;
     return held;
 }
-// The half step that ends at this step alone, for a report: nothing is stored. At step 0 it is the one that begins with it,
-// which tells the force; the momentum is complete without it.
+// The impulse of the half step that ends at this step alone, for a report: nothing is stored. At step 0, where the momentum is
+// complete without it, it is that of the half step that begins there, which shows the force.
 fn closing_of_hold(id: u32) -> Steps {
     var hold = holds[id];
     return cross_half_step(id, &hold);
 }
 
-// Random words of the jumps of a coloured noise: they depend on the jump's number, not on the step.
+// Random words of a jump: they depend on the jump's number, not on the step.
 override JUMP_STREAM_X: u32; // key of the stream over all steps
 override JUMP_STREAM_Y: u32;
 

@@ -1,8 +1,9 @@
-// Bonded pairs are spared each other's repulsion: a row of partners for each particle, by number, filled up with its own.
+// Some listed pairs, such as bonded ones, are excluded from repulsion: their word says so.
 override EXCLUSIONS: u32; // partners in a row
+// By id a row of partners, filled up with the particle's own id.
 var<storage, read> exclusions: array<u32>;
 
-// The bit of a listed neighbour that says so.
+// The bit of a listed neighbour that marks an excluded pair.
 fn excluded(id: u32, other: u32) -> u32 {
     var bit = 0u;
     for (var partner = 0u; partner < EXCLUSIONS; partner++) {
@@ -11,5 +12,4 @@ fn excluded(id: u32, other: u32) -> u32 {
     return bit;
 }
 
-// Some listed pairs are spared their repulsion: their word says so.
 fn spared(neighbour: u32) -> bool { return (neighbour & ~NEIGHBOUR_MASK) != 0u; }

@@ -1,4 +1,4 @@
-// Impulses of half a step by the conservative forces alone, gathered for a report.
+// Three dimensions: impulses of half a step by the conservative forces alone, gathered for a report.
 var<storage, read_write> forces: array<i32>; // four words a slot
 
 fn add_force(slot: u32, force: Steps) {

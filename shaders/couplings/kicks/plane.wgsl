@@ -1,4 +1,4 @@
-// Impulses of half a step on every particle, gathered from all couplings: integers, so that their order does not matter.
+// Two dimensions, or one: impulses of half a step from all couplings, integers so that their order does not matter.
 var<storage, read_write> kicks: array<i32>; // four words a slot
 
 fn add_kick(slot: u32, kick: Steps) {

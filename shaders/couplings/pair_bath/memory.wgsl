@@ -1,8 +1,8 @@
-// The bath of a pair with exponential memory, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8. Of c the friction
-// is the response of the bath to its coupling function, and the noise its standard deviation at rest.
+// A bath with exponential memory on every pair, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8. Here c.friction is
+// the response of the bath to the coupling function, and c.noise its standard deviation in equilibrium.
 //
 // What is kept of a pair is q = e s - c phi and the step. Beyond the cutoff phi is zero and the bath is free: when the pair
-// meets again after k steps, all that it has missed is made up for in one draw.
+// meets again after k steps, one draw stands for all the steps between.
 override LOSS: f32;         // 1 - e
 override DECAY: f32;        // ln |e|
 override SPREAD: f32;       // root of 1 - e^2

@@ -1,4 +1,4 @@
-// Friction and noise of a pair without memory, added to the impulse of its repulsion.
+// Friction and noise of a pair without memory, added to its repulsion.
 fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
     return push + friction_impulse(c, contact, root, me, other) + random_impulse(c, root, me, other);
 }

@@ -1,4 +1,4 @@
-// A report looks at the baths of pairs in contact and leaves them as they are.
+// A report reads the baths of pairs in contact and leaves them as they are.
 override BATH_ENERGY: f32; // energy per square of the bath and inverse response, over its quantum
 
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {

@@ -1,5 +1,4 @@
 // A report of pairs: energy, virials, curvature, and the conservative forces themselves.
-// `repulsion` is the impulse at contact, `magnitude` that of all forces.
 fn note_pair(slot: u32, other_slot: u32, repulsion: f32, magnitude: f32, contact: Contact) {
     let push = repulsion * contact.w;
     total_add(1u, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));

@@ -1,4 +1,4 @@
-// Noise of the position baths: a Gaussian number for each coordinate of a particle.
+// Noise of position baths in three dimensions: a Gaussian number for each coordinate of a particle.
 override PARTICLE_STREAM_X: u32; // key of the stream over all steps
 override PARTICLE_STREAM_Y: u32;
 var<private> position_key: vec2<u32>;

@@ -1,4 +1,4 @@
-// A report of the baths on coordinates.
+// A report of the baths on coordinates: their energies and squares.
 fn note_position_bath(species: i32, bath: Vector) {
     for (var axis = 0u; axis < DIMENSION; axis++) {
         let square = bath[axis] * bath[axis];

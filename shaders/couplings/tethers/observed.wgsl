@@ -1,4 +1,4 @@
-// A report of tethers: energy, curvature, force. They are tied to what is fixed in space and add nothing to a pressure.
+// A report of tethers: energy, curvature, force. They are tied to points fixed in space and add nothing to a pressure.
 override TETHER_ENERGY: f32;    // energy per square of a length, over its quantum
 override TETHER_LAPLACIAN: f32; // second derivative of a tether, over its quantum
 

@@ -1,4 +1,4 @@
-// Particles that are copied as they are, in fours of words.
+// Particles are copied as they lie in the buffer, in fours of words.
 alias Copied = array<Four, 2>;
 var<storage, read_write> particles: array<Copied>;
 

@@ -1,4 +1,4 @@
-// Particles that are copied as they are, from where they are stored.
+// Particles are copied as kernels know them, from wherever they are stored.
 alias Copied = Particle;
 
 fn copied(index: u32) -> Copied { return stored_particle(index); }

@@ -1,4 +1,4 @@
-// Cells no narrower than the cutoff, in rows along x. An axis with room for fewer than three cells has one.
+// Two dimensions, or one: cells no narrower than the cutoff, in rows along x. An axis that is too short for three cells has one.
 fn rows() -> u32 { return CELLS_Y; }
 fn cell_along(fraction: u32, cells: u32) -> u32 {
     return min(u32(f32(fraction >> 8u) * (f32(cells) / 16777216.0)), cells - 1u);

@@ -1,3 +1,5 @@
+// Three dimensions: cells no narrower than the cutoff, in rows along x, rows of a layer one after the other. An axis that is
+// too short for three cells has one.
 override CELLS_Z: u32;
 
 fn rows() -> u32 { return CELLS_Y * CELLS_Z; }

@@ -1,4 +1,4 @@
-// Where each cell's particles begin in the sorted array, in rows along x that need no frames.
+// Rows of the mesh of shallow water, without frames.
 fn frame() -> u32 { return 0u; }
 fn row_width() -> u32 { return CELLS_X; }
 fn cell_index(row: u32, column: u32) -> u32 { return row * CELLS_X + column; }

@@ -1,7 +1,8 @@
-// Where each cell's particles begin in the sorted array, two cells of a row at a time.
-var<storage, read_write> cells: array<Two>;
+// Rows of the mesh of shallow water, whose cells are counted two at a time.
 
-// The work of one row in the prefix sum over cells without frames, two cells at a time.
+// Where each cell's particles begin.
+var<storage, read_write> cells: array<Two>;
+// Particles in each cell.
 var<storage, read_write> counts: array<Two>;
 
 // Particles in the row's cells, as many with its frame as without.

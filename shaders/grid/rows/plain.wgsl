@@ -1,5 +1,4 @@
-// Where each cell's particles begin in the sorted array, which holds every particle once.
-
+// Rows of cells without frames, of a sorted array that holds every particle once.
 fn frame() -> u32 { return 0u; }
 fn row_width() -> u32 { return CELLS_X; }
 fn cell_index(row: u32, column: u32) -> u32 { return row * CELLS_X + column; }

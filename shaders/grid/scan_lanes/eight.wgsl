@@ -1,4 +1,4 @@
-// An exclusive prefix sum over the lanes of a subgroup of eight, of two sums at once.
+// An exclusive prefix sum over the eight lanes of a subgroup, by shuffles.
 fn scan_of_lanes(lane: u32, value: vec2<u32>) -> vec2<u32> {
     var sum = value;
     sum += sum_of_earlier(lane, sum, 1u);

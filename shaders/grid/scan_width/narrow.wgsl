@@ -1,2 +1,2 @@
-// Lanes of a workgroup of the prefix sum: few, where they are taken one after the other and wait for each other at a price.
+// Few lanes: where they are executed one after the other, waiting for each other is expensive.
 const SCAN_LANES: u32 = 8u;

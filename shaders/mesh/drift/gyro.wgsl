@@ -1,4 +1,4 @@
-// Kick, gyration, kick: the exact flow of a free particle that the rotation bends into a circle.
+// Kick, gyration, kick: the exact flow of a free particle, whose path the rotation bends into a circle.
 override CHORD_X: f32;    // units of the box fraction per velocity unit, along the velocity …
 override CHORD_Y: f32;
 override SAGITTA_X: f32;  // … and across it

@@ -1,4 +1,4 @@
-// The particles of eight cells side by side, each with a bin: numbered through, cell after cell. Those that stay are counted
+// The particles of eight cells side by side, each with a bin, are numbered through, cell after cell. Those that stay are counted
 // across the lanes, so that each finds its place in its bin.
 struct Eight {
     ends: array<u32, 8>, // the first number that is not in this cell nor in one before

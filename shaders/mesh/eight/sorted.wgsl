@@ -1,4 +1,4 @@
-// The particles of eight cells side by side, where they are in order of their cells: one stretch.
+// The particles of eight cells side by side, in the order of their cells, are one stretch.
 struct Eight { begin: u32, count: u32 }
 
 fn opened_eight(bin: Bin) -> Eight {

@@ -1,6 +1,6 @@
-// The surface under the splines of order 3, for the cells of a strip: each lane loads one column of nodes, row after row, and
-// three lanes those beside them.
-var<private> own_nodes: vec4<f32>;    // of the nodes above each other
+// The surface under splines of order 3, for the cells of a strip: each lane loads one column of nodes, row after row, and
+// three lanes those outside the eight.
+var<private> own_nodes: vec4<f32>;    // on nodes above each other
 var<private> beside_nodes: vec4<f32>; // the column before the eight, and the two after it
 var<private> beside_column: u32;
 

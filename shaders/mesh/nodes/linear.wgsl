@@ -1,4 +1,4 @@
-// The surface under the splines of order 1, written out: loops that are kept as loops cost far more than they do.
+// The surface under splines of order 1, written out: loops that are kept as loops cost far more.
 
 // The surface on the nodes of a cell, [along x][along y].
 fn nodes_of(column: u32, row: u32) -> Square {

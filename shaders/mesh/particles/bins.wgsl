@@ -1,4 +1,4 @@
-// Particles in bins.
+// Particles in bins, in a buffer.
 var<storage, read_write> bins: array<StoredWater>;
 
 fn stored(index: u32) -> Water { return unpacked(bins[index]); }

@@ -1,4 +1,4 @@
-// Particles in bins of textures.
+// Particles in bins, in textures.
 var bins: texture_storage_2d<rgba32uint, read_write>;
 var bin_masses: texture_storage_2d<rg32uint, read_write>;
 

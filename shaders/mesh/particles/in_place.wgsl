@@ -1,4 +1,4 @@
-// Particles that stay where they lie, whatever their cells.
+// Particles stay where they lie, whatever their cells, in a buffer.
 var<storage, read_write> particles: array<StoredWater>;
 
 fn stored(index: u32) -> Water { return unpacked(particles[index]); }

@@ -1,4 +1,4 @@
-// Particles that stay where they lie, whatever their cells, in textures.
+// Particles stay where they lie, whatever their cells, in textures.
 var particles: texture_storage_2d<rgba32uint, read_write>;
 var particle_masses: texture_storage_2d<rg32uint, read_write>;
 

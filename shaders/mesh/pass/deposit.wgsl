@@ -1,9 +1,9 @@
-// Collects the particles of a cell and spreads them over the nodes under its splines.
+// Collects the particles of a cell and spreads their mass over the nodes under its splines.
 //
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
 
-// The most that the integers of a cell hold, and what stands for more: less than nothing, which the nodes notice.
+// The most that the integers of a cell hold, and what stands for more: a negative number that the nodes notice.
 const MOST_MASS: f32 = 2.1e9;
 const TOO_MUCH: i32 = i32(-2147483648);
 
@@ -14,7 +14,7 @@ fn visit_cell(cell: u32) {
     let bin = opened_bin(cell);
     collect(cell, bin);
     var k = 0u;
-    loop { // left at its end: see kernels/clusters
+    loop { // left at its end: see pairs/clusters
         if (k < bin.count) {
             let particle = stored(place_in(bin, k));
             total += f32(particle.mass);

@@ -1,9 +1,9 @@
 // Moves the particles of a cell by one step, from before the closing kick or, after a report, from the report point.
-override LEAST_DEPTH: f32; // less its mean
+override LEAST_DEPTH: f32; // as a deviation from the mean
 
 fn visit_cell(cell: u32) {
     let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
-    // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
+    // A negative depth, beyond what rounding makes of zero, has no waves, only instability; nor has NaN.
     let depth = depth_in_cell(cell, nodes);
     raise_at(select(FAILURE_DEPTH, 0u, is_number(depth) && depth > LEAST_DEPTH), cell);
     let polynomial = surface_of(nodes);

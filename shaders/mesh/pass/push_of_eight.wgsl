@@ -1,7 +1,7 @@
-// Moves the particles of eight cells by one step, eight at a time whichever their cells, from before the closing kick or, after a
-// report, from the report point.
-override LEAST_DEPTH: f32; // less its mean
-var<private> dry_cell: u32 = NO_CELL; // the first without a depth
+// Moves the particles of eight cells by one step, eight at a time regardless of their cells, from before the closing kick or,
+// after a report, from the report point.
+override LEAST_DEPTH: f32; // as a deviation from the mean
+var<private> dry_cell: u32 = NO_CELL; // the first whose depth is not positive
 
 fn of_lane(polynomial: Square, lane: u32) -> Square {
     return Square(subgroupShuffle(polynomial[0], lane), subgroupShuffle(polynomial[1], lane),
@@ -10,7 +10,7 @@ fn of_lane(polynomial: Square, lane: u32) -> Square {
 
 fn visit_cell(cell: u32) {
     let nodes = nodes_of(cell % CELLS_X, cell / CELLS_X);
-    // A negative depth, beyond what rounding makes of none, has no waves, only instability; nor has NaN.
+    // A negative depth, beyond what rounding makes of zero, has no waves, only instability; nor has NaN.
     let depth = depth_in_cell(cell, nodes);
     dry_cell = select(min(dry_cell, cell), dry_cell, is_number(depth) && depth > LEAST_DEPTH);
     let polynomial = surface_of(nodes);
@@ -18,7 +18,7 @@ fn visit_cell(cell: u32) {
     let bin = opened_bin(cell);
     let eight = opened_eight(bin);
     var first = 0u;
-    loop { // left at its end: see kernels/clusters
+    loop { // left at its end: see pairs/clusters
         if (first < eight.count) {
             let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
             var particle = stored(index);

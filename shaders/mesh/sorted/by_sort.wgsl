@@ -1,2 +1,2 @@
-// The sort has begun the step.
+// Off: the sort has begun the step.
 fn begin_unsorted_step() {}

@@ -1,4 +1,4 @@
-// Hands out the rounded masses of a cell, and what is left of the total to one node.
+// Spreads the rounded masses of a cell over the nodes of splines of order 3; what is left of the total goes to one node.
 var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
 fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {

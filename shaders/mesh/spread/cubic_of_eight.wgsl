@@ -1,7 +1,9 @@
-// Hands out the rounded masses of a cell for splines of order 3, and what is left of the total to one node. The cells of a strip
-// add up what they bring to the same nodes: each column has seven rows of nodes to store, four in the strip and three that
-// belong to those below and above, and three columns more are left over beside it.
-var<storage, read_write> contributions: array<Four>; // [strip][column][which rows], then [strip][eight][column beside it][which rows]
+// Spreads the rounded masses of the cells of a strip for splines of order 3; what is left of a total goes to one node. The cells
+// add up what they bring to the same nodes: each column stores seven rows of nodes, four in the strip and three that belong to
+// those below and above, and three more columns are stored for the nodes outside the eight.
+
+// [strip][column][which rows], then [strip][eight][column outside it][which rows].
+var<storage, read_write> contributions: array<Four>;
 
 // Sums over the rows of a strip so far.
 struct Column {
@@ -11,7 +13,7 @@ struct Column {
 var<private> own_shares: Column;
 var<private> beside_shares: Column;
 
-// Adds what a row of cells brings. Where a cell has too much, or a sum goes round, the node has too much for good.
+// Adds what a row of cells brings. Where a cell has too much, or a sum wraps round, the node keeps too much.
 fn with_row(column: Column, share: IntegerPowers) -> Column {
     let added = column.open + share;
     let least = min(min(column.open, share), added);

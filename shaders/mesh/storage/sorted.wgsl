@@ -1,7 +1,9 @@
-// Particles in order of their cells, sorted anew every step: for any crowd. The particles themselves stay where they lie.
+// Particles in the order of their cells, which is found in every step, for any number in a cell. The particles themselves stay
+// where they lie.
 var<storage, read_write> cells: array<u32>; // where each cell ends
 
 struct Bin { begin: u32, count: u32 }
+
 fn opened_bin(cell: u32) -> Bin {
     let begin = select(cells[max(cell, 1u) - 1u], 0u, cell == 0u);
     return Bin(begin, cells[cell] - begin);

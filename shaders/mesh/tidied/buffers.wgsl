@@ -1,4 +1,4 @@
-// Particles that are copied as they are from place to place.
+// Particles are copied from buffer to buffer.
 var<storage, read_write> particles: array<StoredWater>;
 var<storage, read_write> tidied: array<StoredWater>;
 

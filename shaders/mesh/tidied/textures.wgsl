@@ -1,4 +1,4 @@
-// Particles that are copied as they are from place to place, from textures to textures.
+// Particles are copied from textures to textures.
 var particles: texture_storage_2d<rgba32uint, read_write>;
 var particle_masses: texture_storage_2d<rg32uint, read_write>;
 var tidied: texture_storage_2d<rgba32uint, read_write>;

@@ -1,4 +1,4 @@
-// A rotation of integer velocities by quarter turns and three shears: exactly reversible, and no length is lost.
+// Integer velocities are rotated by quarter turns and three shears: exactly reversible, and no length is lost.
 override QUARTER_TURNS: u32;
 override TURN_TANGENT: f32; // of half the angle that is left
 override TURN_SINE: f32;

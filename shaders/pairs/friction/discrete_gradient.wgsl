@@ -1,6 +1,6 @@
 // Friction from the change of the coupling function since the last step, Cotter and Reich (18)-(21),
 // doi:10.1209/epl/i2003-00621-8. Last positions follow from the last drifts, which are recomputed to the bit.
-override FRICTION_PER_LENGTH: f32; // impulse unit of momentum per length: turns a change of phi into a motion
+override FRICTION_PER_LENGTH: f32; // momentum units per length of drift: converts a change of phi to a momentum
 
 fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
     let in_order = mine_first(me, other);

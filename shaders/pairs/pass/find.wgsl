@@ -1,5 +1,5 @@
-// The first pass of a splitting step: the closing half kick of the conservative force, and the rate at which friction
-// acts on each particle. Both stay with the sorted particle, where the second pass finds them.
+// The first pass of a split step: the closing half kick of the conservative force, and the rate at which friction
+// acts on each particle. Both are stored with the sorted particle, where the second pass finds them.
 struct Sums { kick: Steps, rate: u32 }
 
 fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0u); }

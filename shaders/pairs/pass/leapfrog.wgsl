@@ -1,4 +1,4 @@
-// One traversal a step: closing and opening half kicks by the same pair impulses, then the drift
+// A leapfrog step in one pass: closing and opening half kicks by the same pair impulses, then the drift
 // (Groot and Warren, doi:10.1063/1.474784; Cotter and Reich, doi:10.1209/epl/i2003-00621-8).
 struct Sums { kick: Steps, strain: f32 }
 

@@ -1,4 +1,4 @@
-// The configuration at the report of a splitting step, half a drift after the relaxation: there positions are
+// The configuration at the report of a split step, half a drift after the relaxation: there positions are
 // distributed most accurately, and there the symmetric step begins and ends.
 var<storage, read_write> particles: array<Particle>;
 
@@ -12,7 +12,7 @@ fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
     observe_configuration(sums);
-    // By id, for whoever wants the particles of the report.
+    // By id, for analyses and trajectories.
     particles[me.position.w] = me;
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 5u, PAIR_QUANTITIES); }

@@ -1,5 +1,4 @@
 // The report of a leapfrog step: positions are at the step, momenta half a step behind until the closing half kick.
-
 struct Sums { kick: Steps, pairs: PairSums }
 
 fn pass_begin(me: Particle) -> Sums {
@@ -28,7 +27,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     observe_configuration(sums.pairs);
     add_reported_force(momentum_word(sums.kick, 0));
     store_force(me.position.w);
-    // By id, for whoever wants the particles of the report.
+    // By id, for analyses and trajectories.
     store_particle(me.position.w, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, PAIR_QUANTITIES); }

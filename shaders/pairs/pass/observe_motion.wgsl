@@ -1,4 +1,4 @@
-// The motion at the report of a splitting step: momenta after the relaxation, and the virial of all forces.
+// The motion at the report of a split step: momenta after the relaxation, and the virial of all forces.
 struct Sums { impulse: Steps, virial: Sum64 }
 
 fn pass_begin(me: Particle) -> Sums {

@@ -1,4 +1,4 @@
-// The second pass of a splitting step: pair velocities relax, the opening half kick follows, then the drift.
+// The second pass of a split step: pair velocities relax, then come the opening half kick and the drift.
 struct Sums { kick: Steps, impulse: Steps, strain: f32 }
 
 fn pass_begin(me: Particle) -> Sums {

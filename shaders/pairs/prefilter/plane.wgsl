@@ -1,6 +1,6 @@
-// The prefilter: one word a particle, or its position, tells without ever missing a neighbour whether a pair is worth
-// looking at. Each axis keeps its leading bits inside a window of a few cells; distances are in the quantised units of
-// the x axis.
+// The prefilter in two dimensions: it finds, without ever missing a neighbour, pairs that may be within the cutoff.
+// Each axis keeps its leading bits inside a window of a few cells, 16 in a word; distances are in the quantised units of the x
+// axis.
 override WINDOW_X: u32;  // the window is the box divided by 2^WINDOW
 override WINDOW_Y: u32;
 override PROBE_Y: f32;   // length of a window unit of y over one of x; 0 where the axis is a single cell
@@ -29,7 +29,7 @@ fn probe_hits(a: Probe, b: Probe) -> bool {
     return x * x + y * y < PROBE_REACH;
 }
 
-// Hits of one probe against the eight that the lanes of a subgroup hold.
+// The probe of another lane of a subgroup.
 fn shuffled(probe: Probe, lane: u32) -> Probe {
     return Probe(subgroupShuffle(probe.x, lane), subgroupShuffle(probe.y, lane));
 }

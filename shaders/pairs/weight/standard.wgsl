@@ -1,4 +1,4 @@
 // The standard weight: omega = w^2 with w = 1 - r/rc, so its root is w itself.
 fn root_weight(w: f32) -> f32 { return w; }
-// The coupling function phi with phi' = root of omega, zero at the cutoff and beyond.
+// Zero at the cutoff and beyond.
 fn coupling(w: f32) -> f32 { return -0.5 * CUTOFF * w * w; }

@@ -1,4 +1,4 @@
-// First pass along rows: two rows, half a mesh apart, as one of complex numbers.
+// First pass along rows: loads two rows, half a mesh apart, as one of complex numbers.
 fn load(line: u32, place: u32) -> vec2<f32> {
     let node = line * LENGTH + place;
     return vec2<f32>(deviation(node), deviation(node + LINES * LENGTH));

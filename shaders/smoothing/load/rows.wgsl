@@ -1,4 +1,4 @@
-// First pass along columns: separates the transforms of two rows that went through as one, both twice as large.
+// First pass along columns: separates the transforms of two rows that were transformed as one, both twice as large.
 fn load_pair(butterfly: Butterfly, leg: u32) -> vec4<f32> {
     let row = source(butterfly, leg) * ROW_LENGTH;
     let a = wave(row + butterfly.line);

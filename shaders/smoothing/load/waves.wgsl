@@ -1,4 +1,4 @@
-// What the pass before has left.
+// Loads what the pass before has stored.
 fn load_pair(butterfly: Butterfly, leg: u32) -> vec4<f32> {
     return vec4<f32>(
         wave(element(butterfly.line, source(butterfly, leg))),

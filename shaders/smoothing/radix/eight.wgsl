@@ -2,7 +2,8 @@
 const RADIX = 8u;
 alias Legs = array<vec2<f32>, 8>;
 
-// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not valid.
+// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not
+// valid.
 fn transformed(v: Legs) -> Legs {
     let t = fourier8(v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
     return Legs(t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7]);
@@ -22,7 +23,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 3u, vec4<f32>(v[3], v[7]));
 }
 
-// Leg j by the j-th power of a root of unity.
+// Multiplies leg j by the j-th power of a root of unity.
 fn turned(v: Legs, step: u32) -> Legs {
     let w1 = roots[step];
     let w2 = roots[2u * step];
@@ -42,6 +43,8 @@ fn turned(v: Legs, step: u32) -> Legs {
         times(v[7], w7),
     );
 }
+
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

@@ -2,7 +2,8 @@
 const RADIX = 4u;
 alias Legs = array<vec2<f32>, 4>;
 
-// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not valid.
+// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are not
+// valid.
 fn transformed(v: Legs) -> Legs {
     let t = fourier4(v[0], v[1], v[2], v[3]);
     return Legs(t[0], t[1], t[2], t[3]);
@@ -18,6 +19,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 1u, vec4<f32>(v[1], v[3]));
 }
 
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

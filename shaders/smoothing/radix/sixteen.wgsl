@@ -36,7 +36,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 7u, vec4<f32>(v[7], v[15]));
 }
 
-// Leg j by the j-th power of a root of unity.
+// Multiplies leg j by the j-th power of a root of unity.
 fn turned(v: Legs, step: u32) -> Legs {
     let w1 = roots[step];
     let w2 = roots[2u * step];
@@ -72,6 +72,8 @@ fn turned(v: Legs, step: u32) -> Legs {
         times(v[15], w15),
     );
 }
+
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

@@ -1,6 +1,8 @@
-// Butterflies of sixty-four legs: 8 of 8, and 8 of 8. For whole lines alone, between whose passes there is nothing to turn.
+// Butterflies of sixty-four legs: 8 of 8, and 8 of 8. Only for lines that one pass transforms whole: there is no
+// `turned`.
 const RADIX = 64u;
 alias Legs = array<vec2<f32>, 64>;
+
 // Powers of exp(-2πi/64).
 const ROOT1 = vec2<f32>(0.99518472667219693, -0.09801714032956060);
 const ROOT2 = vec2<f32>(0.98078528040323043, -0.19509032201612825);
@@ -35,13 +37,20 @@ fn transformed(v: Legs) -> Legs {
     let g = fourier8(v[6], v[14], v[22], v[30], v[38], v[46], v[54], v[62]);
     let h = fourier8(v[7], v[15], v[23], v[31], v[39], v[47], v[55], v[63]);
     let x0 = fourier8(a[0], b[0], c[0], d[0], e[0], f[0], g[0], h[0]);
-    let x1 = fourier8(a[1], times(b[1], ROOT1), times(c[1], ROOT2), times(d[1], ROOT3), times(e[1], ROOT4), times(f[1], ROOT5), times(g[1], ROOT6), times(h[1], ROOT7));
-    let x2 = fourier8(a[2], times(b[2], ROOT2), times(c[2], ROOT4), times(d[2], ROOT6), eighth(e[2]), times(f[2], ROOT10), times(g[2], ROOT12), times(h[2], ROOT14));
-    let x3 = fourier8(a[3], times(b[3], ROOT3), times(c[3], ROOT6), times(d[3], ROOT9), times(e[3], ROOT12), times(f[3], ROOT15), times(g[3], ROOT18), times(h[3], ROOT21));
-    let x4 = fourier8(a[4], times(b[4], ROOT4), eighth(c[4]), times(d[4], ROOT12), quarter(e[4]), times(f[4], ROOT20), quarter(eighth(g[4])), times(h[4], ROOT28));
-    let x5 = fourier8(a[5], times(b[5], ROOT5), times(c[5], ROOT10), times(d[5], ROOT15), times(e[5], ROOT20), times(f[5], ROOT25), times(g[5], ROOT30), times(h[5], ROOT35));
-    let x6 = fourier8(a[6], times(b[6], ROOT6), times(c[6], ROOT12), times(d[6], ROOT18), quarter(eighth(e[6])), times(f[6], ROOT30), times(g[6], ROOT36), times(h[6], ROOT42));
-    let x7 = fourier8(a[7], times(b[7], ROOT7), times(c[7], ROOT14), times(d[7], ROOT21), times(e[7], ROOT28), times(f[7], ROOT35), times(g[7], ROOT42), times(h[7], ROOT49));
+    let x1 = fourier8(a[1], times(b[1], ROOT1), times(c[1], ROOT2), times(d[1], ROOT3), times(e[1], ROOT4), times(f[1],
+        ROOT5), times(g[1], ROOT6), times(h[1], ROOT7));
+    let x2 = fourier8(a[2], times(b[2], ROOT2), times(c[2], ROOT4), times(d[2], ROOT6), eighth(e[2]), times(f[2],
+        ROOT10), times(g[2], ROOT12), times(h[2], ROOT14));
+    let x3 = fourier8(a[3], times(b[3], ROOT3), times(c[3], ROOT6), times(d[3], ROOT9), times(e[3], ROOT12), times(f[3],
+        ROOT15), times(g[3], ROOT18), times(h[3], ROOT21));
+    let x4 = fourier8(a[4], times(b[4], ROOT4), eighth(c[4]), times(d[4], ROOT12), quarter(e[4]), times(f[4], ROOT20),
+        quarter(eighth(g[4])), times(h[4], ROOT28));
+    let x5 = fourier8(a[5], times(b[5], ROOT5), times(c[5], ROOT10), times(d[5], ROOT15), times(e[5], ROOT20),
+        times(f[5], ROOT25), times(g[5], ROOT30), times(h[5], ROOT35));
+    let x6 = fourier8(a[6], times(b[6], ROOT6), times(c[6], ROOT12), times(d[6], ROOT18), quarter(eighth(e[6])),
+        times(f[6], ROOT30), times(g[6], ROOT36), times(h[6], ROOT42));
+    let x7 = fourier8(a[7], times(b[7], ROOT7), times(c[7], ROOT14), times(d[7], ROOT21), times(e[7], ROOT28),
+        times(f[7], ROOT35), times(g[7], ROOT42), times(h[7], ROOT49));
     return Legs(
         x0[0], x1[0], x2[0], x3[0], x4[0], x5[0], x6[0], x7[0],
         x0[1], x1[1], x2[1], x3[1], x4[1], x5[1], x6[1], x7[1],
@@ -133,6 +142,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 31u, vec4<f32>(v[31], v[63]));
 }
 
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

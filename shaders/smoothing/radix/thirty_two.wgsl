@@ -1,6 +1,7 @@
 // Butterflies of thirty-two legs: 8 of 4, and 4 of 8.
 const RADIX = 32u;
 alias Legs = array<vec2<f32>, 32>;
+
 // Powers of exp(-2πi/32).
 const ROOT1 = vec2<f32>(0.98078528040323043, -0.19509032201612825);
 const ROOT2 = vec2<f32>(0.92387953251128674, -0.38268343236508978);
@@ -25,9 +26,12 @@ fn transformed(v: Legs) -> Legs {
     let g = fourier4(v[6], v[14], v[22], v[30]);
     let h = fourier4(v[7], v[15], v[23], v[31]);
     let x0 = fourier8(a[0], b[0], c[0], d[0], e[0], f[0], g[0], h[0]);
-    let x1 = fourier8(a[1], times(b[1], ROOT1), times(c[1], ROOT2), times(d[1], ROOT3), eighth(e[1]), times(f[1], ROOT5), times(g[1], ROOT6), times(h[1], ROOT7));
-    let x2 = fourier8(a[2], times(b[2], ROOT2), eighth(c[2]), times(d[2], ROOT6), quarter(e[2]), times(f[2], ROOT10), quarter(eighth(g[2])), times(h[2], ROOT14));
-    let x3 = fourier8(a[3], times(b[3], ROOT3), times(c[3], ROOT6), times(d[3], ROOT9), quarter(eighth(e[3])), times(f[3], ROOT15), times(g[3], ROOT18), times(h[3], ROOT21));
+    let x1 = fourier8(a[1], times(b[1], ROOT1), times(c[1], ROOT2), times(d[1], ROOT3), eighth(e[1]), times(f[1],
+        ROOT5), times(g[1], ROOT6), times(h[1], ROOT7));
+    let x2 = fourier8(a[2], times(b[2], ROOT2), eighth(c[2]), times(d[2], ROOT6), quarter(e[2]), times(f[2], ROOT10),
+        quarter(eighth(g[2])), times(h[2], ROOT14));
+    let x3 = fourier8(a[3], times(b[3], ROOT3), times(c[3], ROOT6), times(d[3], ROOT9), quarter(eighth(e[3])),
+        times(f[3], ROOT15), times(g[3], ROOT18), times(h[3], ROOT21));
     return Legs(
         x0[0], x1[0], x2[0], x3[0],
         x0[1], x1[1], x2[1], x3[1],
@@ -83,7 +87,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 15u, vec4<f32>(v[15], v[31]));
 }
 
-// Leg j by the j-th power of a root of unity.
+// Multiplies leg j by the j-th power of a root of unity.
 fn turned(v: Legs, step: u32) -> Legs {
     let w1 = roots[step];
     let w2 = roots[2u * step];
@@ -151,6 +155,8 @@ fn turned(v: Legs, step: u32) -> Legs {
         times(v[31], w31),
     );
 }
+
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

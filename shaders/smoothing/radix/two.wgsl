@@ -12,6 +12,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
     store_pair(butterfly, 0u, vec4<f32>(v[0], v[1]));
 }
 
+// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
 fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),

@@ -1,4 +1,4 @@
-// Last pass along rows, back: the two rows that went through as one.
+// Last pass along rows, back: stores the depths of the two rows that were transformed as one.
 fn store_depths(line: u32, place: u32, value: vec2<f32>) {
     let node = line * LENGTH + place;
     depths[node] = value.y;

@@ -1,4 +1,4 @@
-// Last pass along columns, back: two rows, half a mesh apart, go on as one of complex numbers. Columns beyond the middle
+// Last pass along columns, back: stores two rows, half a mesh apart, as one of complex numbers. Columns beyond the middle
 // are the conjugates of those before it.
 fn store_pair(butterfly: Butterfly, leg: u32, pair: vec4<f32>) {
     let row = target_of(butterfly, leg) * ROW_LENGTH;

@@ -1,5 +1,5 @@
-// Roots of unity between the passes, from a table of the longest line's.
+// Legs are multiplied by roots of unity between two passes, from a table for the longest line.
 override ROOTS: u32;
 
-// Legs of butterfly `number` of those that make a transform of `length`.
+// The legs of butterfly `number` of those that make a transform of `length`.
 fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return turned(legs, number * (ROOTS / length)); }

@@ -7,10 +7,10 @@ struct Coefficients { repulsion: f32, friction: f32, noise: f32 }
 
 fn coefficients_of(a: i32, b: i32) -> Coefficients { return Coefficients(REPULSION, FRICTION, NOISE); }
 
-// One species: nothing to look up.
+// Nothing to look up.
 fn other_species(index: u32) -> i32 { return 0; }
 
-// One species: its position bath is known when the pipeline is made.
+// The position bath of the species.
 override POSITION_RESPONSE: f32; // bath per length of drift
 override POSITION_NOISE: f32;    // bath per unit noise
 override POSITION_ENERGY: f32;   // energy per square of a bath, over its quantum

@@ -1,9 +1,9 @@
-// One dimension: vectors of two of which the second component is always zero.
+// One dimension: vectors of two whose second component is always zero.
 alias Fraction = vec2<u32>;
 alias Steps = vec2<i32>;
 alias Vector = vec2<f32>;
 
-// Length of 2^-32 of the box on each axis; that of the second means nothing but is not zero.
+// Length of 2^-32 of the box on each axis; the second means nothing but is not zero.
 override UNIT_X: f32;
 override UNIT_Y: f32;
 
@@ -19,11 +19,12 @@ fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return steps.x > limit || steps.x < -limit; }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return Vector(parts.x * UNIT_X, 0.0); }
-// One of four words as a bath of the only coordinate, and back.
+// A bath of the only coordinate from one of four words, and back.
 fn bath_of(word: vec4<f32>) -> Vector { return Vector(word.x, 0.0); }
 fn bath_word(bath: Vector) -> vec4<f32> { return vec4<f32>(bath.x, 0.0, 0.0, 0.0); }
 
-// A random direction in one dimension, and how a force is stored.
+// A random direction in one dimension.
 fn direction_of(first: u32, second: u32) -> Vector { return Vector(select(-1.0, 1.0, centred_uniform(first) > 0.0), 0.0); }
+// A force as three stored words, and back.
 fn force_of(words: array<f32, 3>) -> Vector { return Vector(words[0], 0.0); }
 fn words_of_force(force: Vector) -> array<f32, 3> { return array<f32, 3>(force.x, 0.0, 0.0); }

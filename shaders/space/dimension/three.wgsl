@@ -1,4 +1,4 @@
-// Three dimensions: the vectors everything else is written in.
+// Three dimensions: vectors of three.
 alias Fraction = vec3<u32>;
 alias Steps = vec3<i32>;
 alias Vector = vec3<f32>;
@@ -20,11 +20,11 @@ fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return parts.xyz * unit_lengths(); }
-// Three of four words as a bath of every coordinate, and back.
+// A bath of every coordinate from three of four words, and back.
 fn bath_of(word: vec4<f32>) -> Vector { return word.xyz; }
 fn bath_word(bath: Vector) -> vec4<f32> { return vec4<f32>(bath, 0.0); }
 
-// A random direction in three dimensions, uniform in the cosine of its polar angle, and how a force is stored.
+// A random direction in three dimensions, uniform in the cosine of its polar angle.
 fn direction_of(first: u32, second: u32) -> Vector {
     let cosine = 2.0 * centred_uniform(first);
     // (1 - c)(1 + c) keeps its digits near the poles.
@@ -33,5 +33,6 @@ fn direction_of(first: u32, second: u32) -> Vector {
     let angle = centred_uniform(second);
     return vec3<f32>(-sine * vec2<f32>(cosine_of_turns(angle), sine_of_turns(angle)), cosine);
 }
+// A force as three stored words, and back.
 fn force_of(words: array<f32, 3>) -> Vector { return Vector(words[0], words[1], words[2]); }
 fn words_of_force(force: Vector) -> array<f32, 3> { return array<f32, 3>(force.x, force.y, force.z); }

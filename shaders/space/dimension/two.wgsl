@@ -1,4 +1,4 @@
-// Two dimensions: the vectors everything else is written in. The third word of a stored vector is zero.
+// Two dimensions: vectors of two; the third word of a stored vector is zero.
 alias Fraction = vec2<u32>;
 alias Steps = vec2<i32>;
 alias Vector = vec2<f32>;
@@ -19,16 +19,17 @@ fn unsigned(steps: Steps) -> Fraction { return bitcast<Fraction>(steps); }
 fn any_beyond(steps: Steps, limit: i32) -> bool { return any(steps > Steps(limit)) || any(steps < Steps(-limit)); }
 // Lengths from numbers of 2^-32 of the box.
 fn component_lengths(parts: vec4<f32>) -> Vector { return parts.xy * unit_lengths(); }
-// Two of four words as a bath of every coordinate, and back.
+// A bath of every coordinate from two of four words, and back.
 fn bath_of(word: vec4<f32>) -> Vector { return word.xy; }
 fn bath_word(bath: Vector) -> vec4<f32> { return vec4<f32>(bath, 0.0, 0.0); }
 
-// A random direction in two dimensions, and how a force is stored.
+// The direction at an angle.
 fn direction_at(turns: f32) -> Vector {
     let angle = turns - round(turns);
     return Vector(cosine_of_turns(angle), sine_of_turns(angle));
 }
-// Half a turn from the centred angle, which has all its digits.
+// A random direction in two dimensions: half a turn from the centred angle, which has all its digits.
 fn direction_of(first: u32, second: u32) -> Vector { return -direction_at(centred_uniform(first)); }
+// A force as three stored words, and back.
 fn force_of(words: array<f32, 3>) -> Vector { return Vector(words[0], words[1]); }
 fn words_of_force(force: Vector) -> array<f32, 3> { return array<f32, 3>(force.x, force.y, 0.0); }

@@ -1,6 +1,6 @@
-// The drift of half a step, rounded once to fractions of the box: a whole drift is exactly two of them, so that a
-// report between the two changes nothing.
+// The drift of a whole step is exactly two halves, each rounded once: a report between the two changes nothing.
 override HALVES: i32;
+
 fn half_drift_steps(momentum: vec4<i32>) -> Steps {
     return Steps(round(Vector(steps_of(momentum)) * (0.5 * drift_of(species_in(momentum)) / unit_lengths())));
 }

@@ -5,7 +5,7 @@ struct Particle {
     momentum: vec4<i32>,
 }
 
-// The rest of the word carries, within a step, what a pass leaves for the next.
+// Within a step, the upper bits of the species' word carry what one pass leaves for the next.
 fn species_in(momentum: vec4<i32>) -> i32 { return momentum.w & 255; }
 fn species_of(particle: Particle) -> i32 { return species_in(particle.momentum); }
 fn friction_momentum(particle: Particle) -> Steps { return steps_of(particle.momentum); }

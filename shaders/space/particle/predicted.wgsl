@@ -1,5 +1,5 @@
-// A particle whose friction sees a predicted momentum (lambda other than 1/2): what the prediction adds is kept in the upper
-// bits of momentum.w, three components of six bits with an exponent in common. `src/prediction.rs` does the same.
+// A particle whose friction sees a predicted momentum (lambda other than 1/2): the upper bits of momentum.w hold what the
+// prediction adds, three components of six bits with a common exponent. `src/prediction.rs` does the same.
 struct Particle {
     position: vec4<u32>,
     momentum: vec4<i32>,

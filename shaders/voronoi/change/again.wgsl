@@ -1,4 +1,4 @@
-// What came through the faces, with the push of the other half of the step.
+// What came through the faces, with the push of the other half of the step; both are cleared.
 var<storage, read_write> exchanges: array<vec4<i32>>; // momentum, mass, energy of each cell
 var<storage, read_write> pushes: array<vec4<i32>>;
 

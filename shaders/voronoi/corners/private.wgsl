@@ -1,4 +1,4 @@
-// The polygon of a cell in memory of the invocation: fast, with room for as many corners as nearly every cell has.
+// The polygon of a cell in memory of the invocation: fast, with as many corners as nearly every cell has.
 const CORNERS: u32 = 24u;
 var<private> side_words: array<u32, CORNERS>;
 var<private> corners: array<Vector, CORNERS>;

@@ -1,5 +1,5 @@
-// The polygon of a cell where its faces will be, for a crowd around an empty circle: lengths and offsets hold the corners,
-// and the lengths have as much room again for how well these are known.
+// The polygon of a cell where its faces will be, for many neighbours around an empty circle: lengths and offsets hold the
+// corners, and a second half of the lengths how well these are known.
 override CORNERS: u32;
 var<private> home_slot: u32;
 

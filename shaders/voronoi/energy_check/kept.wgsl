@@ -1,4 +1,4 @@
-// A cell that has less than no internal energy, beyond what rounding takes from a cold one.
+// A negative internal energy is a failure, beyond what rounding takes from a cold cell.
 override ENERGY_SLACK: f32; // of rounding
 
 fn check_energy(cell: Particle) {

@@ -1,4 +1,4 @@
-// Cells that exchange mass as their faces turn: Flekkøy, Coveney and De Fabritiis (33), doi:10.1103/PhysRevE.62.2140.
+// Cells exchange mass as their faces turn: Flekkøy, Coveney and De Fabritiis (33), doi:10.1103/PhysRevE.62.2140.
 var<private> uncut: f32; // part of the mass that the geometry asks for
 
 fn turning(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 {
@@ -19,7 +19,7 @@ fn internal_energy_swept(facet: Facet, twist: Vector, mine: Side, theirs: Side) 
 fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector {
     return STEP * facet.length * 0.5 * (mine.pressure + theirs.pressure) * facet.direction;
 }
-// Energy into this cell beside what the impulse brings at the mean velocity of both.
+// Energy into this cell in addition to what the impulse brings at the mean velocity of both.
 fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Side) -> f32 {
     let difference = mine.velocity - theirs.velocity;
     let kinetic = dot(mine.velocity, 2.0 * mine.mean - mine.velocity)

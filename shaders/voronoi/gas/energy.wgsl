@@ -1,8 +1,8 @@
-// Equation of state: the ideal gas in two dimensions, whose internal energy is what its total energy leaves over.
+// An ideal gas in two dimensions whose internal energy is its total energy less the kinetic one.
 override ENERGY_UNIT: f32;
 override MOLECULAR_MASS: f32;
 
-// Less than nothing is left to `take_up` to tell; rounding may leave a cold cell with a few units of it.
+// A negative energy is left to `take_up_exchange` to report; rounding may leave a cold cell with a few units of it.
 fn internal_energy_of(cell: Particle) -> f32 {
     let velocity = velocity_of(cell);
     return max(f32(cell.momentum.z) * ENERGY_UNIT - 0.5 * mass_of(cell) * dot(velocity, velocity), 0.0);

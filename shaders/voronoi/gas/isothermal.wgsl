@@ -1,4 +1,4 @@
-// Equation of state: the ideal gas at the temperature of the scene.
+// An ideal gas at the temperature of the scene.
 override TEMPERATURE: f32;
 override MOLECULAR_MASS: f32;
 

@@ -1,11 +1,11 @@
-// The largest part of what a cell has that may cross one face, and how often it was reached.
+// No more than a part of what a cell has may cross one face; how often that part was reached is counted.
 override EXCHANGE_LIMIT: f32;
 var<private> cuts: u32;
 
-// What is to come from the other cell, or to go there if negative.
+// What comes from the other cell, or goes there if negative.
 fn limited(wanted: f32, mine: f32, theirs: f32) -> f32 {
     let most = EXCHANGE_LIMIT * select(mine, theirs, wanted > 0.0);
-    // What is not a number stays so, for `exchange` to tell.
+    // What is not a number stays so, and the exchange reports it.
     let cut = is_number(wanted) && abs(wanted) > most;
     cuts += select(0u, 1u, cut);
     return select(wanted, select(-most, most, wanted > 0.0), cut);

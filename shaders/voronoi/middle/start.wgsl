@@ -1,2 +1,2 @@
-// Explicit: the pressure when the exchange begins.
+// The pressure when the exchange begins, for explicit steps.
 fn middle_pressure(cell: Particle, pressure: f32, volume: f32, heat: f32) -> f32 { return pressure; }

@@ -1,4 +1,4 @@
-// Nothing but energy crosses the faces.
+// Only energy crosses the faces.
 var<storage, read_write> exchanges: array<i32>; // momentum, mass, energy of each cell
 
 fn move_units(cell: u32, units: vec4<i32>) {

@@ -1,2 +1,2 @@
-// Read once an invocation, and from where it does not take a buffer of its own.
+// The key that the solver of friction keeps, so that the kernel needs no clock; read once an invocation.
 fn prepare_noise() { noise_key = solver.key; }

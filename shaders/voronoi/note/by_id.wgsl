@@ -1,4 +1,4 @@
-// Analyses find cells by their numbers, with a momentum of two components.
+// Cells are stored by id for analyses, with a momentum of two components.
 var<storage, read_write> reported: array<Particle>;
 
 fn note_report(cell: Particle) {

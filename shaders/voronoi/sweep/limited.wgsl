@@ -1,5 +1,5 @@
-// Between cells close to each other a face turns fast: it must not sweep over more than a part of the cell that it takes
-// from, or a step could take more internal energy than there is.
+// In addition to the bound on the push, a face must not sweep over more than a part of the cell that it takes from. Between cells
+// close to each other it turns fast, and a step could take more internal energy than there is.
 fn limited_twist(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector {
     let bounded = bounded_part(facet, twist, mine, theirs);
     let swept = bounded * STEP * facet.length * dot(twist, mine.velocity - theirs.velocity);

@@ -1,4 +1,4 @@
-// The rate that follows from the geometry, with the logarithmic mean of the densities.
+// Faces turn at the rate that follows from the geometry; mass has the logarithmic mean of the densities.
 const TURNING: f32 = 1.0;
 
 fn density_between(mine: f32, theirs: f32) -> f32 {
