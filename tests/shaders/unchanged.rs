@@ -22,9 +22,7 @@ fn record() -> String {
         let mut text = String::new();
         for kernel in &plan.kernels {
             let shader = shader_of(kernel);
-            let computed = *hashes
-                .entry(std::ptr::from_ref(shader))
-                .or_insert_with(|| hash_of_kernel(&shader.module));
+            let computed = *hashes.entry(std::ptr::from_ref(shader)).or_insert_with(|| hash_of_kernel(&shader.module));
             kernels.push(computed);
             writeln!(text, "{computed:x} {}", dispatch(plan, kernel, shader)).unwrap();
         }
