@@ -130,6 +130,9 @@ fn main() -> io::Result<()> {
     fs::write(PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs"), code)
 }
 
+/// Name of a variant, number of its file, what it is.
+type Variant<'a> = (&'a str, usize, String);
+
 /// Paths below the root, without extensions.
 fn find(root: &Path, folder: &Path, files: &mut Vec<String>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
@@ -149,7 +152,7 @@ fn find(root: &Path, folder: &Path, files: &mut Vec<String>) -> io::Result<()> {
 fn generate(files: &BTreeMap<String, String>) -> String {
     let mut code = String::new();
     let mut entries: BTreeMap<String, String> = BTreeMap::new();
-    let mut slots: BTreeMap<&str, BTreeMap<&str, Vec<(&str, usize, String)>>> = BTreeMap::new();
+    let mut slots: BTreeMap<&str, BTreeMap<&str, Vec<Variant<'_>>>> = BTreeMap::new();
     let _ = writeln!(code, "pub(super) static FILES: [(&str, &str); {}] = [", files.len());
     for (number, (file, text)) in files.iter().enumerate() {
         let _ = writeln!(code, "    ({file:?}, {text:?}),");
@@ -191,7 +194,7 @@ fn enumerate_kernels(code: &mut String, entries: &BTreeMap<String, String>) {
     code.push_str("        }\n    }\n}\n\n");
 }
 
-fn enumerate_variants(code: &mut String, domain: &str, slot: &str, variants: &[(&str, usize, String)]) {
+fn enumerate_variants(code: &mut String, domain: &str, slot: &str, variants: &[Variant<'_>]) {
     let name = camel(slot);
     let _ = writeln!(
         code,

@@ -199,7 +199,7 @@ impl Builder<'_> {
     }
 
     /// A sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
-    fn sums(&mut self, sampler: SumSampler) {
+    fn sums(&mut self, sampler: &SumSampler) {
         let groups = self.groups();
         let renamed = [&[("partial_sums", sampler.sums), ("samples", sampler.samples)][..], &sampler.renamed].concat();
         let sums = self.plan.add_kernel(
@@ -230,7 +230,7 @@ impl Builder<'_> {
         let unit = self.reported.model.units.momentum;
         let quanta = self.plan.quanta;
         self.plan.add_buffer("trackers", "each particle's way since the window began", 64 * self.plan.particles);
-        self.sums(SumSampler {
+        self.sums(&SumSampler {
             id: AnalysisId::Diffusion,
             entry: Entry::TrackParticles,
             choices: Choices::new(),
@@ -251,7 +251,7 @@ impl Builder<'_> {
 
     fn viscosity(&mut self, asked: &Viscosity) {
         let dimension = self.reported.model.units.dimension;
-        self.sums(SumSampler {
+        self.sums(&SumSampler {
             id: AnalysisId::Viscosity,
             entry: Entry::SumTransverseModes,
             choices: Choices::new(),
@@ -271,7 +271,7 @@ impl Builder<'_> {
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
         let quantities = 2 * groups.len();
         self.plan.add_long_table("chain_starts", "where each chain begins", Table::Chains(groups.to_vec()));
-        self.sums(SumSampler {
+        self.sums(&SumSampler {
             id: AnalysisId::ChainSizes,
             entry: Entry::MeasureChains,
             choices: Choices::new(),
@@ -336,7 +336,7 @@ impl Builder<'_> {
             }
         };
         self.plan.add_buffer(origins, "each particle's vector when the window began", 16 * self.plan.particles);
-        self.sums(SumSampler {
+        self.sums(&SumSampler {
             id: AnalysisId::Autocorrelation(asked.quantity),
             entry: Entry::CorrelateVectors,
             choices,

@@ -292,7 +292,7 @@ impl Library {
                 };
                 let at = text.rfind("var").unwrap_or(0);
                 linked.text.push_str(&text[..at]);
-                linked.text.push_str(&format!("@group(0) @binding({number}) "));
+                linked.text.extend(["@group(0) @binding(", &number.to_string(), ") "]);
                 linked.text.push_str(&text[at..]);
                 number += 1;
             } else {
@@ -380,7 +380,7 @@ fn declaration(text: &'static str, line: u32) -> Option<Declaration> {
     };
     let locals: BTreeSet<&str> =
         (head + 1..all.len()).filter(|index| own(*index)).map(|index| all[index].text).collect();
-    let used = |word: &&Word<'static>| !word.member && !(word.typed && keyword == "struct") && !word.attribute;
+    let used = |word: &&Word<'static>| !(word.member || word.attribute || word.typed && keyword == "struct");
     let mut uses: Vec<&str> = Vec::new();
     for word in all.iter().filter(used).map(|word| word.text) {
         if word != name && !(locals.contains(word) && keyword != "struct") && !uses.contains(&word) {

@@ -2,6 +2,7 @@
 
 /// A word and what stands around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools)]
 pub struct Word<'a> {
     /// The word.
     pub text: &'a str,
