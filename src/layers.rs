@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 19] = [
     "printable",
     "numbers",
     "table",
@@ -13,6 +13,7 @@ const LAYERS: [&str; 18] = [
     "noise",
     "state",
     "tessellation",
+    "shaders",
     "gpu",
     "scene",
     "plan",

@@ -26,7 +26,7 @@ fn count_histogram(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let group = linear_workgroup(workgroup);
     // The dispatch may be folded, and then has a few workgroups too many.
     if (group < GROUPS) {
-        for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) { count(sampled(id)); }
+        for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) { count_vector(sampled(id)); }
     }
     workgroupBarrier();
     for (var entry = lane; entry < COUNTS; entry += WORKGROUP) {
@@ -39,7 +39,7 @@ fn count_histogram(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
 }
 
 // Counts the values of one particle.
-fn count(vector: vec3<f32>) {
+fn count_vector(vector: vec3<f32>) {
     let place = vector * FRACTION;
     let square = dot(place, place);
     let far = square > FARTHEST * FARTHEST;

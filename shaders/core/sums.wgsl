@@ -24,12 +24,12 @@ override FIRST_GROUP: u32; // rows of partial sums that belong to the kernels be
 // What a kernel of a report adds up, each in integers of a unit that the plan states: 0 kinetic energy, 1 virial of all forces,
 // 2 to 4 momentum, 5 potential energy, 6 virial of the conservative forces, 7 squared force, 8 curvature; 9 energy, 10 square and
 // 11 number of baths with memory.
-var<private> totals: array<vec2<u32>, 12>;
+var<private> report_totals: array<vec2<u32>, 12>;
 
-fn total_add(quantity: u32, value: Sum64) { totals[quantity] = sum64_add(totals[quantity], value); }
+fn total_add(quantity: u32, value: Sum64) { report_totals[quantity] = sum64_add(report_totals[quantity], value); }
 fn total_reduce(group: u32, lane: u32) {
     for (var quantity = 0u; quantity < QUANTITIES; quantity++) {
-        reduce_quantity(FIRST_GROUP + group, lane, quantity, totals[quantity]);
+        reduce_quantity(FIRST_GROUP + group, lane, quantity, report_totals[quantity]);
     }
 }
 fn observe_bath(energy: f32, square: f32) {

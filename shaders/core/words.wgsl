@@ -5,9 +5,9 @@
 alias Two = vec2<u32>;
 alias Four = vec4<u32>;
 
-fn two(words: vec2<u32>) -> Two { return words; }
+fn stored_two(words: vec2<u32>) -> Two { return words; }
 fn two_words(stored: Two) -> vec2<u32> { return stored; }
-fn four(words: vec4<u32>) -> Four { return words; }
+fn stored_four(words: vec4<u32>) -> Four { return words; }
 fn first_words(stored: Four) -> vec2<u32> { return stored.xy; }
 fn last_words(stored: Four) -> vec2<u32> { return stored.zw; }
 fn four_words(stored: Four) -> vec4<u32> { return stored; }

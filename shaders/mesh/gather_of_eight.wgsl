@@ -4,11 +4,11 @@
 // [strip][column][which rows], then [strip][eight][column outside it][which rows].
 var<storage, read_write> contributions: array<Four>;
 var<private> gathered_shares: vec4<i32>;
-var<private> least: vec4<i32>;
+var<private> least_mass: vec4<i32>;
 
 fn gather(share: vec4<i32>) {
     gathered_shares += share;
-    least = min(least, min(share, gathered_shares));
+    least_mass = min(least_mass, min(share, gathered_shares));
 }
 // What the strips of one column bring: a strip reaches two nodes above it and one below.
 fn gather_column(first: u32, width: u32, strip: u32) {
@@ -40,7 +40,7 @@ fn gather_nodes_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(l
     for (var k = STRIP; k > 0u; k--) {
         let node = (strip * STRIP + k - 1u) * CELLS_X + column;
         // A cell has too much, or the sum has wrapped round.
-        crowded = select(crowded, node, least[k - 1u] < LEAST_MASS);
+        crowded = select(crowded, node, least_mass[k - 1u] < LEAST_MASS);
         node_masses[node] = u32(gathered_shares[k - 1u]);
     }
     raise_at(select(FAILURE_CROWDING, 0u, crowded == 0xffffffffu), crowded);

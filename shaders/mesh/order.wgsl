@@ -42,12 +42,12 @@ fn taken_number(cell: u32, lane: u32) -> u32 {
 // `order`.
 @compute @workgroup_size(WORKGROUP)
 fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32,
-    @builtin(subgroup_invocation_id) lane_of_eight: u32) {
+    @builtin(subgroup_invocation_id) lane_in_eight: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     // All lanes stay to the end, because the shuffles need their cells.
     let inside = index < PARTICLES;
     let cell = cell_of(stored_water_position(min(index, max(PARTICLES, 1u) - 1u)));
-    let number = taken_number(select(NO_CELL, cell, inside), lane_of_eight);
+    let number = taken_number(select(NO_CELL, cell, inside), lane_in_eight);
     if (inside) { set_order(number, index); }
 }
 

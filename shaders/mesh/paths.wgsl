@@ -5,7 +5,7 @@
 fn follow_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= PARTICLES) { return; }
-    let particle = stored(index);
+    let particle = load_water(index);
     follow(particle.id, vec4<u32>(particle.position, 0u, 0u));
 }
 
@@ -16,7 +16,7 @@ fn follow_bins(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     if (cell >= CELLS_X * CELLS_Y) { return; }
     let bin = opened_bin(cell);
     for (var k = 0u; k < bin.count; k++) {
-        let particle = stored(place_in(bin, k));
+        let particle = load_water(place_in(bin, k));
         follow(particle.id, vec4<u32>(particle.position, 0u, 0u));
     }
 }

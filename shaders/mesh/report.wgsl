@@ -19,13 +19,13 @@ fn report_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         let bin = opened_bin(cell);
         for (var k = 0u; k < bin.count; k++) {
             let index = place_in(bin, k);
-            var particle = stored(index);
+            var particle = load_water(index);
             if (clock_closing() == 1) {
                 let x = place_along(particle.position.x, CELLS_X).offset;
                 let y = place_along(particle.position.y, CELLS_Y).offset;
                 particle.velocity = closed(particle.velocity, half_kick(polynomial, x, y));
             }
-            store(index, particle);
+            store_water(index, particle);
             let v = vec2<f32>(particle.velocity);
             let mass = f32(particle.mass);
             kinetic = sum64_add(kinetic, sum64_of_f32(mass * (KINETIC * dot(v, v))));

@@ -8,8 +8,8 @@ fn unpacked(stored: StoredWater) -> Water {
     return Water(two_words(stored.position), bitcast<vec2<i32>>(two_words(stored.velocity)), rest.x, rest.y);
 }
 fn packed(particle: Water) -> StoredWater {
-    return StoredWater(two(particle.position), two(bitcast<vec2<u32>>(particle.velocity)),
-        two(vec2<u32>(particle.mass, particle.id)));
+    return StoredWater(stored_two(particle.position), stored_two(bitcast<vec2<u32>>(particle.velocity)),
+        stored_two(vec2<u32>(particle.mass, particle.id)));
 }
 
 // In textures: its position and velocity, and in another its mass and id.

@@ -19,7 +19,7 @@ var<storage, read_write> waves_next: array<f32>;
 
 // Slot smoothing/source: the right-hand side b on a node.
 // Default: the deviation of its mass, for the first application. The plan chooses `smoothed` for the others.
-fn given(node: u32) -> f32 { return deviation(node); }
+fn given_depth(node: u32) -> f32 { return deviation_of_node(node); }
 
 // First iteration, from zero: x_0 = 0, x_1 = b/θ. One invocation a node; writes `waves` and `waves_next`.
 @compute @workgroup_size(WORKGROUP)
@@ -28,7 +28,7 @@ fn chebyshev_begin(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     if (node == 0u) { iteration.done[0] = 1u; }
     if (node >= NODES_X * NODES_Y) { return; }
     waves[node] = 0.0;
-    waves_next[node] = given(node) * INVERSE_CENTRE;
+    waves_next[node] = given_depth(node) * INVERSE_CENTRE;
 }
 
 // One iteration, from `waves` to `waves_next`: x_k is in `waves`, and x_{k+1} replaces x_{k-1} in `waves_next`. One invocation
@@ -54,7 +54,7 @@ fn chebyshev_iterate(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
             + STIFFNESS_Y * ((here - below) + (here - above));
         let node = start + column;
         let previous = waves_next[node];
-        let residual = given(node) - smoother;
+        let residual = given_depth(node) - smoother;
         waves_next[node] = previous + weight * (residual * INVERSE_CENTRE + (here - previous));
         below = here;
         here = above;

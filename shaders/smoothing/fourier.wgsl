@@ -94,5 +94,5 @@ fn fourier_turn(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     if (index >= LINES * (LENGTH / RADIX)) { return; }
     let butterfly = butterfly_of(index);
     let waves_there = transformed(twisted(gathered(butterfly), butterfly.place, LENGTH));
-    scattered(butterfly, transformed(weighed(waves_there, butterfly)));
+    scattered(butterfly, transformed(weighed_legs(waves_there, butterfly)));
 }

@@ -19,7 +19,7 @@ fn velocity_of(cell: Particle) -> Vector {
 }
 
 // The drift of a cell, rounded once to fractions of the box; more than a few widths of a cell is a failure.
-fn drifted(cell: Particle, velocity: Vector) -> vec4<u32> {
+fn drifted_place(cell: Particle, velocity: Vector) -> vec4<u32> {
     let way = velocity * DRIFT_STEP;
     raise(select(FAILURE_DISPLACEMENT, 0u, all_within(way, DISPLACEMENT_LIMIT)));
     let fraction = fraction_of(cell.position) + unsigned(Steps(round(way / unit_lengths())));
@@ -44,7 +44,7 @@ fn drift_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     let me = stored_particle(slot);
-    let position = drifted(me, velocity_of(me));
+    let position = drifted_place(me, velocity_of(me));
     store_position(slot, position);
     let fraction = fraction_of(position);
     put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));

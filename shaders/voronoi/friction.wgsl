@@ -47,7 +47,7 @@ fn sum_of_lanes(lane: u32, value: vec4<f32>) -> vec4<f32> {
 }
 
 // Whether an iteration is needed, for all lanes alike: what lies in storage may look different to each.
-var<workgroup> running: u32;
+var<workgroup> solver_runs: u32;
 
 // The inverse of a cell's own 2 by 2 block of the equations, xx, xy, yy, times a vector.
 fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
@@ -172,7 +172,7 @@ fn friction_setup(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
 fn friction_solve(@builtin(local_invocation_index) lane: u32) {
     var right = 0.0;
     for (var group = lane; group < CELL_GROUPS; group += LANES) { right += solver.sums[group].z; }
-    for (var iteration = 0u; iteration <= ITERATIONS; iteration++) {
+    for (var round_number = 0u; round_number <= ITERATIONS; round_number++) {
         var products = vec4<f32>(0.0, 0.0, right, 0.0);
         for (var slot = lane; slot < PARTICLES; slot += LANES) {
             let mine = searches[slot];
@@ -183,10 +183,10 @@ fn friction_solve(@builtin(local_invocation_index) lane: u32) {
         let sums = sum_of_lanes(lane, products);
         if (lane == 0u) {
             judge(sums);
-            running = solver.running;
+            solver_runs = solver.running;
         }
         storageBarrier();
-        if (workgroupUniformLoad(&running) == 0u) { break; }
+        if (workgroupUniformLoad(&solver_runs) == 0u) { break; }
         for (var slot = lane; slot < PARTICLES; slot += LANES) {
             directions[slot] = step_along(slot, directions[PARTICLES + slot].xy, directions[slot]);
         }
@@ -216,8 +216,8 @@ fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
 // workgroup; updates `solver` and `demands`.
 @compute @workgroup_size(LANES)
 fn friction_judge(@builtin(local_invocation_index) lane: u32) {
-    if (lane == 0u) { running = solver.running; }
-    if (workgroupUniformLoad(&running) == 0u) { return; }
+    if (lane == 0u) { solver_runs = solver.running; }
+    if (workgroupUniformLoad(&solver_runs) == 0u) { return; }
     var own = vec4<f32>(0.0);
     for (var group = lane; group < CELL_GROUPS; group += LANES) { own += solver.sums[group]; }
     let sums = sum_of_lanes(lane, own);

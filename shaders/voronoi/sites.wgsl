@@ -11,7 +11,7 @@ struct Site {
 
 var<private> home: Fraction;
 
-fn scale() -> Vector { return unit_lengths() / SPACING; }
+fn scale_of_lengths() -> Vector { return unit_lengths() / SPACING; }
 fn site_with(word: u32, steps: Steps) -> Site {
     return Site(word, steps, 4294967296.0 * Vector(image_of(word)) - Vector(steps));
 }
@@ -34,12 +34,12 @@ const ROUNDING: f32 = 5.9604645e-8;
 // Where the bisectors of two sites meet, and its blur. The shorter displacement and the way between the sites are the two
 // best known sides of the triangle.
 fn meeting(first: Site, second: Site) -> vec3<f32> {
-    let a = first.away * scale();
-    let b = second.away * scale();
+    let a = first.away * scale_of_lengths();
+    let b = second.away * scale_of_lengths();
     let swap = dot(b, b) < dot(a, a);
     let p = select(a, b, swap);
     let q = select(b, a, swap);
-    let e = select(between(first, second), between(second, first), swap) * scale();
+    let e = select(between(first, second), between(second, first), swap) * scale_of_lengths();
     let pp = dot(p, p);
     let n = pp * Vector(e.y, -e.x) - dot(e, p + q) * Vector(p.y, -p.x);
     let lengths = sqrt(pp * dot(e, e));

@@ -4,7 +4,7 @@ const UNITS_LIMIT: i32 = 1073741824; // 2^30
 // Slot voronoi/motion: the position after the exchange, from the velocity before it or after it.
 // Default: off, cells stay where they are in this part of the step. The plan chooses `before` (explicit) or `after` (split
 // steps).
-fn moved(cell: Particle, before: Vector) -> vec4<u32> { return cell.position; }
+fn moved_place(cell: Particle, before: Vector) -> vec4<u32> { return cell.position; }
 
 // Slot voronoi/energy_check: raises a failure if the internal energy is negative.
 // Default: off, cells at the temperature of the scene have no energy of their own. The plan chooses `kept` if they do.
@@ -25,6 +25,6 @@ fn take_up_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
     raise_at(select(FAILURE_MASS, 0u, mass > 0 && mass <= UNITS_LIMIT), me.position.w);
     raise(select(0u, FAILURE_MOMENTUM, any_beyond(steps_of(me.momentum), UNITS_LIMIT)));
     check_energy(me);
-    me.position = moved(me, before);
+    me.position = moved_place(me, before);
     store_particle(slot, me);
 }

@@ -9,10 +9,10 @@
 
 // The grid cell to search next, as the distance from the particle's: on a ring around it, row by row.
 var<private> ring: i32;
-var<private> across: i32;
-var<private> along: i32;
+var<private> ring_row: i32;
+var<private> ring_column: i32;
 // What is left of the grid cell that is searched, and how many boxes away it is.
-var<private> candidate: u32;
+var<private> next_candidate: u32;
 var<private> candidates_end: u32;
 var<private> boxes: vec2<i32>;
 var<private> search_finished: bool;
@@ -27,8 +27,8 @@ var<private> overflown: bool;
 
 // The bisector that is examined: its site, the unit vector towards it, and half the way.
 var<private> bisected_site: Site;
-var<private> direction: Vector;
-var<private> half: f32;
+var<private> bisector_direction: Vector;
+var<private> bisector_distance: f32;
 
 // Corners that are examined at once, with indices known to the compiler: nearly every polygon has no more.
 const FEW: u32 = 12u;
@@ -40,11 +40,11 @@ const FORWARD: u32 = 1u;
 const BACKWARD: u32 = 2u;
 const FOUND: u32 = 3u;
 var<private> phase: u32;
-var<private> corner: u32;
+var<private> searched_corner: u32;
 var<private> tried: u32;
-var<private> first: u32;
-var<private> last: u32;
-var<private> gone: u32;
+var<private> first_beyond: u32;
+var<private> last_beyond: u32;
+var<private> corners_beyond: u32;
 // Single precision cannot decide where the corner is; where it is, once that is known.
 var<private> in_doubt: bool;
 var<private> known_place: i32;
@@ -57,46 +57,46 @@ fn searched(rings: i32) -> f32 {
     let column = Vector(f32(column_of(home)), f32(row_of(home)));
     let within = Vector(home) * (1.0 / 4294967296.0) * count - column;
     let narrower = (min(within, 1.0 - within) + f32(rings)) / count - STRAY;
-    let margin = max(narrower * 4294967296.0 * scale(), Vector(0.0));
+    let margin = max(narrower * 4294967296.0 * scale_of_lengths(), Vector(0.0));
     let whole = Vector(f32(rings)) >= count;
     let least = min(select(margin.x, EVERYWHERE, whole.x), select(margin.y, EVERYWHERE, whole.y));
     return least * least;
 }
 
 // Columns to both sides in a row of the ring: all, or its two ends.
-fn width() -> i32 { return select(ring, min(ring, i32(CELLS_X)), abs(across) == ring); }
+fn width_of_ring() -> i32 { return select(ring, min(ring, i32(CELLS_X)), abs(ring_row) == ring); }
 
 fn next_cell() {
     let count = vec2<i32>(i32(CELLS_X), i32(CELLS_Y));
-    let wide = width();
-    let unfolded = vec2<i32>(i32(column_of(home)) + along, i32(row_of(home)) + across);
+    let wide = width_of_ring();
+    let unfolded = vec2<i32>(i32(column_of(home)) + ring_column, i32(row_of(home)) + ring_row);
     boxes = select(vec2<i32>(0), vec2<i32>(1), unfolded >= count) - select(vec2<i32>(0), vec2<i32>(1), unfolded < vec2<i32>(0));
     let place = vec2<u32>(unfolded - boxes * count);
     // A row with ends beyond the whole box has none.
     let exists = wide <= i32(CELLS_X);
-    let corner = Vector(unfolded) / Vector(f32(CELLS_X), f32(CELLS_Y)) - Vector(home) * (1.0 / 4294967296.0);
-    let opposite = corner + 1.0 / Vector(f32(CELLS_X), f32(CELLS_Y));
-    let gap = max(max(corner, -opposite) - STRAY, Vector(0.0)) * 4294967296.0 * scale();
+    let near_corner = Vector(unfolded) / Vector(f32(CELLS_X), f32(CELLS_Y)) - Vector(home) * (1.0 / 4294967296.0);
+    let opposite = near_corner + 1.0 / Vector(f32(CELLS_X), f32(CELLS_Y));
+    let gap = max(max(near_corner, -opposite) - STRAY, Vector(0.0)) * 4294967296.0 * scale_of_lengths();
     let worth = exists && dot(gap, gap) < polygon_reach;
     let cell = select(0u, cell_index(place.y, place.x), worth);
-    candidate = cell_at(cell);
-    candidates_end = select(candidate, cell_at(cell + 1u), worth);
-    along += select(max(2 * ring, 1), 1, abs(across) == ring);
-    if (along > wide || !exists) {
-        across += 1;
-        if (across > min(ring, i32(CELLS_Y))) {
+    next_candidate = cell_at(cell);
+    candidates_end = select(next_candidate, cell_at(cell + 1u), worth);
+    ring_column += select(max(2 * ring, 1), 1, abs(ring_row) == ring);
+    if (ring_column > wide || !exists) {
+        ring_row += 1;
+        if (ring_row > min(ring, i32(CELLS_Y))) {
             ring += 1;
-            across = -min(ring, i32(CELLS_Y));
+            ring_row = -min(ring, i32(CELLS_Y));
         }
-        along = -width();
+        ring_column = -width_of_ring();
     }
 }
 
 // Goes on to a grid cell with particles that is not too far away.
 fn next_particle() {
-    for (; candidate >= candidates_end;) {
+    for (; next_candidate >= candidates_end;) {
         // The next ring begins with its first row.
-        let begins = across == -min(ring, i32(CELLS_Y)) && along == -width();
+        let begins = ring_row == -min(ring, i32(CELLS_Y)) && ring_column == -width_of_ring();
         search_finished = begins && ring > 0 && searched(ring - 1) >= polygon_reach;
         if (search_finished) { break; }
         next_cell();
@@ -108,16 +108,16 @@ fn look_around_exactly() {
     loop {
         next_particle();
         if (search_finished) { break; }
-        if (candidate < candidates_end) {
-            let fraction = place_of(candidate);
+        if (next_candidate < candidates_end) {
+            let fraction = place_of(next_candidate);
             let steps = signed(home - fraction);
             let image = boxes + vec2<i32>(home < fraction) - vec2<i32>(steps < Steps(0));
             let away = 4294967296.0 * Vector(image) - Vector(steps);
-            let d = away * scale();
+            let d = away * scale_of_lengths();
             let squared = dot(d, d);
             let near = squared < polygon_reach && squared > 0.0 && all(abs(image) <= vec2<i32>(1));
-            let word = face_word(candidate, image);
-            candidate += 1u;
+            let word = face_word(next_candidate, image);
+            next_candidate += 1u;
             if (near) {
                 if (may_cut(Site(word, steps, away), squared)) { break; }
             }
@@ -125,18 +125,18 @@ fn look_around_exactly() {
     }
 }
 
-fn after(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == polygon_sides); }
-fn before(index: u32) -> u32 { return select(index, polygon_sides, index == 0u) - 1u; }
+fn after_corner(index: u32) -> u32 { return select(index + 1u, 0u, index + 1u == polygon_sides); }
+fn before_corner(index: u32) -> u32 { return select(index, polygon_sides, index == 0u) - 1u; }
 
 // The rectangle between a particle and its own images.
 fn begin_exact_polygon(slot: u32) {
-    let half = 2147483648.0 * scale();
-    let blur = 100.0 * ROUNDING * length(half);
+    let half_box = 2147483648.0 * scale_of_lengths();
+    let blur = 100.0 * ROUNDING * length(half_box);
     polygon_sides = 4u;
-    set_side(0u, face_word(slot, vec2<i32>(1, 0)), vec3<f32>(half.x, half.y, blur));
-    set_side(1u, face_word(slot, vec2<i32>(0, 1)), vec3<f32>(-half.x, half.y, blur));
-    set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half.x, -half.y, blur));
-    set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half.x, -half.y, blur));
+    set_side(0u, face_word(slot, vec2<i32>(1, 0)), vec3<f32>(half_box.x, half_box.y, blur));
+    set_side(1u, face_word(slot, vec2<i32>(0, 1)), vec3<f32>(-half_box.x, half_box.y, blur));
+    set_side(2u, face_word(slot, vec2<i32>(-1, 0)), vec3<f32>(-half_box.x, -half_box.y, blur));
+    set_side(3u, face_word(slot, vec2<i32>(0, -1)), vec3<f32>(half_box.x, -half_box.y, blur));
     overflown = false;
     in_doubt = false;
     known_place = NOT_KNOWN;
@@ -144,26 +144,26 @@ fn begin_exact_polygon(slot: u32) {
 }
 
 // How far a corner is beyond the bisector.
-fn height(index: u32) -> f32 { return dot(corner_at(index), direction) - half; }
+fn height_above_bisector(index: u32) -> f32 { return dot(corner_at(index), bisector_direction) - bisector_distance; }
 
 // Sets the bisector of a site and returns whether it may cut the polygon. Updates the reach, and finds the corner that is surest
 // beyond, if there are few.
 fn may_cut(there: Site, squared: f32) -> bool {
     bisected_site = there;
     let inverse = inverseSqrt(squared);
-    direction = there.away * scale() * inverse;
-    half = 0.5 * squared * inverse;
+    bisector_direction = there.away * scale_of_lengths() * inverse;
+    bisector_distance = 0.5 * squared * inverse;
     var highest = -4.0 * UNKNOWN;
     var surest = -4.0 * UNKNOWN;
     var farthest = 0.0;
     var widest = 0.0;
-    corner = 0u;
+    searched_corner = 0u;
     for (var i = 0u; i < FEW; i++) {
         let exists = i < polygon_sides;
         let blur = blur_at(i);
-        let over = dot(corner_at(i), direction);
+        let over = dot(corner_at(i), bisector_direction);
         let sure = select(-4.0 * UNKNOWN, over - blur, exists);
-        corner = select(corner, i, sure > surest);
+        searched_corner = select(searched_corner, i, sure > surest);
         surest = max(surest, sure);
         highest = max(highest, select(-4.0 * UNKNOWN, over + blur, exists));
         farthest = max(farthest, select(0.0, dot(corner_at(i), corner_at(i)), exists));
@@ -172,7 +172,7 @@ fn may_cut(there: Site, squared: f32) -> bool {
     let far = sqrt(farthest) + widest;
     let all = polygon_sides <= FEW;
     polygon_reach = select(polygon_reach, 4.00001 * far * far, all);
-    return !all || highest > half;
+    return !all || highest > bisector_distance;
 }
 
 // Of many corners it examines all first, which `may_cut` has not done.
@@ -185,8 +185,8 @@ fn begin_search() {
     for (var i = 0u; many && i < polygon_sides; i++) {
         let place = corner_at(i);
         let blur = blur_at(i);
-        let over = dot(place, direction) - half;
-        corner = select(corner, i, over - blur > surest);
+        let over = dot(place, bisector_direction) - bisector_distance;
+        searched_corner = select(searched_corner, i, over - blur > surest);
         surest = max(surest, over - blur);
         highest = max(highest, over + blur);
         farthest = max(farthest, dot(place, place));
@@ -196,17 +196,17 @@ fn begin_search() {
     polygon_reach = select(polygon_reach, 4.00001 * far * far, many);
     phase = select(SEARCHING, FOUND, many && highest <= 0.0);
     tried = 0u;
-    gone = 0u;
+    corners_beyond = 0u;
     known_place = NOT_KNOWN;
 }
 
 // Goes on until corners are found or there are none, or one is in doubt.
-fn search() {
+fn search_corners() {
     loop {
         if (phase == FOUND) { break; }
-        let over = height(corner);
+        let over = height_above_bisector(searched_corner);
         var place = i32(sign(over));
-        if (abs(over) <= blur_at(corner)) {
+        if (abs(over) <= blur_at(searched_corner)) {
             in_doubt = known_place == NOT_KNOWN;
             if (in_doubt) { break; }
             place = known_place;
@@ -215,50 +215,50 @@ fn search() {
         if (phase == SEARCHING) {
             tried += 1u;
             if (place > 0) {
-                first = corner;
-                last = corner;
-                gone = 1u;
+                first_beyond = searched_corner;
+                last_beyond = searched_corner;
+                corners_beyond = 1u;
                 phase = FORWARD;
             } else if (tried == polygon_sides) {
                 phase = FOUND;
             }
-            corner = after(corner);
+            searched_corner = after_corner(searched_corner);
         } else if (place >= 0) {
-            gone += 1u;
-            first = select(first, corner, phase == BACKWARD);
-            last = select(last, corner, phase == FORWARD);
-            corner = select(after(corner), before(corner), phase == BACKWARD);
+            corners_beyond += 1u;
+            first_beyond = select(first_beyond, searched_corner, phase == BACKWARD);
+            last_beyond = select(last_beyond, searched_corner, phase == FORWARD);
+            searched_corner = select(after_corner(searched_corner), before_corner(searched_corner), phase == BACKWARD);
             // Never in exact arithmetic: the particle is not beyond.
-            if (gone == polygon_sides) { phase = FOUND; }
+            if (corners_beyond == polygon_sides) { phase = FOUND; }
         } else {
             phase += 1u;
-            corner = before(first);
+            searched_corner = before_corner(first_beyond);
         }
     }
 }
 
 // Settles a doubt.
 fn decide() {
-    known_place = in_circle(site_of(side_word(corner)), site_of(side_word(after(corner))), bisected_site);
+    known_place = in_circle(site_of(side_word(searched_corner)), site_of(side_word(after_corner(searched_corner))), bisected_site);
     in_doubt = false;
 }
 
 // Cuts off the corners that were found.
 fn cut_exactly() {
-    if (gone == 0u || gone == polygon_sides) { return; }
-    if (polygon_sides + 2u - gone > CORNERS) {
+    if (corners_beyond == 0u || corners_beyond == polygon_sides) { return; }
+    if (polygon_sides + 2u - corners_beyond > CORNERS) {
         overflown = true;
         return;
     }
-    let entry = meeting(site_of(side_word(first)), bisected_site);
-    let leaving = meeting(bisected_site, site_of(side_word(after(last))));
-    let first_word = side_word(first);
+    let entry = meeting(site_of(side_word(first_beyond)), bisected_site);
+    let leaving = meeting(bisected_site, site_of(side_word(after_corner(last_beyond))));
+    let first_word = side_word(first_beyond);
     // What follows the cut moves up or down to make room for two corners.
-    let wrapped = last < first;
-    let up = !wrapped && gone == 1u;
-    let shift = select(2 - i32(gone), -i32(last) - 1, wrapped);
-    let moved = select(select(polygon_sides - last - 1u, 0u, gone == 2u), first - last, wrapped);
-    var origin = select(i32(last) + 1, i32(polygon_sides) - 1, up);
+    let wrapped = last_beyond < first_beyond;
+    let up = !wrapped && corners_beyond == 1u;
+    let shift = select(2 - i32(corners_beyond), -i32(last_beyond) - 1, wrapped);
+    let moved = select(select(polygon_sides - last_beyond - 1u, 0u, corners_beyond == 2u), first_beyond - last_beyond, wrapped);
+    var origin = select(i32(last_beyond) + 1, i32(polygon_sides) - 1, up);
     let way = select(1, -1, up);
     for (var i = 0u; i < moved; i++) {
         let place = u32(origin + shift);
@@ -266,10 +266,10 @@ fn cut_exactly() {
         set_side(place, side_word(from_there), vec3<f32>(corner_at(from_there), blur_at(from_there)));
         origin += way;
     }
-    if (wrapped) { first = first - last - 1u; }
-    polygon_sides = polygon_sides + 2u - gone;
-    set_side(first, first_word, entry);
-    set_side(first + 1u, bisected_site.word, leaving);
+    if (wrapped) { first_beyond = first_beyond - last_beyond - 1u; }
+    polygon_sides = polygon_sides + 2u - corners_beyond;
+    set_side(first_beyond, first_word, entry);
+    set_side(first_beyond + 1u, bisected_site.word, leaving);
 }
 
 fn store_exact_faces(slot: u32) {
@@ -277,17 +277,17 @@ fn store_exact_faces(slot: u32) {
     var begin = corner_at(polygon_sides - 1u);
     for (var i = 0u; i < polygon_sides; i++) {
         let word = side_word(i);
-        let corner = corner_at(i);
-        let there = site_of(word).away * scale();
+        let face_corner = corner_at(i);
+        let there = site_of(word).away * scale_of_lengths();
         let distance = length(there);
         let normal = there / distance;
-        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
+        let face_length = max(dot(face_corner - begin, Vector(-normal.y, normal.x)), 0.0);
         let element = i * PARTICLES + slot;
         face_words[element] = word;
         face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
+        face_offsets[element] = 0.5 * dot(face_corner + begin, Vector(normal.y, -normal.x)) * SPACING;
         volume += 0.25 * face_length * distance;
-        begin = corner;
+        begin = face_corner;
     }
     face_counts[slot] = polygon_sides;
     volumes[slot] = volume * SPACING * SPACING;
@@ -296,9 +296,9 @@ fn store_exact_faces(slot: u32) {
 fn make_cell(slot: u32) {
     home = place_of(slot);
     ring = 0;
-    across = 0;
-    along = 0;
-    candidate = 0u;
+    ring_row = 0;
+    ring_column = 0;
+    next_candidate = 0u;
     candidates_end = 0u;
     search_finished = false;
     begin_at(slot);
@@ -310,7 +310,7 @@ fn make_cell(slot: u32) {
                 if (search_finished) { break; }
                 begin_search();
             }
-            search();
+            search_corners();
             if (in_doubt) { break; }
             cut_exactly();
         }

@@ -6,6 +6,8 @@
 //! ffmpeg -framerate 25 -i snapshot-%06d.png -pix_fmt yuv420p movie.mp4
 //! ```
 
+use std::path::Path;
+
 pub use super::trajectory::trajectory;
 use crate::scene::{AnalysisId, TrajectoryFormat};
 use std::ffi::{OsStr, OsString};
@@ -79,6 +81,18 @@ pub fn field(stem: &str, number: Option<u64>, extension: &str) -> String {
         Some(number) => format!("{stem}-{number:06}.{extension}"),
         None => format!("{stem}.{extension}"),
     }
+}
+
+/// Whether a file is an array: one of those that a picture shows, which only the run writes.
+///
+/// ```
+/// use mesoscope::output::files;
+///
+/// assert!(files::is_array("depth.npy") && files::is_array("depth-000007.npy") && !files::is_array("depth.png"));
+/// ```
+#[must_use]
+pub fn is_array(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension == "npy")
 }
 
 /// The number in the name of a numbered snapshot or field.

@@ -204,8 +204,8 @@ impl Summary {
     pub(crate) fn check_table(&self, directory: &RunDirectory, name: &str) -> Result<(), OutputError> {
         let path = directory.file(name);
         let Some(extent) = self.tables.get(name) else { return Err(OutputError::Altered { path }) };
-        // Numbered arrays may have been moved elsewhere.
-        let moved = files::snapshot_number(name).is_some() && !path.exists();
+        // Arrays may have been moved elsewhere.
+        let moved = files::is_array(name) && !path.exists();
         if moved || Extent::of(&path)? == *extent {
             return Ok(());
         }

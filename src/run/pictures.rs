@@ -317,11 +317,14 @@ impl<'a> Pictures<'a> {
             };
             self.save(&name, drawn)?;
             written.push(name);
-            if let Some(arrays) = &mut self.arrays {
-                let name = files::field(shown.stem, number, "npy");
-                let path = self.directory.file(&name);
+            let name = files::field(shown.stem, number, "npy");
+            let path = self.directory.file(&name);
+            // Those that are there are the run's.
+            if self.arrays.is_some() || !path.exists() {
                 write_npy(&path, &field.nodes, &field.values)?;
-                arrays.push((name.clone(), Extent::of(&path)?));
+                if let Some(arrays) = &mut self.arrays {
+                    arrays.push((name.clone(), Extent::of(&path)?));
+                }
                 self.written.push(name.clone());
                 written.push(name);
             }

@@ -183,11 +183,13 @@ impl Library {
     #[must_use]
     pub fn shadows(&self) -> Vec<String> {
         let all = self.files.iter().flat_map(|file| file.declarations.iter().map(move |own| (file.path, own)));
-        all.flat_map(|(path, own)| {
-            let known = own.locals.iter().filter(|local| self.by_name.contains_key(*local));
-            known.map(move |local| format!("{path}.wgsl:{}: `{local}` in `{}`", own.line, own.name))
-        })
-        .collect()
+        let functions = all.filter(|(_, own)| matches!(own.kind, Kind::Function | Kind::Entry));
+        functions
+            .flat_map(|(path, own)| {
+                let known = own.locals.iter().filter(|local| self.by_name.contains_key(*local));
+                known.map(move |local| format!("{path}.wgsl:{}: `{local}` in `{}`", own.line, own.name))
+            })
+            .collect()
     }
 
     /// Which declaration a name stands for, used in a file; nothing if the library does not know it.

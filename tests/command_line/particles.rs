@@ -7,7 +7,9 @@ use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
-use crate::support::program::{Place, bytes, colours, fails, listing, mesoscope, picture, size, succeeds, text};
+use crate::support::program::{
+    Place, bytes, colours, contents, fails, listing, mesoscope, picture, size, succeeds, text,
+};
 
 /// A scene of 375 particles that takes small pictures.
 fn place() -> Place {
@@ -114,7 +116,8 @@ fn the_same_scene_gives_the_same_bytes() {
     place.run("c", &["--quiet", "--set", "output.checkpoint.every=7", "--set", "output.snapshot.every=11"]);
     for other in ["b", "c"] {
         for name in [files::ENERGIES, files::ENERGIES_PLOT, files::SNAPSHOT] {
-            assert_eq!(bytes(&place.path("a").join(name)), bytes(&place.path(other).join(name)), "{name} of {other}");
+            let [a, other_one] = ["a", other].map(|run| contents(&place.path(run), name));
+            assert!(a == other_one, "{name} of {other}");
         }
         assert_eq!(state(&place.path("a")), state(&place.path(other)));
     }
@@ -250,7 +253,11 @@ fn crowding_at_the_ends_of_the_box_is_survived() {
     let (scene, out) = (place.scene(), place.argument("out"));
     let output = mesoscope(&["run", &scene, "--out", &out]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stderr).contains("crowd"), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("too many particles are at the ends of the box; continuing"),
+        "{}",
+        text(&output.stderr)
+    );
     let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
     assert_eq!(energies.column("step").unwrap(), [0.0, 3.0, 6.0, 9.0, 12.0]);
 }

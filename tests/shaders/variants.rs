@@ -461,10 +461,11 @@ fn every_file_and_name_can_be_asked_for() {
     assert!(unused.is_empty(), "no kernel comes to\n{}", unused.join("\n"));
 }
 
-/// One name has one meaning in the whole library.
+/// One name has one meaning in the whole library, and nothing within a function hides it.
 #[test]
 fn names_have_one_meaning() {
     assert_eq!(library().unwrap().ambiguous(), [""; 0]);
+    assert_eq!(library().unwrap().shadows(), [""; 0]);
 }
 
 #[test]

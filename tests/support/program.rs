@@ -123,6 +123,23 @@ pub fn bytes(path: &Path) -> Vec<u8> {
 }
 
 #[track_caller]
+/// A file of a run without the id of the run, which follows from the whole scene: what the run has found and drawn.
+pub fn contents(directory: &Path, name: &str) -> Vec<u8> {
+    let mut found = bytes(&directory.join(name));
+    let summary = String::from_utf8(bytes(&directory.join(mesoscope::output::files::SUMMARY))).unwrap();
+    let id = summary.split_once(r#""run_id": ""#).unwrap().1.split('"').next().unwrap().to_owned();
+    let place = |found: &[u8], part: &[u8]| found.windows(part.len()).position(|window| window == part);
+    if let Some(at) = place(&found, b"tEXtrun_id") {
+        // With its length before and its checksum behind it.
+        let length = u32::from_be_bytes(found[at - 4..at].try_into().unwrap()) as usize;
+        found.drain(at - 4..at + 4 + length + 4);
+    }
+    while let Some(at) = place(&found, id.as_bytes()) {
+        found[at..at + id.len()].fill(0);
+    }
+    found
+}
+
 pub fn picture(path: &Path) -> image::RgbaImage {
     image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgba8()
 }

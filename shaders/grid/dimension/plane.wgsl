@@ -1,7 +1,7 @@
 // Two dimensions, or one: cells no narrower than the cutoff, in rows along x. An axis that is too short for three cells has one.
 fn rows() -> u32 { return CELLS_Y; }
-fn cell_along(fraction: u32, cells: u32) -> u32 {
-    return min(u32(f32(fraction >> 8u) * (f32(cells) / 16777216.0)), cells - 1u);
+fn cell_along(fraction: u32, number: u32) -> u32 {
+    return min(u32(f32(fraction >> 8u) * (f32(number) / 16777216.0)), number - 1u);
 }
 fn column_of(fraction: Fraction) -> u32 { return cell_along(fraction.x, CELLS_X); }
 fn row_of(fraction: Fraction) -> u32 { return cell_along(fraction.y, CELLS_Y); }

@@ -3,8 +3,8 @@
 override CELLS_Z: u32;
 
 fn rows() -> u32 { return CELLS_Y * CELLS_Z; }
-fn cell_along(fraction: u32, cells: u32) -> u32 {
-    return min(u32(f32(fraction >> 8u) * (f32(cells) / 16777216.0)), cells - 1u);
+fn cell_along(fraction: u32, number: u32) -> u32 {
+    return min(u32(f32(fraction >> 8u) * (f32(number) / 16777216.0)), number - 1u);
 }
 fn column_of(fraction: Fraction) -> u32 { return cell_along(fraction.x, CELLS_X); }
 fn row_of(fraction: Fraction) -> u32 {

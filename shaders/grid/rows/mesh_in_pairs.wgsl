@@ -19,7 +19,7 @@ fn write_row(row: u32, before: vec2<u32>) {
     var begin = before.x;
     for (var pair = first; pair < first + CELLS_X / 2u; pair++) {
         let count = two_words(counts[pair]);
-        cells[pair] = two(vec2<u32>(begin, begin + count.x));
+        cells[pair] = stored_two(vec2<u32>(begin, begin + count.x));
         begin += count.x + count.y;
     }
 }

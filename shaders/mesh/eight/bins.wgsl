@@ -62,12 +62,12 @@ fn store_moved_of_eight(eight: Eight, bin: Bin, cell: u32, owner: u32, first: u3
         failures_of_motion |= select(FAILURE_FRAMES, 0u, arrival < ARRIVALS);
         place = select(index, place, arrival < ARRIVALS);
     }
-    if (inside) { store(place, particle); }
+    if (inside) { store_water(place, particle); }
 }
 fn end_moving_eight(eight: Eight, bin: Bin, cell: u32) {
     // What begins or ends with the end of the eight may have no number there.
     let at_begin = select(stayed_at_begin, stayed_so_far, eight.begin == eight.count);
-    kept = select(stayed_at_end, stayed_so_far, eight.end == eight.count) - at_begin;
-    failures_of_motion |= select(0u, FAILURE_FRAMES, kept > CAPACITY);
+    kept_in_bin = select(stayed_at_end, stayed_so_far, eight.end == eight.count) - at_begin;
+    failures_of_motion |= select(0u, FAILURE_FRAMES, kept_in_bin > CAPACITY);
     end_moving(cell, bin);
 }

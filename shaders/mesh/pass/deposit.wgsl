@@ -16,7 +16,7 @@ fn visit_cell(cell: u32) {
     var k = 0u;
     loop { // left at its end: see pairs/clusters
         if (k < bin.count) {
-            let particle = stored(place_in(bin, k));
+            let particle = load_water(place_in(bin, k));
             total += f32(particle.mass);
             add_particle(&moments, particle);
         }
@@ -24,5 +24,5 @@ fn visit_cell(cell: u32) {
         if (k >= bin.count) { break; }
     }
     moments = without_rounding(moments, i32(bin.count));
-    spread(cell, node_weights(moments), moments[0].x, total > MOST_MASS);
+    spread_masses(cell, node_weights(moments), moments[0].x, total > MOST_MASS);
 }

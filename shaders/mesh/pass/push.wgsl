@@ -12,7 +12,7 @@ fn visit_cell(cell: u32) {
     begin_moving(cell);
     for (var k = 0u; k < bin.count; k++) {
         let index = place_in(bin, k);
-        var particle = stored(index);
+        var particle = load_water(index);
         let x = place_along(particle.position.x, CELLS_X).offset;
         let y = place_along(particle.position.y, CELLS_Y).offset;
         let kick = half_kick(polynomial, x, y);

@@ -21,7 +21,7 @@ fn visit_cell(cell: u32) {
     loop { // left at its end: see pairs/clusters
         if (first < eight.count) {
             let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
-            var particle = stored(index);
+            var particle = load_water(index);
             let x = place_along(particle.position.x, CELLS_X);
             let y = place_along(particle.position.y, CELLS_Y).offset;
             let owner = x.cell & 7u;

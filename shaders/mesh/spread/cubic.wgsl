@@ -1,7 +1,7 @@
 // Spreads the rounded masses of a cell over the nodes of splines of order 3; what is left of the total goes to one node.
 var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
 
-fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {
+fn spread_masses(cell: u32, weights: Square, total: i32, too_much: bool) {
     let count = CELLS_X * CELLS_Y;
     let share0 = IntegerPowers(round(weights[0]));
     let share1 = IntegerPowers(round(weights[1]));

@@ -23,8 +23,8 @@ fn with_row(column: Column, share: IntegerPowers) -> Column {
 fn store_column(place: u32, column: Column) {
     let inside = vec4<i32>(column.finished.yzw, column.open.x);
     let outside = vec4<i32>(column.open.yz, column.finished.x, 0);
-    contributions[2u * place] = four(bitcast<vec4<u32>>(inside));
-    contributions[2u * place + 1u] = four(bitcast<vec4<u32>>(outside));
+    contributions[2u * place] = stored_four(bitcast<vec4<u32>>(inside));
+    contributions[2u * place + 1u] = stored_four(bitcast<vec4<u32>>(outside));
 }
 
 // What another lane brings to this lane's column.
@@ -35,7 +35,7 @@ fn begin_strip(column: u32, row: u32) {
     own_shares = Column();
     beside_shares = Column();
 }
-fn spread(cell: u32, weights: Square, total: i32, too_much: bool) {
+fn spread_masses(cell: u32, weights: Square, total: i32, too_much: bool) {
     let lane = lane_of_eight;
     let share0 = IntegerPowers(round(weights[0]));
     var share1 = IntegerPowers(round(weights[1]));

@@ -1,6 +1,6 @@
 // The impulses on each particle at a report, kept by id for the analyses of forces.
-var<private> force: vec4<i32>;
+var<private> total_force: vec4<i32>;
 
-fn begin_force() { force = vec4<i32>(0); }
-fn add_reported_force(impulse: vec4<i32>) { force += impulse; }
-fn store_force(id: u32) { reported_forces[id] = force; }
+fn begin_force() { total_force = vec4<i32>(0); }
+fn add_reported_force(impulse: vec4<i32>) { total_force += impulse; }
+fn store_force(id: u32) { reported_forces[id] = total_force; }

@@ -1,3 +1,3 @@
 // Rows of the mesh are the lines of a Fourier transform; the invocations of a row follow each other.
 fn butterfly_of(index: u32) -> Butterfly { return Butterfly(index / (LENGTH / RADIX), index % (LENGTH / RADIX)); }
-fn element(line: u32, place: u32) -> u32 { return line * LENGTH + place; }
+fn element_of_line(line: u32, place: u32) -> u32 { return line * LENGTH + place; }

@@ -24,7 +24,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
 }
 
 // Multiplies leg j by the j-th power of a root of unity.
-fn turned(v: Legs, step: u32) -> Legs {
+fn turned_legs(v: Legs, step: u32) -> Legs {
     let w1 = roots[step];
     let w2 = roots[2u * step];
     let w3 = times(w2, w1);
@@ -45,7 +45,7 @@ fn turned(v: Legs, step: u32) -> Legs {
 }
 
 // Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
-fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
+fn weighed_legs(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),
         v[1].yx * symbol(butterfly, 1u),

@@ -20,7 +20,7 @@ fn scattered(butterfly: Butterfly, v: Legs) {
 }
 
 // Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.
-fn weighed(v: Legs, butterfly: Butterfly) -> Legs {
+fn weighed_legs(v: Legs, butterfly: Butterfly) -> Legs {
     return Legs(
         v[0].yx * symbol(butterfly, 0u),
         v[1].yx * symbol(butterfly, 1u),

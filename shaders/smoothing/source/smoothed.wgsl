@@ -1,4 +1,4 @@
 // The right-hand side is what has been smoothed before.
 var<storage, read_write> once_smoothed: array<f32>;
 
-fn given(node: u32) -> f32 { return once_smoothed[node]; }
+fn given_depth(node: u32) -> f32 { return once_smoothed[node]; }

@@ -2,4 +2,4 @@
 override ROOTS: u32;
 
 // The legs of butterfly `number` of those that make a transform of `length`.
-fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return turned(legs, number * (ROOTS / length)); }
+fn twisted(legs: Legs, number: u32, length: u32) -> Legs { return turned_legs(legs, number * (ROOTS / length)); }

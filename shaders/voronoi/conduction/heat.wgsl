@@ -7,5 +7,5 @@ fn conducted_heat(facet: Facet, mine: Side, theirs: Side) -> f32 {
     let noise = select(-1.0, 1.0, mine.id < theirs.id) * face_noise(mine.id, theirs.id, facet.image, 1u).x;
     let random = sqrt(2.0 * mine.temperature * theirs.temperature * conductance) * noise;
     let wanted = conductance * (theirs.temperature - mine.temperature) + random;
-    return limited(wanted, mine.temperature * mine.mass / MOLECULAR_MASS, theirs.temperature * theirs.mass / MOLECULAR_MASS);
+    return limited_amount(wanted, mine.temperature * mine.mass / MOLECULAR_MASS, theirs.temperature * theirs.mass / MOLECULAR_MASS);
 }

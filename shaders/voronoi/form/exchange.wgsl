@@ -6,7 +6,7 @@ fn turning(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 {
 }
 fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 {
     let wanted = turning(facet, twist, mine, theirs) * density_between(mine.density, theirs.density);
-    let limited_mass = limited(wanted, mine.mass, theirs.mass);
+    let limited_mass = limited_amount(wanted, mine.mass, theirs.mass);
     uncut = select(1.0, limited_mass / wanted, limited_mass != wanted);
     let part = part_within_energy(internal_energy_swept(facet, twist, mine, theirs), mine, theirs);
     cuts += select(0u, 1u, part < 1.0 && uncut == 1.0);

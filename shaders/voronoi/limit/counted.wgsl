@@ -3,7 +3,7 @@ override EXCHANGE_LIMIT: f32;
 var<private> cuts: u32;
 
 // What comes from the other cell, or goes there if negative.
-fn limited(wanted: f32, mine: f32, theirs: f32) -> f32 {
+fn limited_amount(wanted: f32, mine: f32, theirs: f32) -> f32 {
     let most = EXCHANGE_LIMIT * select(mine, theirs, wanted > 0.0);
     // What is not a number stays so, and the exchange reports it.
     let cut = is_number(wanted) && abs(wanted) > most;

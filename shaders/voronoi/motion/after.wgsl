@@ -1,2 +1,2 @@
 // Cells drift with the velocity that they have after the exchange.
-fn moved(cell: Particle, before: Vector) -> vec4<u32> { return drifted(cell, velocity_of(cell)); }
+fn moved_place(cell: Particle, before: Vector) -> vec4<u32> { return drifted_place(cell, velocity_of(cell)); }
