@@ -73,11 +73,11 @@ const ARRAYS: [Array; 10] = [
         "order",
         "Where the particles lie in the order of their cells",
         Element::Word,
-        Some("in_order"),
+        Some("index_in_order"),
         Some("set_order"),
     ),
     array("ranks", "Place of each particle in its cell", Element::Word, Some("rank_of"), Some("put_rank")),
-    array("waves", "The depth in Fourier space", Element::Complex, Some("wave"), None),
+    array("waves", "The depth in Fourier space", Element::Complex, Some("wave_at"), None),
     array("waves_next", "The same after this pass", Element::Complex, None, Some("put_wave")),
 ];
 

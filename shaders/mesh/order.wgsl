@@ -59,7 +59,7 @@ fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(lo
 fn tidy_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let number = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (number >= PARTICLES) { return; }
-    copy_particle(in_order(number), number);
+    copy_particle(index_in_order(number), number);
 }
 
 // Copies ordered particles back, and makes the order that of memory. One invocation a particle; writes `order`.

@@ -84,7 +84,8 @@ struct Reached {
 }
 
 /// Why a kernel does not link: the place `file:line`, and the reason.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("shaders/{place}: {reason}")]
 pub struct Unlinked {
     /// File and line.
     pub place: String,
@@ -235,7 +236,7 @@ impl Library {
     /// # Errors
     /// [`Unlinked`] if there is no such entry or variant, or a name cannot be resolved.
     pub fn link(&self, entry: &str, choices: &[&str]) -> Result<LinkedText, Unlinked> {
-        let nowhere = |reason: String| Unlinked { place: "shaders".to_owned(), reason };
+        let nowhere = |reason: String| Unlinked { place: "README.md".to_owned(), reason };
         let start = (self.by_name.get(entry).into_iter().flatten())
             .find(|place| self.declaration(**place).kind == Kind::Entry)
             .ok_or_else(|| nowhere(format!("there is no kernel `{entry}`")))?;

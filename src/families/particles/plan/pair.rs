@@ -365,7 +365,7 @@ impl Builder<'_> {
     fn split_step(&mut self, kept: &Choices) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
-        self.plan.kernels[find].renamed.push(("found", "particles"));
+        self.plan.kernels[find].renamed.push(("kept_masks", "particles"));
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax);
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push(("HALVES", 2.0));
