@@ -1,6 +1,6 @@
 //! The plain float64 implementation of every integrator on the CPU: the executable specification.
 //!
-//! It steps the same integer [`State`](crate::state::State) as the GPU and draws the same random words, so that single steps can be
+//! It steps the same integer [`State`] as the GPU and draws the same random words, so that single steps can be
 //! compared closely; all real arithmetic is in float64. Positions are moved and momenta kicked by whole units, and the
 //! impulse of a pair is rounded once for both ends, so momentum is conserved to the last bit and no sum over pairs
 //! depends on their order.
