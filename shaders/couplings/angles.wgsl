@@ -46,6 +46,18 @@ fn visit_angle(angle: u32) {
     raise(select(FAILURE_IMPULSE, 0u, sound));
 }
 
+// The energy of an angle, an impulse times a length.
+fn energy_of_angle(stiffness: f32, corner: Corner) -> f32 { return stiffness * corner.opening; }
+// The second derivatives of the cosine by the positions of the particles that can move. As a function of the direction of one arm the
+// cosine is a spherical harmonic of degree 1; the middle moves both.
+fn laplacian_of_cosine(corner: Corner) -> f32 {
+    let inverse = corner.inverse_lengths;
+    let alone = -f32(DIMENSION - 1u) * corner.cosine * inverse * inverse;
+    let both = (f32(DIMENSION) - 2.0 + corner.cosine * corner.cosine) * inverse.x * inverse.y;
+    return select(0.0, alone.x, corner.mobile.x) + select(0.0, alone.y, corner.mobile.z)
+        + select(0.0, alone.x + alone.y + 2.0 * both, corner.mobile.y);
+}
+
 // Slot couplings/angles: `note_angle` gets each angle and the impulses on its ends, `finish_angles` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {}

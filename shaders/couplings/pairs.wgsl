@@ -26,28 +26,27 @@ fn visit_pairs_of(slot: u32) {
             let other_slot = neighbour & NEIGHBOUR_MASK;
             let other = stored_particle(other_slot);
             let contact = contact_of(separation(me.position, other.position));
-            let c = coefficients_of(species_of(me), species_of(other));
+            let c = unless_excluded(neighbour, coefficients_of(species_of(me), species_of(other)));
             let root = root_weight(contact.w);
-            let repulsion = select(repulsion_impulse(c, 1.0), 0.0, spared(neighbour));
-            let push = repulsion * contact.w;
+            let push = repulsion_impulse(c, contact.w);
             let magnitude = impulse_of_pair(push, c, contact, root, me, other, entry * PARTICLES + slot);
             let impulse = Steps(round(magnitude * contact.direction));
             sound = sound && is_within(magnitude, IMPULSE_LIMIT);
             kick += impulse;
             add_kick(other_slot, -impulse);
-            note_pair(slot, other_slot, repulsion, magnitude, contact);
+            note_pair(slot, other_slot, c, magnitude, contact);
         }
     }
     add_kick(slot, kick);
     raise(select(FAILURE_IMPULSE, 0u, sound));
 }
 
-// Slot couplings/exclusions: see couplings/list. Default: off, every listed pair repels.
-fn spared(neighbour: u32) -> bool { return false; }
+// Slot couplings/exclusions: the coefficients of a listed pair, without repulsion where it is excluded; see couplings/list.
+// Default: off, every listed pair repels.
+fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients { return c; }
 
-// Slot couplings/pairs: `note_pair` gets each pair; `repulsion` is the impulse at contact, `magnitude` that of all forces.
-// `finish_pairs` ends the workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
-fn note_pair(slot: u32, other_slot: u32, repulsion: f32, magnitude: f32, contact: Contact) {}
+// Slot couplings/pairs: `note_pair` gets each pair with its coefficients and the impulse of all forces. `finish_pairs` ends the workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
+fn note_pair(slot: u32, other_slot: u32, c: Coefficients, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
 // Slot couplings/pair_bath_noise: noise of a bath with memory, even under exchange.

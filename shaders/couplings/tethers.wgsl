@@ -1,6 +1,11 @@
-// Tethers: a spring from every particle to where it started.
-override TETHER: f32; // impulse of half a step per length
+// Tethers: a spring from every particle to where it started, V = K d^2 / 2.
+override TETHER: f32;           // K: impulse of half a step per length
+override TETHER_ENERGY: f32;    // K/2: energy per square of a length, over its quantum
+override TETHER_LAPLACIAN: f32; // K in every dimension, over its quantum
 var<storage, read_write> tethers: array<vec4<u32>>; // where each particle started, by id
+
+fn impulse_of_tether(length: Vector) -> Vector { return -TETHER * length; }
+fn energy_of_tether(length: Vector) -> f32 { return dot(length, length) * TETHER_ENERGY; }
 
 // Slot couplings/tethers: `note_tether` gets the displacement of each particle, `finish_tethers` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
@@ -16,7 +21,7 @@ fn pull_tethers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     if (slot < PARTICLES) {
         let position = stored_position(slot);
         let length = separation(position, tethers[position.w]);
-        let impulse = -TETHER * length;
+        let impulse = impulse_of_tether(length);
         add_kick(slot, Steps(round(impulse)));
         raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT)));
         note_tether(slot, length);

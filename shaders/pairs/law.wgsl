@@ -4,8 +4,16 @@
 // Slot pairs/weight: the root of the weight omega(w), w = 1 - r/rc, and the coupling function phi with phi' = root of omega.
 // Variants standard (omega = w^2), general; the plan follows the exponent of the scene. No default.
 
-// Slot pairs/repulsion: the conservative impulse at w. The plan chooses `soft` if any repulsion is above zero.
+// Slot pairs/repulsion: the conservative force, all of it proportional to `c.repulsion`. `repulsion_impulse` is the impulse of half a
+// step at w, for steps; `repulsion_of` is what a report needs of the same force. A variant holds the whole law: potential, force
+// and curvature. The plan chooses `soft` if any repulsion is above zero.
+struct Repulsion {
+    impulse: f32,   // of half a step
+    energy: f32,    // in halves of the cutoff, as an impulse
+    laplacian: f32, // of the energy by the position of one particle, as an impulse per length
+}
 fn repulsion_impulse(c: Coefficients, w: f32) -> f32 { return 0.0; }
+fn repulsion_of(c: Coefficients, contact: Contact) -> Repulsion { return Repulsion(0.0, 0.0, 0.0); }
 
 // Slot pairs/friction: the frictional impulse, `root` being the root of the weight. Variants velocity, discrete_gradient: the
 // plan follows the integrator. The variant relaxation provides `friction_rate` and `relaxation_impulse` for split steps

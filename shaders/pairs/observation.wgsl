@@ -14,17 +14,13 @@ fn no_pairs() -> PairSums {
     let zero = Sum64(0u);
     return PairSums(zero, zero, zero, zero, Steps(0));
 }
-// Energy, virial, curvature and force of the repulsion of a pair; `repulsion` is the impulse at contact.
-fn observe_conservative(sums: ptr<function, PairSums>, repulsion: f32, contact: Contact) {
-    let magnitude = repulsion * contact.w;
-    (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(magnitude * contact.w * PAIR_ENERGY));
+// Energy, virial, curvature and force of the repulsion of a pair: slot pairs/repulsion, see pairs/law.
+fn observe_conservative(sums: ptr<function, PairSums>, repulsion: Repulsion, contact: Contact) {
+    (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(repulsion.energy * PAIR_ENERGY));
     (*sums).conservative_virial =
-        sum64_add((*sums).conservative_virial, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
-    // Two particles in the same place exert no force, and have no curvature either.
-    let slope = contact.w / max(contact.distance, 1e-6 * CUTOFF);
-    let curvature = select(0.0, repulsion * (1.0 / CUTOFF - f32(DIMENSION - 1u) * slope), contact.distance > 0.0);
-    (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(curvature * LAPLACIAN));
-    (*sums).force += Steps(round(magnitude * contact.direction));
+        sum64_add((*sums).conservative_virial, sum64_of_f32(repulsion.impulse * contact.distance * PAIR_VIRIAL));
+    (*sums).laplacian = sum64_add((*sums).laplacian, sum64_of_f32(repulsion.laplacian * LAPLACIAN));
+    (*sums).force += Steps(round(repulsion.impulse * contact.direction));
 }
 // The virial of an impulse; `weight` converts it to the unit of the report.
 fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, contact: Contact) {

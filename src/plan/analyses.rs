@@ -142,7 +142,7 @@ fn acceleration_scale(model: &Model) -> f64 {
             let others = model.species.iter().enumerate();
             others.map(|(b, other)| coefficient(b) * other.count as f64 / model.units.volume()).sum()
         };
-        let frequency = sum(&|b| force.repulsion(a, b).abs()) * sphere / (dimension * cutoff * species.mass);
+        let frequency = sum(&|b| force.stiffness(a, b)) * sphere / (dimension * cutoff * species.mass);
         let rate = sum(&|b| force.friction(a, b)) * weight / (dimension * species.mass);
         model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))
     });

@@ -2,6 +2,8 @@
 // bonds have memory, those without forget everything in a step.
 var<storage, read_write> bond_baths: array<f32>;
 
+// Over its quantum.
+fn energy_of_bond_bath(kind: BondKind, bath: f32) -> f32 { return bath * bath * kind.bath_energy; }
 fn prepare_bonds() { prepare_bond_noise(); }
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 {
     let before = bond_baths[bond];

@@ -12,4 +12,6 @@ fn excluded(id: u32, other: u32) -> u32 {
     return bit;
 }
 
-fn spared(neighbour: u32) -> bool { return (neighbour & ~NEIGHBOUR_MASK) != 0u; }
+fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients {
+    return Coefficients(select(c.repulsion, 0.0, (neighbour & ~NEIGHBOUR_MASK) != 0u), c.friction, c.noise);
+}

@@ -6,6 +6,11 @@
 override LOSS: f32;         // 1 - e
 override DECAY: f32;        // ln |e|
 override SPREAD: f32;       // root of 1 - e^2
+override BATH_ENERGY: f32;  // energy per square of the bath and inverse response, over its quantum
+
+fn energy_of_pair_bath(c: Coefficients, bath: f32) -> f32 {
+    return select(0.0, bath * bath / c.friction * BATH_ENERGY, c.friction > 0.0);
+}
 
 fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
     let memory = pair_memory(place);

@@ -3,6 +3,8 @@ override POSITION_IMPULSE: f32; // impulse of half a step per bath
 override POSITION_LOSS: f32;    // the part of a bath that is lost in a step
 var<storage, read_write> position_baths: array<vec4<f32>>;
 
+// Of one coordinate, over its quantum.
+fn energy_of_position_bath(species: i32, bath: f32) -> f32 { return bath * bath * position_energy(species); }
 fn position_bath(id: u32, species: i32, drift: Vector) -> Vector {
     let before = bath_of(position_baths[id]);
     let after = before - POSITION_LOSS * before + position_response(species) * drift + position_noise(id, species);

@@ -8,7 +8,7 @@ fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
     let contact = contact_of(separation(me.position, other.position));
     if (!contact.inside) { return; }
     let c = coefficients_of(species_of(me), species_of(other));
-    observe_conservative(sums, repulsion_impulse(c, 1.0), contact);
+    observe_conservative(sums, repulsion_of(c, contact), contact);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
     observe_configuration(sums);

@@ -12,8 +12,8 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     if (!contact.inside) { return; }
     let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
-    let repulsion = repulsion_impulse(c, 1.0);
-    let magnitude = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
+    let repulsion = repulsion_of(c, contact);
+    let magnitude = repulsion.impulse + friction_impulse(c, contact, root, me, other)
         + random_impulse(c, root, me, other);
     (*sums).kick += Steps(round(magnitude * contact.direction));
     var pairs = (*sums).pairs;

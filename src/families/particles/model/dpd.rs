@@ -71,6 +71,12 @@ impl PairForce {
         self.repulsion[a * self.species + b]
     }
 
+    /// rc |V''| of the conservative force between two species, at most.
+    #[must_use]
+    pub fn stiffness(&self, a: usize, b: usize) -> f64 {
+        self.repulsion(a, b).abs()
+    }
+
     /// Friction γ between two species.
     #[must_use]
     pub fn friction(&self, a: usize, b: usize) -> f64 {

@@ -36,7 +36,7 @@ impl Model {
         };
         self.largest(|index| {
             let stiffness: f64 =
-                self.densities().map(|(other, density)| force.repulsion(index, other).abs() * density).sum();
+                self.densities().map(|(other, density)| force.stiffness(index, other) * density).sum();
             let mass = self.species[index].mass;
             (stiffness * sphere / (self.units.dimension as f64 * force.cutoff * mass)).sqrt()
         })

@@ -1,6 +1,7 @@
 //! Plans of particles: of pairs without memory, in one or two traversals a step, and of all couplings one by one.
 
 pub(crate) mod couplings;
+mod law;
 pub(crate) mod pair;
 mod species;
 

@@ -1,6 +1,7 @@
 //! The plan of a scene whose particles interact in pairs.
 
 use super::analyses::{self, Reported};
+use super::law::law;
 use super::layout::PARTICLE;
 use super::pair_histogram::PairHistogram;
 use super::prefix_sum::{PrefixSum, needs_levels};
@@ -273,10 +274,8 @@ impl Builder<'_> {
     fn law(&self) -> Choices {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        let choices = Choices::new()
+        let choices = law(force)
             .with(if self.texels { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
-            .with(if force.weight_exponent == 2.0 { pairs::Weight::Standard } else { pairs::Weight::General })
-            .with_if(force.largest_repulsion() > 0.0, pairs::Repulsion::Soft)
             .with_any(frictional.then_some(match self.model.integrator {
                 Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                     pairs::Friction::Relaxation

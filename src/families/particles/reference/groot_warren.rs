@@ -33,7 +33,7 @@ pub(super) fn half_kicks(reference: &Reference, found: &[Pair], friction: impl F
     for pair in found {
         let forces = Forces::between(model, &state.species, pair);
         let amplitude = (2.0 * forces.friction * model.pair_temperature()).sqrt();
-        let mut force = forces.conservative + friction(pair, &forces);
+        let mut force = forces.potential.force() + friction(pair, &forces);
         if amplitude > 0.0 {
             force += amplitude * forces.weight * pairs::noise(model, key, pair) / model.time_step.sqrt();
         }

@@ -5,6 +5,7 @@ mod couplings;
 mod groot_warren;
 mod observables;
 pub(crate) mod pairs;
+mod potential;
 mod splitting;
 
 pub use couplings::CouplingsReference;

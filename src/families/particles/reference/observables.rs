@@ -36,25 +36,17 @@ pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) ->
     }
     observables.momentum = total.map(|units| units as f64 * model.units.momentum);
 
-    let Some(force) = model.pair_force() else { return observables };
     let mut gradients = vec![[0.0; 3]; state.len()];
     for pair in found {
-        // V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.
-        let magnitude = Forces::between(model, &state.species, pair).conservative;
-        let closeness = 1.0 - pair.distance / force.cutoff;
-        observables.potential_energy += 0.5 * force.cutoff * magnitude * closeness;
-        observables.conservative_virial += pair.distance * magnitude;
-        let species = [state.species[pair.first] as usize, state.species[pair.second] as usize];
-        if pair.distance > 0.0 {
-            // Both ends have the same Laplacian.
-            observables.laplacian += 2.0
-                * (force.repulsion(species[0], species[1]) / force.cutoff
-                    - (dimension - 1) as f64 * magnitude / pair.distance);
-        }
-        let direction = pair.direction();
+        let potential = Forces::between(model, &state.species, pair).potential;
+        observables.potential_energy += potential.energy;
+        observables.conservative_virial += potential.virial(pair.distance);
+        // Both ends have the same Laplacian.
+        observables.laplacian += 2.0 * potential.laplacian(pair.distance, dimension);
+        let gradient = potential.gradient(pair);
         for axis in 0..3 {
-            gradients[pair.first][axis] -= magnitude * direction[axis];
-            gradients[pair.second][axis] += magnitude * direction[axis];
+            gradients[pair.first][axis] += gradient[axis];
+            gradients[pair.second][axis] -= gradient[axis];
         }
     }
     observables.gradient_squared = gradients.iter().flatten().map(|component| component * component).sum();

@@ -1,5 +1,6 @@
 //! Which particles interact, and the numbers of a pair that every integrator needs.
 
+use super::potential::Potential;
 use crate::families::Model;
 use crate::noise;
 use crate::scene::Distribution;
@@ -133,9 +134,10 @@ fn half_stencil(dimension: usize) -> Vec<[isize; 3]> {
 }
 
 /// The pair forces of the model at one distance.
+#[derive(Default)]
 pub(super) struct Forces {
-    /// Conservative force a(1 - r/rc) along e.
-    pub conservative: f64,
+    /// The conservative force.
+    pub potential: Potential,
     /// Friction coefficient γ of the two species.
     pub friction: f64,
     /// w = √ω, the weight of the noise.
@@ -145,13 +147,11 @@ pub(super) struct Forces {
 impl Forces {
     /// The forces between two particles within the cutoff; none at all without a pair force.
     pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
-        let Some(force) = model.pair_force() else {
-            return Self { conservative: 0.0, friction: 0.0, weight: 0.0 };
-        };
+        let Some(force) = model.pair_force() else { return Self::default() };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];
         let closeness = 1.0 - pair.distance / force.cutoff;
         Self {
-            conservative: force.repulsion(a, b) * closeness,
+            potential: Potential::of_pair(force, [a, b], pair.distance),
             friction: force.friction(a, b),
             weight: if force.weight_exponent == 2.0 { closeness } else { closeness.powf(force.weight_exponent / 2.0) },
         }

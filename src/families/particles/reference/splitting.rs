@@ -46,7 +46,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let mut kick = vec![[0; 3]; state.len()];
     let mut total_virial = 0.0;
     for pair in found {
-        let force = Forces::between(model, &state.species, pair).conservative;
+        let force = Forces::between(model, &state.species, pair).potential.force();
         let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
         pairs::exchange(&mut kick, pair, impulse, model.units.momentum);
         total_virial += pair.distance * force;

@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::families::BathStep;
+use crate::families::particles::plan::law::law;
 use crate::scene::{Bath, Integrator};
 use crate::shaders::{Choices, Entry, couplings, pairs};
 
@@ -46,10 +47,8 @@ impl Builder<'_> {
             Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
             _ => pairs::Friction::DiscreteGradient,
         };
-        Choices::new()
+        law(force)
             .with_if(self.spares(), couplings::Exclusions::Listed)
-            .with(if force.weight_exponent == 2.0 { pairs::Weight::Standard } else { pairs::Weight::General })
-            .with_if(force.largest_repulsion() > 0.0, pairs::Repulsion::Soft)
             .with(if memory { couplings::PairBath::Memory } else { couplings::PairBath::White })
             .with_if(memory && thermal, couplings::PairBathNoise::Thermal)
             .with_if(!memory && force.has_friction(), friction)

@@ -11,7 +11,7 @@ pub(super) struct Corner {
     /// Lengths of the arms.
     lengths: [f64; 2],
     /// cos θ.
-    pub cosine: f64,
+    cosine: f64,
 }
 
 impl Corner {
@@ -25,6 +25,11 @@ impl Corner {
         }
         let directions = [0, 1].map(|arm: usize| arms[arm].map(|component| component / lengths[arm]));
         Some(Self { directions, lengths, cosine: dot(directions[0], directions[1]) })
+    }
+
+    /// V/k = 1 + cos θ.
+    pub fn energy(&self) -> f64 {
+        1.0 + self.cosine
     }
 
     /// ∇cos θ at both ends; at the middle it is minus their sum.

@@ -5,11 +5,11 @@
 //! The configurational temperature is that of the particles that can move.
 
 use super::angles::Corner;
-use super::bonds::{self, Potential};
-use super::{CouplingsReference, Evaluation, is_fixed, pairs, tethers};
+use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
 use crate::families::Bonds;
 use crate::families::Observables;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
+use crate::families::particles::reference::potential::Potential;
 
 /// Sums of the potential and its derivatives.
 struct Configuration {
@@ -21,20 +21,16 @@ struct Configuration {
 }
 
 impl Configuration {
-    /// Adds the potential V of a distance with its derivatives V' and V''. Two particles in the same place have no
-    /// direction, and no derivatives.
-    fn add(&mut self, pair: &Pair, [energy, slope, curvature]: [f64; 3]) {
-        self.potential += energy;
-        self.virial -= pair.distance * slope;
-        if pair.distance == 0.0 {
-            return;
-        }
-        let direction = pair.direction();
-        let laplacian = curvature + (self.dimension - 1) as f64 * slope / pair.distance;
+    /// Adds the potential of a pair or a bond.
+    fn add(&mut self, pair: &Pair, potential: &Potential) {
+        self.potential += potential.energy;
+        self.virial += potential.virial(pair.distance);
+        let gradient = potential.gradient(pair);
+        let laplacian = potential.laplacian(pair.distance, self.dimension);
         for (end, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
             self.laplacians[end] += laplacian;
             for axis in 0..3 {
-                self.gradients[end][axis] += sign * slope * direction[axis];
+                self.gradients[end][axis] += sign * gradient[axis];
             }
         }
     }
@@ -93,26 +89,22 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
                 continue;
             }
-            // V = a rc/2 (1 - r/rc)².
-            let magnitude = Forces::between(model, &state.species, &pair).conservative;
-            let closeness = 1.0 - pair.distance / force.cutoff;
-            let repulsion = force.repulsion(state.species[pair.first] as usize, state.species[pair.second] as usize);
-            sums.add(&pair, [0.5 * force.cutoff * magnitude * closeness, -magnitude, repulsion / force.cutoff]);
+            sums.add(&pair, &Forces::between(model, &state.species, &pair).potential);
         }
     }
     for bond in model.bonds().into_iter().flat_map(Bonds::iter) {
         let kind = model.bonds().map(|bonds| &bonds.kinds[bond.kind as usize]);
         let pair = bonds::span(model, &bond, &state.positions);
         let potential = kind.and_then(|kind| kind.potential.as_ref());
-        if let Some(potential) = Potential::at(potential, pair.distance) {
-            sums.add(&pair, [potential.energy, potential.slope, potential.curvature]);
+        if let Some(potential) = Potential::of_bond(potential, pair.distance) {
+            sums.add(&pair, &potential);
         }
     }
     if let Some(angles) = model.angles() {
         for angle in angles.iter() {
             let stiffness = angles.stiffness[angle.kind as usize];
             let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
-            sums.potential += stiffness * (1.0 + corner.cosine);
+            sums.potential += stiffness * corner.energy();
             let [first, last] = corner.gradients();
             let middle = std::array::from_fn(|axis| -first[axis] - last[axis]);
             let derivatives = [first, middle, last].into_iter().zip(corner.laplacians(dimension));
@@ -127,11 +119,12 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
     if let Some(stiffness) = model.tether() {
         for particle in 0..count {
             let way = tethers::displacement(model, state, particle);
+            let (energies, gradient) = (tethers::energies(stiffness, way), tethers::gradient(stiffness, way));
             for axis in 0..3 {
-                sums.potential += 0.5 * stiffness * way[axis] * way[axis];
-                sums.gradients[particle][axis] += stiffness * way[axis];
+                sums.potential += energies[axis];
+                sums.gradients[particle][axis] += gradient[axis];
             }
-            sums.laplacians[particle] += stiffness * dimension as f64;
+            sums.laplacians[particle] += tethers::laplacian(stiffness, dimension);
         }
     }
     sums

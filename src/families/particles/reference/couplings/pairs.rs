@@ -38,7 +38,7 @@ pub(super) fn kick(
         for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
             let forces = Forces::between(model, &state.species, &pair);
             let spared = excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
-            let mut magnitude = if spared { 0.0 } else { forces.conservative };
+            let mut magnitude = if spared { 0.0 } else { forces.potential.force() };
             if forces.friction > 0.0 {
                 let step = bath_step(model, force, state, pair.first, pair.second);
                 let change = motion.approach(&pair).map_or_else(
@@ -71,7 +71,7 @@ pub(super) fn kick(
         let kept = step.persistence * value - step.response() * phi(force, distance);
         (memory.memory, memory.stamp) = ((kept as f32).to_bits(), state.step as u32);
         let forces = Forces::between(model, &state.species, &pair);
-        let repulsion = if memory.spared == 1 { 0.0 } else { forces.conservative };
+        let repulsion = if memory.spared == 1 { 0.0 } else { forces.potential.force() };
         add(&pair, repulsion - forces.weight * value);
         bath_sums.add(&step, value);
     }

@@ -9,10 +9,25 @@ pub(super) fn displacement(model: &Model, state: &State, particle: usize) -> [f6
     model.units.displacement(state.positions[particle], state.tethers[particle])
 }
 
-/// Adds the half kicks of all tethers.
+/// V, the part of each axis by itself.
+pub(super) fn energies(stiffness: f64, displacement: [f64; 3]) -> [f64; 3] {
+    displacement.map(|d| 0.5 * stiffness * d * d)
+}
+
+/// ∇V.
+pub(super) fn gradient(stiffness: f64, displacement: [f64; 3]) -> [f64; 3] {
+    displacement.map(|d| stiffness * d)
+}
+
+/// ∇²V.
+pub(super) fn laplacian(stiffness: f64, dimension: usize) -> f64 {
+    stiffness * dimension as f64
+}
+
+/// Adds the half kicks -dt/2 ∇V of all tethers.
 pub(super) fn kick(model: &Model, stiffness: f64, state: &State, kick: &mut [[i64; 3]]) {
     for (particle, sum) in kick.iter_mut().enumerate() {
-        let impulse = displacement(model, state, particle).map(|d| -0.5 * model.time_step * stiffness * d);
+        let impulse = gradient(-0.5 * model.time_step * stiffness, displacement(model, state, particle));
         push(sum, impulse, model.units.momentum);
     }
 }

@@ -1,0 +1,117 @@
+//! Potentials of a distance: energy, force, virial and curvature of pairs and bonds, for steps and for what is observed alike.
+
+use super::pairs::Pair;
+use crate::families::{Model, PairForce};
+use crate::scene::BondPotential;
+
+/// V, V' and V'' at a distance.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Potential {
+    /// V.
+    pub energy: f64,
+    /// V'.
+    pub slope: f64,
+    /// V''.
+    pub curvature: f64,
+}
+
+impl Potential {
+    /// The conservative force between two particles within the cutoff.
+    pub fn of_pair(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> Self {
+        // V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.
+        let repulsion = force.repulsion(a, b);
+        let closeness = 1.0 - distance / force.cutoff;
+        let magnitude = repulsion * closeness;
+        Self {
+            energy: 0.5 * force.cutoff * magnitude * closeness,
+            slope: -magnitude,
+            curvature: repulsion / force.cutoff,
+        }
+    }
+
+    /// Of a bond of some length; none for a length that is out of reach.
+    pub fn of_bond(potential: Option<&BondPotential>, distance: f64) -> Option<Self> {
+        match *potential.unwrap_or(&BondPotential::Harmonic { stiffness: 0.0, length: 0.0 }) {
+            BondPotential::Harmonic { stiffness, length } => {
+                let extension = distance - length;
+                Some(Self {
+                    energy: 0.5 * stiffness * extension * extension,
+                    slope: stiffness * extension,
+                    curvature: stiffness,
+                })
+            }
+            BondPotential::Fene { stiffness, extent, length } => {
+                let extension = distance - length;
+                let square = (extension / extent).powi(2);
+                (square < 1.0).then(|| Self {
+                    energy: -0.5 * stiffness * extent * extent * (-square).ln_1p(),
+                    slope: stiffness * extension / (1.0 - square),
+                    curvature: stiffness * (1.0 + square) / (1.0 - square).powi(2),
+                })
+            }
+        }
+    }
+
+    /// The force that pushes both ends apart.
+    pub fn force(&self) -> f64 {
+        -self.slope
+    }
+
+    /// r·F.
+    pub fn virial(&self, distance: f64) -> f64 {
+        distance * self.force()
+    }
+
+    /// ∇²V by the position of either end, V'' + (d - 1) V'/r. Two particles in the same place have no direction, and no
+    /// derivatives.
+    pub fn laplacian(&self, distance: f64, dimension: usize) -> f64 {
+        if distance == 0.0 { 0.0 } else { self.curvature + (dimension - 1) as f64 * self.slope / distance }
+    }
+
+    /// ∇V by the position of the first end; by that of the second it is the opposite.
+    pub fn gradient(&self, pair: &Pair) -> [f64; 3] {
+        pair.direction().map(|component| self.slope * component)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::scene;
+
+    fn assert_derivatives(name: &str, distance: f64, at: impl Fn(f64) -> Potential) {
+        let (less, more, here) = (at(distance - 1e-5), at(distance + 1e-5), at(distance));
+        let slope = (more.energy - less.energy) / 2e-5;
+        assert!((slope - here.slope).abs() < 1e-6 * here.slope.abs().max(1.0), "{name} {distance}");
+        let curvature = (more.slope - less.slope) / 2e-5;
+        assert!((curvature - here.curvature).abs() < 1e-5 * here.curvature, "{name} {distance}");
+    }
+
+    #[test]
+    fn potentials_of_bonds_have_their_derivatives() {
+        let harmonic = BondPotential::Harmonic { stiffness: 3.0, length: 0.7 };
+        let finite = BondPotential::Fene { stiffness: 3.0, extent: 1.5, length: 0.2 };
+        for potential in [&harmonic, &finite] {
+            for distance in [0.1, 0.7, 1.3, 1.65] {
+                let at = |distance| Potential::of_bond(Some(potential), distance).unwrap();
+                assert_derivatives(&format!("{potential:?}"), distance, at);
+            }
+        }
+        // For a small extension both are the same spring.
+        let near = Potential::of_bond(Some(&finite), 0.2 + 1e-4).unwrap();
+        assert!((near.energy / (0.5 * 3.0 * 1e-8) - 1.0).abs() < 1e-7);
+        assert!(Potential::of_bond(Some(&finite), 1.7).is_none());
+    }
+
+    #[test]
+    fn potentials_of_pairs_have_their_derivatives() {
+        let scene = scene::load("dpd-fluid", &["interactions.0.cutoff=1.3".to_owned()]).unwrap();
+        let model = Model::new(&scene);
+        let force = model.pair_force().unwrap();
+        for distance in [0.1, 0.7, 1.25] {
+            assert_derivatives("pair", distance, |distance| Potential::of_pair(force, [0, 0], distance));
+        }
+    }
+}
