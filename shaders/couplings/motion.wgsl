@@ -73,23 +73,23 @@ fn observe_particle(slot: u32) {
 // Default: off, every particle can move. The plan chooses `held` if any species is fixed.
 fn is_fixed(species: i32) -> bool { return false; }
 
-// Slot couplings/coloured_noise: impulses of a coloured noise over the half steps around this step, in integer momentum units.
+// Slot baths/coloured_noise: impulses of a coloured noise over the half steps around this step, in integer momentum units.
 // Default: off. The plan chooses `held` if the scene has such a noise.
 struct Held { closing: Steps, opening: Steps }
 fn advance_hold(id: u32) -> Held { return Held(Steps(0), Steps(0)); }
 fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
 
-// Slot couplings/position_bath: a bath on every coordinate, from its drift in the last step; `position_impulse` is its impulse
+// Slot baths/positions: a bath on every coordinate, from its drift in the last step; `position_impulse` is its impulse
 // of half a step, `keep_position_bath` stores it. Default: off. The plan chooses `memory` or `white`.
 fn position_bath(id: u32, species: i32, drift: Vector) -> Vector { return Vector(0.0); }
 fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 
-// Slot couplings/position_noise: noise of position baths, in their unit. Variants one, two, three; the plan follows the box.
+// Slot baths/position_noise: noise of position baths, in their unit. Variants one, two, three; the plan follows the box.
 // Default: off, the position baths of this scene have no temperature.
 fn prepare_position_noise() {}
 fn position_noise(id: u32, species: i32) -> Vector { return Vector(0.0); }
 
-// Slot couplings/position_report: adds the energy of a position bath to a report.
+// Slot baths/position_report: adds the energy of a position bath to a report.
 // Default: off, such baths have none. The plan chooses `observed` if they have memory.
 fn note_position_bath(species: i32, bath: Vector) {}

@@ -1,6 +1,6 @@
 // Listed pairs: each is visited once, by its owner, and its impulses are opposite at its ends.
 //
-// Slot couplings/pair_bath: `impulse_of_pair` gives the impulse of half a step along the line of centres, positive apart, from
+// Slot baths/pairs: `impulse_of_pair` gives the impulse of half a step along the line of centres, positive apart, from
 // `push` (the repulsion) and the bath; `place` is where the pair is listed. Even under exchange. Variants white, memory; the
 // plan follows the scene. No default. The law itself is in pairs/law.
 
@@ -45,15 +45,15 @@ fn visit_pairs_of(slot: u32) {
 // Default: off, every listed pair repels.
 fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients { return c; }
 
-// Slot couplings/pairs: `note_pair` gets each pair with its coefficients and the impulse of all forces. `finish_pairs` ends the workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
+// Slot couplings/pair_report: `note_pair` gets each pair with its coefficients and the impulse of all forces. `finish_pairs` ends the workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_pair(slot: u32, other_slot: u32, c: Coefficients, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
-// Slot couplings/pair_bath_noise: noise of a bath with memory, even under exchange.
+// Slot baths/pair_noise: noise of a bath with memory, even under exchange.
 // Default: off, the baths have no temperature. The plan chooses `thermal` if they have.
 fn bath_noise(id: u32, other: u32) -> f32 { return 0.0; }
 
-// Slot couplings/pair_memory: what is done with the new value of a bath.
+// Slot baths/pair_report: what is done with the new value of a bath.
 // Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {
     let memory = bath - LOSS * bath - c.friction * coupling(contact.w);

@@ -2,16 +2,16 @@
 //
 // Slots without defaults, chosen by src/families/shallow_water/plan/steps.rs:
 // - mesh/pass: `visit_cell`, what is done in a cell. Variants deposit; push; push_of_eight (in strips).
-// - mesh/storage: how the particles of a cell are found: `opened_bin`, then `place_in` for each. Variants sorted, bins.
-// - mesh/particles: particles from and to memory. Variants in_place, bins, each in buffers or textures.
-// - mesh/moving: where a particle goes that has moved. Variants sorted, bins.
-// - mesh/eight: the same for eight cells side by side. Variants sorted, bins.
+// - water/storage: how the particles of a cell are found: `opened_bin`, then `place_in` for each. Variants sorted, bins.
+// - water/particles: particles from and to memory. Variants in_place, bins, each in buffers or textures.
+// - water/moving: where a particle goes that has moved. Variants sorted, bins.
+// - water/eight: the same for eight cells side by side. Variants sorted, bins.
 // - mesh/spline: order of the splines, 1 to 3, with moments and polynomials. Variants linear, quadratic, cubic.
 // - mesh/nodes: the surface on the nodes under a cell's splines. mesh/spread: the masses of the nodes from those of a cell.
 //   Variants by order; cubic_of_eight shares loads and stores among the cells of a strip.
-// - mesh/drift: `closed` and `opened`, the step of a free particle. Variants rotate, gyro; the plan follows the integrator.
+// - water/drift: `closed` and `opened`, the step of a free particle. Variants rotate, gyro; the plan follows the integrator.
 
-// Slot mesh/sorted: begins a step that no sort has begun.
+// Slot water/sorted: begins a step that no sort has begun.
 // Default: the step begins here. The plan chooses `by_sort` where particles are sorted.
 fn begin_unsorted_step() { begin_step(); }
 

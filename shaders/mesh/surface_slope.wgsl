@@ -20,7 +20,7 @@ fn check_motion(velocity: vec2<i32>) {
     failures_of_motion |= select(0u, FAILURE_MOMENTUM, max(speed.x, speed.y) > u32(VELOCITY_LIMIT));
 }
 
-// Slot mesh/turn: the rotation of velocities in a step, by integers. Default: off. The plan chooses `coriolis` if there is a
+// Slot water/turn: the rotation of velocities in a step, by integers. Default: off. The plan chooses `coriolis` if there is a
 // rotation.
 fn turned_by_rotation(velocity: vec2<i32>) -> vec2<i32> { return velocity; }
 

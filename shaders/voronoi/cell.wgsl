@@ -1,14 +1,14 @@
 // Voronoi cells as particles store them, and their drift: position.z is the mass of a cell and momentum.z its total energy,
 // both in integer units.
 //
-// Slots of voronoi without defaults, chosen by src/families/voronoi/plan:
+// Slots of cells and their exchanges without defaults, chosen by src/families/voronoi/plan:
 // - voronoi/gas: the equation of state: pressure, density of internal energy and temperature of a cell, and the temperature of
 //   the noise of a face (even under exchange). Variants isothermal; energy, if cells keep their energy.
-// - voronoi/side: what a cell brings to an exchange (`Side`, in voronoi/faces). Variants start, predicted, solved (friction),
+// - exchange/side: what a cell brings to an exchange (`Side`, in exchange/exchange). Variants start, predicted, solved (friction),
 //   warm (heat).
-// - voronoi/moved: `move_units` adds integer units to what comes through the faces of a cell. Variants by what crosses: momentum,
+// - exchange/moved: `move_units` adds integer units to what comes through the faces of a cell. Variants by what crosses: momentum,
 //   mass, energy, heat, all.
-// - voronoi/change: `take_change` gives what has come. Variants taken; kept and again, or twice, for both halves
+// - exchange/change: `take_change` gives what has come. Variants taken; kept and again, or twice, for both halves
 //   of a step.
 override MOMENTUM_UNIT: f32;
 override DRIFT_STEP: f32;

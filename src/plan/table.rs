@@ -5,7 +5,7 @@ use crate::families::{Angles, Bonds, ChainGroup};
 /// What a table holds, of whatever length.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Table {
-    /// Words about species and kinds, then the ends and the kind of each bond, as `shaders/couplings/bonds.wgsl` reads them.
+    /// Words about species and kinds, then the ends and the kind of each bond, as `shaders/bonds/bonds.wgsl` reads them.
     Bonds {
         /// What comes before the bonds.
         head: Vec<u32>,

@@ -5,9 +5,9 @@
 //! for it, by enumerations made from the folders.
 //!
 //! ```
-//! use mesoscope::shaders::{Choices, Entry, linked_text, mesh};
+//! use mesoscope::shaders::{Choices, Entry, linked_text, mesh, water};
 //!
-//! let choices = Choices::new().with(mesh::Spline::Linear).with(mesh::Particles::InPlace);
+//! let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
 //! let linked = linked_text(Entry::BinWater, &choices)?;
 //! assert!(linked.text.contains("fn bin_water"));
 //! assert!(linked.parts.iter().any(|part| part.path == "mesh/spline/linear"));

@@ -318,21 +318,21 @@ fn plans_hold_what_a_scene_asks_for() {
         engine.plan().kernels.iter().flat_map(|kernel| kernel.files().unwrap()).collect()
     };
     let plain = files(&[]);
-    assert!(plain.contains("voronoi/random_impulse/thermal") && plain.contains("voronoi/friction"));
-    for file in ["voronoi/conduction/heat", "voronoi/gas/energy", "voronoi/predict", "voronoi/note/by_id"] {
+    assert!(plain.contains("exchange/random_impulse/thermal") && plain.contains("voronoi/friction"));
+    for file in ["exchange/conduction/heat", "voronoi/gas/energy", "exchange/predict", "voronoi/note/by_id"] {
         assert!(!plain.contains(file), "{file}");
     }
     let inviscid = files(&["interactions.0.viscosity=0"]);
-    for file in ["voronoi/random_impulse/thermal", "voronoi/rubbing/viscous", "voronoi/friction"] {
+    for file in ["exchange/random_impulse/thermal", "exchange/rubbing/viscous", "voronoi/friction"] {
         assert!(!inviscid.contains(file), "{file}");
     }
     let cold = files(&["temperature=0"]);
-    assert!(cold.contains("voronoi/rubbing/viscous"));
-    for file in ["voronoi/random_impulse/thermal", "voronoi/limit/counted", "voronoi/turn_bound/bounded"] {
+    assert!(cold.contains("exchange/rubbing/viscous"));
+    for file in ["exchange/random_impulse/thermal", "exchange/limit/counted", "exchange/turn_bound/bounded"] {
         assert!(!cold.contains(file), "{file}");
     }
     let warm = files(&[r#"interactions.0.energy={"conductivity":0}"#]);
-    assert!(warm.contains("voronoi/predict") && !warm.contains("voronoi/conduction/heat"));
+    assert!(warm.contains("exchange/predict") && !warm.contains("exchange/conduction/heat"));
 }
 
 /// Analyses take each cell's own mass.

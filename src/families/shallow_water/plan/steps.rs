@@ -13,7 +13,7 @@ use crate::families::{Model, ShallowWater};
 use crate::noise;
 use crate::scene::{AnalysisId, Integrator, Output};
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Choices, Entry, arrays, grid, mesh};
+use crate::shaders::{Choices, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
@@ -253,20 +253,20 @@ impl Builder<'_> {
                 2 => mesh::Nodes::Quadratic,
                 _ => mesh::Nodes::Cubic,
             })
-            .with(if self.gyrates() { mesh::Drift::Gyro } else { mesh::Drift::Rotate })
-            .with_if(self.water.rotation != 0.0, mesh::Turn::Coriolis)
+            .with(if self.gyrates() { water::Drift::Gyro } else { water::Drift::Rotate })
+            .with_if(self.water.rotation != 0.0, water::Turn::Coriolis)
             .with_if(self.water.bath.is_some(), mesh::Surface::Bath)
             .with_if(self.texels, arrays::Order::Texture);
         match self.storage {
-            Storage::Sorted => choices.with(mesh::Storage::Sorted).with(mesh::Sorted::BySort).with(if self.texels {
-                mesh::Particles::InPlaceTextures
+            Storage::Sorted => choices.with(water::Storage::Sorted).with(water::Sorted::BySort).with(if self.texels {
+                water::Particles::InPlaceTextures
             } else {
-                mesh::Particles::InPlace
+                water::Particles::InPlace
             }),
-            Storage::Bins => choices.with(mesh::Storage::Bins).with(if self.texels {
-                mesh::Particles::BinsTextures
+            Storage::Bins => choices.with(water::Storage::Bins).with(if self.texels {
+                water::Particles::BinsTextures
             } else {
-                mesh::Particles::Bins
+                water::Particles::Bins
             }),
         }
     }
@@ -301,7 +301,7 @@ impl Builder<'_> {
         let entry = if self.eights { Entry::OrderWaterOfEight } else { Entry::OrderWater };
         let order = self.kernel("order", entry, &none, carriers);
         self.plan.sort.push(order);
-        let tidied = Choices::new().with(if self.texels { mesh::Tidied::Textures } else { mesh::Tidied::Buffers });
+        let tidied = Choices::new().with(if self.texels { water::Tidied::Textures } else { water::Tidied::Buffers });
         let tidy = self.kernel("tidy", Entry::TidyWater, &tidied, carriers);
         let keep = self.kernel("keep_tidied", Entry::KeepTidiedWater, &tidied, carriers);
         let back = [("particles", "tidied"), ("tidied", "particles")];
@@ -349,13 +349,13 @@ impl Builder<'_> {
     fn motion(&mut self, output: &Output) {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
         let push = Choices::new().with(match self.storage {
-            Storage::Sorted => mesh::Moving::Sorted,
-            Storage::Bins => mesh::Moving::Bins,
+            Storage::Sorted => water::Moving::Sorted,
+            Storage::Bins => water::Moving::Bins,
         });
         let push = if self.eights {
             push.with(mesh::Nodes::CubicOfEight).with(mesh::Pass::PushOfEight).with(match self.storage {
-                Storage::Sorted => mesh::Eight::Sorted,
-                Storage::Bins => mesh::Eight::Bins,
+                Storage::Sorted => water::Eight::Sorted,
+                Storage::Bins => water::Eight::Bins,
             })
         } else {
             push.with(mesh::Pass::Push)
@@ -423,7 +423,7 @@ impl Builder<'_> {
         };
         let mut kernels = vec![Kernel::new("follow", entry, self.choices(), groups(followed))];
         if self.tracers() > 0 {
-            let stored = self.choices().with(mesh::Particles::InPlace);
+            let stored = self.choices().with(water::Particles::InPlace);
             let follow = Kernel::new("follow_tracers", Entry::FollowWater, stored, groups(self.tracers()));
             let count = vec![("PARTICLES", self.tracers() as f64)];
             kernels.push(follow.with(count).renamed(vec![("particles", "tracers")]));

@@ -1,7 +1,7 @@
 //! What crosses the faces: momentum, mass and energy, as each part of a step asks for.
 
 use super::Builder;
-use crate::shaders::{Choices, Entry, voronoi};
+use crate::shaders::{Choices, Entry, exchange, voronoi};
 
 /// What a part of a step exchanges, in which time, and how fast cells are then taken to move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,20 +30,20 @@ impl Builder<'_> {
         let choices = self
             .forces(part, heat)
             .with(match part {
-                _ if predicted => voronoi::Side::Predicted,
-                Part::Pressure | Part::Everything => voronoi::Side::Start,
-                Part::Friction => voronoi::Side::Solved,
-                Part::Heat => voronoi::Side::Warm,
+                _ if predicted => exchange::Side::Predicted,
+                Part::Pressure | Part::Everything => exchange::Side::Start,
+                Part::Friction => exchange::Side::Solved,
+                Part::Heat => exchange::Side::Warm,
             })
-            .with_if(limits, voronoi::Limit::Counted)
-            .with_if(heat, voronoi::Conduction::Heat)
-            .with_if(self.cells.keeps_energy(), voronoi::Energy::Kept)
+            .with_if(limits, exchange::Limit::Counted)
+            .with_if(heat, exchange::Conduction::Heat)
+            .with_if(self.cells.keeps_energy(), exchange::Energy::Kept)
             .with(match (part, pressure && self.cells.exchanges_mass(), self.cells.keeps_energy()) {
-                (Part::Heat, _, _) => voronoi::Moved::Heat,
-                (_, false, false) => voronoi::Moved::Momentum,
-                (_, true, false) => voronoi::Moved::Mass,
-                (_, false, true) => voronoi::Moved::Energy,
-                (_, true, true) => voronoi::Moved::All,
+                (Part::Heat, _, _) => exchange::Moved::Heat,
+                (_, false, false) => exchange::Moved::Momentum,
+                (_, true, false) => exchange::Moved::Mass,
+                (_, false, true) => exchange::Moved::Energy,
+                (_, true, true) => exchange::Moved::All,
             });
         let exchange = self.face_kernel("exchange", Entry::ExchangeThroughFaces, &choices, part);
         if into != "exchanges" {
@@ -60,8 +60,8 @@ impl Builder<'_> {
         }
         let choices = self
             .forces(part, false)
-            .with(voronoi::Side::Start)
-            .with_if(part == Part::Everything, voronoi::Middle::Start);
+            .with(exchange::Side::Start)
+            .with_if(part == Part::Everything, exchange::Middle::Start);
         self.face_kernel("predict", Entry::PredictExchange, &choices, part)
     }
 
@@ -80,7 +80,7 @@ impl Builder<'_> {
 
     /// Friction and its noise.
     pub(super) fn rubbing(&self) -> Choices {
-        Choices::new().with(voronoi::Rubbing::Viscous).with_if(self.rubs_at_random(), voronoi::RandomImpulse::Thermal)
+        Choices::new().with(exchange::Rubbing::Viscous).with_if(self.rubs_at_random(), exchange::RandomImpulse::Thermal)
     }
 
     /// A kernel over the faces of cells.

@@ -16,6 +16,7 @@ use crate::families::{Model, Voronoi};
 use crate::noise::stream;
 use crate::plan::{Grid, Kernel, Layout, Options, Plan, Quanta, words};
 use crate::scene::{Integrator, Output, VoronoiForm};
+use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
 use crate::shaders::{Choices, Entry, grid, space, voronoi};
 
 /// Makes the plan of a model of Voronoi cells.
@@ -150,24 +151,24 @@ impl Builder<'_> {
     /// The form of pressures and mass exchange.
     fn form(&self) -> Choices {
         let keeps_energy = self.cells.keeps_energy();
-        let turned = Choices::new().with(voronoi::Twist::OfFaces);
-        let exchanging = |turning: voronoi::Turning| {
+        let turned = Choices::new().with(Twist::OfFaces);
+        let exchanging = |turning: Turning| {
             turned
                 .clone()
-                .with(voronoi::Form::Exchange)
+                .with(Form::Exchange)
                 .with(turning)
-                .with_if(keeps_energy, voronoi::SweptEnergy::Limited)
-                .with(voronoi::Limit::Counted)
+                .with_if(keeps_energy, SweptEnergy::Limited)
+                .with(Limit::Counted)
         };
         match self.cells.form {
             VoronoiForm::Gradient if self.has_limits() => turned
-                .with(voronoi::Form::Gradient)
-                .with(voronoi::TurnBound::Bounded)
-                .with(if keeps_energy { voronoi::Sweep::Limited } else { voronoi::Sweep::Bounded })
-                .with(voronoi::Limit::Counted),
-            VoronoiForm::Gradient => turned.with(voronoi::Form::Gradient),
-            VoronoiForm::Consistent => exchanging(voronoi::Turning::Consistent),
-            VoronoiForm::Paper => exchanging(voronoi::Turning::Paper),
+                .with(Form::Gradient)
+                .with(TurnBound::Bounded)
+                .with(if keeps_energy { Sweep::Limited } else { Sweep::Bounded })
+                .with(Limit::Counted),
+            VoronoiForm::Gradient => turned.with(Form::Gradient),
+            VoronoiForm::Consistent => exchanging(Turning::Consistent),
+            VoronoiForm::Paper => exchanging(Turning::Paper),
         }
     }
 

@@ -4,8 +4,8 @@ use super::Builder;
 use super::exchange::Part;
 use super::tessellation::Occasion;
 use crate::scene::Output;
-use crate::shaders::voronoi::{self, Change};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::exchange::{Change, EnergyCheck};
+use crate::shaders::{Choices, Entry, voronoi};
 
 /// Which way cells go once they have taken up what they got.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,7 +108,7 @@ impl Builder<'_> {
     fn take_up(&mut self, change: Change, drift: Drift) -> usize {
         let choices = Choices::new()
             .with(change)
-            .with_if(self.cells.keeps_energy(), voronoi::EnergyCheck::Kept)
+            .with_if(self.cells.keeps_energy(), EnergyCheck::Kept)
             .with_any(match drift {
                 Drift::None => None,
                 Drift::Half => Some(voronoi::Motion::After),

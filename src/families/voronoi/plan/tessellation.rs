@@ -3,9 +3,9 @@
 use super::Builder;
 use crate::plan::Kernel;
 use crate::plan::prefix_sum::PrefixSum;
-use crate::shaders::{Entry, core, voronoi};
+use crate::shaders::{Entry, core, tessellation};
 
-/// Corners for which an invocation has room in memory of its own, as `shaders/voronoi/corners/private.wgsl` says.
+/// Corners for which an invocation has room in memory of its own, as `shaders/tessellation/corners/private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
 
 /// Cells of which one is expected to be in doubt at most: where there are more, invocations make several one after another.
@@ -84,7 +84,7 @@ impl Builder<'_> {
     /// A kernel that is made once, however often it is asked for.
     fn shared_kernel(&mut self, name: &'static str, entry: Entry, workgroups: u64) -> usize {
         let stored = self.options.list_growth > 0;
-        let choices = self.choices().with(if stored { voronoi::Corners::Stored } else { voronoi::Corners::Private });
+        let choices = self.choices().with(if stored { tessellation::Corners::Stored } else { tessellation::Corners::Private });
         self.plan.add_kernel_once(Kernel::new(name, entry, choices, workgroups))
     }
 

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::plan::Table;
-use crate::shaders::{Choices, Entry, couplings};
+use crate::shaders::{Choices, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
@@ -18,7 +18,7 @@ impl Builder<'_> {
         ]);
         let advance = self.kernel("angles", Entry::BendAngles, &Choices::new(), groups);
         self.plan.advance.push(advance);
-        let seen = Choices::new().with(couplings::Angles::Observed).with_any(self.forces());
+        let seen = Choices::new().with(bonds::AngleReport::Observed).with_any(self.forces());
         self.report_kernel("report_angles", Entry::BendAngles, &seen, groups);
         let mobile = self.model.species.iter().map(|species| [u32::from(!species.fixed), 0, 0, 0]);
         let impulses = angles.stiffness.iter().map(|stiffness| ((stiffness * self.impulse()) as f32).to_bits());

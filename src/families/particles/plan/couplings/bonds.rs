@@ -5,7 +5,7 @@ use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
 use crate::plan::Table;
 use crate::scene::BondPotential;
-use crate::shaders::{Choices, Entry, couplings};
+use crate::shaders::{Choices, Entry, baths, bonds, couplings};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
@@ -27,9 +27,9 @@ impl Builder<'_> {
         let choices = bond_choices(bonds);
         let seen = choices
             .clone()
-            .with(couplings::Bonds::Observed)
+            .with(bonds::BondReport::Observed)
             .with_any(self.forces())
-            .with_if(bonds.have_memory(), couplings::BondMemory::Observed);
+            .with_if(bonds.have_memory(), baths::BondReport::Observed);
         let advance = self.kernel("bonds", Entry::PullBonds, &choices, groups);
         self.plan.advance.push(advance);
         self.report_kernel("report_bonds", Entry::PullBonds, &seen, groups);
@@ -46,7 +46,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The buffers of bonds; `bonds` as `shaders/couplings/bonds.wgsl` reads it.
+    /// The buffers of bonds; `bonds` as `shaders/bonds/bonds.wgsl` reads it.
     fn bond_buffers(&mut self, bonds: &Bonds) {
         let mut words: Vec<u32> = Vec::new();
         for species in 0..self.model.species.len() {
@@ -101,15 +101,15 @@ impl Builder<'_> {
 fn bond_choices(bonds: &Bonds) -> Choices {
     let any = |what: fn(&BondKind) -> bool| bonds.kinds.iter().any(what);
     let potential = if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
-        Some(couplings::BondPotential::Fene)
+        Some(bonds::Potential::Fene)
     } else if any(|kind| kind.potential.is_some()) {
-        Some(couplings::BondPotential::Harmonic)
+        Some(bonds::Potential::Harmonic)
     } else {
         None
     };
-    let bath = if bonds.have_memory() { couplings::BondBath::Memory } else { couplings::BondBath::White };
+    let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
     Choices::new()
         .with_any(potential)
         .with_if(bonds.have_friction(), bath)
-        .with_if(any(|kind| kind.bath.is_some() && kind.temperature > 0.0), couplings::BondNoise::Gaussian)
+        .with_if(any(|kind| kind.bath.is_some() && kind.temperature > 0.0), baths::BondNoise::Gaussian)
 }

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::noise::{self, stream};
 use crate::scene::NoiseProcess;
-use crate::shaders::{Choices, couplings};
+use crate::shaders::{Choices, baths};
 
 /// Largest time that a constant takes, in half steps: above it every force outlasts any run.
 const LONGEST_TIME: f64 = 1e30;
@@ -12,11 +12,11 @@ impl Builder<'_> {
     /// The random force, if there is one.
     pub(super) fn held_noise(&self) -> Choices {
         let Some(noise) = self.model.coloured_noise() else { return Choices::new() };
-        Choices::new().with(couplings::ColouredNoise::Held).with(match noise.process {
-            NoiseProcess::Kangaroo => couplings::Jump::Kangaroo,
-            NoiseProcess::KangarooExponential => couplings::Jump::KangarooExponential,
-            NoiseProcess::Short => couplings::Jump::Short,
-            NoiseProcess::Literal => couplings::Jump::Literal,
+        Choices::new().with(baths::ColouredNoise::Held).with(match noise.process {
+            NoiseProcess::Kangaroo => baths::Jump::Kangaroo,
+            NoiseProcess::KangarooExponential => baths::Jump::KangarooExponential,
+            NoiseProcess::Short => baths::Jump::Short,
+            NoiseProcess::Literal => baths::Jump::Literal,
         })
     }
 

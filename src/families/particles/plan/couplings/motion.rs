@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::noise::{self, stream};
 use crate::scene::Output;
-use crate::shaders::{Choices, Entry, couplings};
+use crate::shaders::{Choices, Entry, baths, couplings};
 
 impl Builder<'_> {
     pub(super) fn motion(&mut self, output: &Output) {
@@ -21,7 +21,7 @@ impl Builder<'_> {
         // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
         let optional = [self.species.have_table(), memory, self.model.coloured_noise().is_some(), forces.is_some()];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
-        let report = choices.with_if(memory, couplings::PositionReport::Observed).with_any(forces);
+        let report = choices.with_if(memory, baths::PositionReport::Observed).with_any(forces);
         self.report_kernel("observe", Entry::ObserveParticles, &report, groups);
         if self.model.has_potential() {
             self.plan.add_buffer(
@@ -38,13 +38,13 @@ impl Builder<'_> {
     fn position_bath(&self) -> Choices {
         let Some(bath) = self.model.position_bath() else { return Choices::new() };
         Choices::new()
-            .with(if bath.memory { couplings::PositionBath::Memory } else { couplings::PositionBath::White })
+            .with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White })
             .with_if(
                 bath.temperature > 0.0,
                 match self.model.units.dimension {
-                    1 => couplings::PositionNoise::One,
-                    2 => couplings::PositionNoise::Two,
-                    _ => couplings::PositionNoise::Three,
+                    1 => baths::PositionNoise::One,
+                    2 => baths::PositionNoise::Two,
+                    _ => baths::PositionNoise::Three,
                 },
             )
     }

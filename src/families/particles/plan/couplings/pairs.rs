@@ -4,7 +4,7 @@ use super::Builder;
 use crate::families::BathStep;
 use crate::families::particles::plan::law::law;
 use crate::scene::{Bath, Integrator};
-use crate::shaders::{Choices, Entry, couplings, pairs};
+use crate::shaders::{Choices, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {
     pub(super) fn pairs(&mut self) {
@@ -17,9 +17,9 @@ impl Builder<'_> {
         let law = self.law();
         let seen = law
             .clone()
-            .with(couplings::Pairs::Observed)
+            .with(couplings::PairReport::Observed)
             .with_any(self.forces())
-            .with_if(memory, couplings::PairMemory::Observed);
+            .with_if(memory, baths::PairReport::Observed);
         let advance = self.kernel("pairs", Entry::VisitListedPairs, &law, groups);
         self.plan.advance.push(advance);
         self.report_kernel("report_pairs", Entry::VisitListedPairs, &seen, groups);
@@ -49,8 +49,8 @@ impl Builder<'_> {
         };
         law(force)
             .with_if(self.spares(), couplings::Exclusions::Listed)
-            .with(if memory { couplings::PairBath::Memory } else { couplings::PairBath::White })
-            .with_if(memory && thermal, couplings::PairBathNoise::Thermal)
+            .with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
+            .with_if(memory && thermal, baths::PairNoise::Thermal)
             .with_if(!memory && force.has_friction(), friction)
             .with_if(!memory && thermal, pairs::Random::Thermal)
             .with_if(thermal, self.pair_noise())

@@ -1,7 +1,7 @@
 //! Springs from every particle to where it started.
 
 use super::Builder;
-use crate::shaders::{Choices, Entry, couplings};
+use crate::shaders::{Choices, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn tethers(&mut self) {
@@ -15,7 +15,7 @@ impl Builder<'_> {
         ]);
         let advance = self.kernel("tethers", Entry::PullTethers, &Choices::new(), groups);
         self.plan.advance.push(advance);
-        let seen = Choices::new().with(couplings::Tethers::Observed).with_any(self.forces());
+        let seen = Choices::new().with(bonds::TetherReport::Observed).with_any(self.forces());
         self.report_kernel("report_tethers", Entry::PullTethers, &seen, groups);
         self.plan.add_buffer("tethers", "where each particle is tied to, by number", 16 * self.particles);
         self.plan.operations_per_particle += 15.0;

@@ -58,15 +58,3 @@ fn face_noise(mine: u32, theirs: u32, image: u32, part: u32) -> vec2<f32> {
     let counters = vec2<u32>(min(mine, theirs) | (image << 28u), max(mine, theirs) | (part << 28u));
     return two_gaussians_of(pair_words(noise_key, counters));
 }
-
-// What a cell brings to an exchange through its faces.
-struct Side {
-    id: u32,
-    mass: f32,
-    velocity: Vector,    // when the exchange begins
-    mean: Vector,        // of before and after it
-    pressure: f32,
-    density: f32,        // of mass
-    energy_density: f32, // of internal energy
-    temperature: f32,
-}

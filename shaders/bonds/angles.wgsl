@@ -58,7 +58,7 @@ fn laplacian_of_cosine(corner: Corner) -> f32 {
         + select(0.0, alone.x + alone.y + 2.0 * both, corner.mobile.y);
 }
 
-// Slot couplings/angles: `note_angle` gets each angle and the impulses on its ends, `finish_angles` ends the workgroup.
+// Slot bonds/angle_report: `note_angle` gets each angle and the impulses on its ends, `finish_angles` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {}
 fn finish_angles(group: u32, lane: u32) {}

@@ -7,7 +7,7 @@ var<storage, read_write> tethers: array<vec4<u32>>; // where each particle start
 fn impulse_of_tether(length: Vector) -> Vector { return -TETHER * length; }
 fn energy_of_tether(length: Vector) -> f32 { return dot(length, length) * TETHER_ENERGY; }
 
-// Slot couplings/tethers: `note_tether` gets the displacement of each particle, `finish_tethers` ends the workgroup.
+// Slot bonds/tether_report: `note_tether` gets the displacement of each particle, `finish_tethers` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_tether(slot: u32, length: Vector) {}
 fn finish_tethers(group: u32, lane: u32) {}

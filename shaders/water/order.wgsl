@@ -51,7 +51,7 @@ fn order_water_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(lo
     if (inside) { set_order(number, index); }
 }
 
-// Slot mesh/tidied: `copy_particle` copies a stored particle. Variants buffers, textures; the plan follows where particles are.
+// Slot water/tidied: `copy_particle` copies a stored particle. Variants buffers, textures; the plan follows where particles are.
 // No default.
 
 // Copies the particles in the order of cells. One invocation a particle; reads `order`.

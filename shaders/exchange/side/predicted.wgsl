@@ -1,4 +1,4 @@
-// Cells as they are when the exchange begins, with the mean velocity and the pressure that voronoi/predict expects.
+// Cells as they are when the exchange begins, with the mean velocity and the pressure that exchange/predict expects.
 fn side_of(slot: u32, cell: Particle) -> Side {
     let prediction = predictions[slot];
     let mass = mass_of(cell);

@@ -1,4 +1,4 @@
-// Voronoi cells take up what came through their faces: slot voronoi/change, see voronoi/cell.
+// Voronoi cells take up what came through their faces: slot exchange/change, see voronoi/cell.
 const UNITS_LIMIT: i32 = 1073741824; // 2^30
 
 // Slot voronoi/motion: the position after the exchange, from the velocity before it or after it.
@@ -6,7 +6,7 @@ const UNITS_LIMIT: i32 = 1073741824; // 2^30
 // steps).
 fn moved_place(cell: Particle, before: Vector) -> vec4<u32> { return cell.position; }
 
-// Slot voronoi/energy_check: raises a failure if the internal energy is negative.
+// Slot exchange/energy_check: raises a failure if the internal energy is negative.
 // Default: off, cells at the temperature of the scene have no energy of their own. The plan chooses `kept` if they do.
 fn check_energy(cell: Particle) {}
 

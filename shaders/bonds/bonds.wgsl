@@ -62,7 +62,7 @@ fn visit_bond(bond: u32) {
     raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
 }
 
-// Slot couplings/bond_potential: the potential of a bond at a length, even under exchange.
+// Slot bonds/potential: the potential of a bond at a length, even under exchange.
 // Default: off, bonds without a potential. The plan chooses `harmonic`, or `fene` if any kind limits the extension.
 struct Stretch {
     force: f32,     // impulse of half a step away from each other
@@ -72,21 +72,21 @@ struct Stretch {
 }
 fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.0, 0.0, true); }
 
-// Slot couplings/bond_bath: friction and noise of a bond, an impulse of half a step away from each other, even under exchange;
+// Slot baths/bonds: friction and noise of a bond, an impulse of half a step away from each other, even under exchange;
 // `prepare_bonds` comes first. Default: off. The plan chooses `memory` if any bath has one, else `white`.
 fn prepare_bonds() {}
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 { return 0.0; }
 
-// Slot couplings/bond_noise: a standard Gaussian number for a bond.
+// Slot baths/bond_noise: a standard Gaussian number for a bond.
 // Default: off, no bath of a bond has a temperature. The plan chooses `gaussian` if any has.
 fn prepare_bond_noise() {}
 fn bond_noise(bond: u32) -> f32 { return 0.0; }
 
-// Slot couplings/bond_memory: what is done with the new value of a bath.
+// Slot baths/bond_report: what is done with the new value of a bath.
 // Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }
 
-// Slot couplings/bonds: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
+// Slot bonds/bond_report: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
 fn finish_bonds(group: u32, lane: u32) {}

@@ -1,7 +1,7 @@
 // A random force on every particle that is constant for random times, independent of the time step: its impulses are integrals
 // over all jumps, wherever within a step they come.
 //
-// Slot couplings/jump: `jump_of` gives the next force and how long it lasts, in half steps, from an id and the number of the
+// Slot baths/jump: `jump_of` gives the next force and how long it lasts, in half steps, from an id and the number of the
 // jump. Variants kangaroo, kangaroo_exponential, literal, short; the plan follows the process of the scene. No default.
 override HOLD_IMPULSE: f32; // impulse of half a step per force
 

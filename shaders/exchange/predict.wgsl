@@ -1,13 +1,13 @@
 // A prediction of an exchange: the mean velocity of before and after it, at which impulses do their work, and the
 // pressure in the middle of it. Neither has to be exact for anything to be conserved.
 
-// Slot voronoi/middle: the pressure that an exchange of heat is expected to have in the middle.
+// Slot exchange/middle: the pressure that an exchange of heat is expected to have in the middle.
 // Default: that of the internal energy halfway. The plan chooses `start` for explicit steps.
 fn middle_pressure(cell: Particle, pressure: f32, volume: f32, heat: f32) -> f32 {
     return pressure_at(internal_energy_of(cell) + 0.5 * heat, volume);
 }
 
-// Predicts the exchange of a cell from the impulses of all its faces: slots as in voronoi/exchange. One invocation a cell; reads
+// Predicts the exchange of a cell from the impulses of all its faces: slots as in exchange/exchange. One invocation a cell; reads
 // particles and faces, writes `predictions`.
 @compute @workgroup_size(WORKGROUP)
 fn predict_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {

@@ -4,7 +4,7 @@
 // Particles of a subgroup go on together from one phase of the work to the next: looking for a bisector that may cut, cutting,
 // and, rarely, deciding exactly.
 //
-// Slot voronoi/corners: where the polygon of a cell is kept: word, corner and blur of each side, at most CORNERS. Variants
+// Slot tessellation/corners: where the polygon of a cell is kept: word, corner and blur of each side, at most CORNERS. Variants
 // private, stored; the plan chooses `stored` once a cell had too many corners. No default.
 
 // The grid cell to search next, as the distance from the particle's: on a ring around it, row by row.

@@ -6,43 +6,55 @@ override ENERGY_STEPS: f32;  // integer units in a unit of energy
 
 const EXCHANGED_UNITS_LIMIT: f32 = 536870912.0; // 2^29, a quarter of the range of what they are added up in
 
+// What a cell brings to an exchange through its faces.
+struct Side {
+    id: u32,
+    mass: f32,
+    velocity: Vector,    // when the exchange begins
+    mean: Vector,        // of before and after it
+    pressure: f32,
+    density: f32,        // of mass
+    energy_density: f32, // of internal energy
+    temperature: f32,
+}
+
 // The functions below give what comes into `mine` through a face in the step, and change sign under exchange of the two cells
 // but for rounding, which does not matter: one cell computes for both. Their plans are in src/families/voronoi/plan/exchange.rs
 // and mod.rs.
 
-// Slots voronoi/twist and voronoi/form: how pressures act. `twist` is the way from the middle between the cells to that of the
+// Slots exchange/twist and exchange/form: how pressures act. `twist` is the way from the middle between the cells to that of the
 // face, over their distance: even under exchange. Default: off, no pressure acts in this part of the step. Variants of
-// voronoi/form: gradient (constant mass), exchange (mass crosses the faces), whose rate and density are those of slot
-// voronoi/turning: consistent, paper. The plan follows the form of the scene.
+// exchange/form: gradient (constant mass), exchange (mass crosses the faces), whose rate and density are those of slot
+// exchange/turning: consistent, paper. The plan follows the form of the scene.
 fn twist_of(face: u32, facet: Facet) -> Vector { return Vector(0.0); }
 fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 { return 0.0; }
 fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
 fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
 
-// Slot voronoi/sweep: the twist that limits let pass, by means of slot voronoi/turn_bound. Default: off, faces turn as they do.
+// Slot exchange/sweep: the twist that limits let pass, by means of slot exchange/turn_bound. Default: off, faces turn as they do.
 // For the form gradient the plan chooses `limited` if cells keep energy, `bounded` if they have a temperature.
 fn limited_twist(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return twist; }
 
-// Slot voronoi/swept_energy: the part of the mass whose internal energy the limit lets pass, even under exchange.
+// Slot exchange/swept_energy: the part of the mass whose internal energy the limit lets pass, even under exchange.
 // Default: off, mass carries no energy that is kept. The plan chooses `limited` if cells keep energy and exchange mass.
 fn part_within_energy(wanted: f32, mine: Side, theirs: Side) -> f32 { return 1.0; }
 
-// Slot voronoi/rubbing: the impulse of friction, odd under exchange. Default: off, no friction acts in this part of the step.
+// Slot exchange/rubbing: the impulse of friction, odd under exchange. Default: off, no friction acts in this part of the step.
 // The plan chooses `viscous`.
 fn rubbing_impulse(facet: Facet, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
 
-// Slot voronoi/random_impulse: its random part, odd under exchange. Default: off, friction without a temperature has no noise.
+// Slot exchange/random_impulse: its random part, odd under exchange. Default: off, friction without a temperature has no noise.
 // The plan chooses `thermal`.
 fn random_face_impulse(facet: Facet, mine: u32, theirs: u32, temperature: f32) -> Vector { return Vector(0.0); }
 
-// Slot voronoi/conduction: heat, conducted and random, odd under exchange. Default: off, no heat is conducted in this part of
+// Slot exchange/conduction: heat, conducted and random, odd under exchange. Default: off, no heat is conducted in this part of
 // the step. The plan chooses `heat`.
 fn conducted_heat(facet: Facet, mine: Side, theirs: Side) -> f32 { return 0.0; }
 
-// Slot voronoi/energy: energy of impulse, mass and heat. Default: off, cells keep no energy. The plan chooses `kept` if they do.
+// Slot exchange/energy: energy of impulse, mass and heat. Default: off, cells keep no energy. The plan chooses `kept` if they do.
 fn energy_through(facet: Facet, twist: Vector, impulse: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
 
-// Slot voronoi/limit: `limited` gives how much of what is wanted may cross a face, odd under exchange, and `report_cuts` counts
+// Slot exchange/limit: `limited` gives how much of what is wanted may cross a face, odd under exchange, and `report_cuts` counts
 // how often that was less. Default: off, nothing that crosses a face can run out. The plan chooses `counted`.
 fn report_cuts() {}
 
