@@ -3,7 +3,8 @@
 //
 // Slots without defaults, chosen by src/families/shallow_water/plan/smoothing.rs for each pass:
 // - smoothing/radix: `RADIX`, the numbers (`Legs`) of a butterfly, how they are loaded and stored in pairs, `transformed`, and
-//   `turned` and `weighed` by roots of unity and the smoothing. Variants two to sixty_four.
+//   `turned_legs` and `weighed_legs` by roots of unity and the smoothing. Variants two to sixty_four, made of each other by
+//   build/radices.rs.
 // - smoothing/lines: where the butterflies and elements of a line are. Variants rows, columns.
 // - smoothing/load, smoothing/store: two legs, half a radix apart, from and to memory. Variants masses, rows, waves; rows,
 //   waves, depths.
@@ -40,10 +41,8 @@ fn times(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
 // By -i: a quarter of a turn.
 fn quarter(a: vec2<f32>) -> vec2<f32> { return vec2<f32>(a.y, -a.x); }
 
-// Transforms of four and of eight numbers, and the roots of unity within those of sixteen.
+// Transforms of four and of eight numbers.
 const ROOT_HALF = 0.70710678118654752440;
-const SIXTEENTH = vec2<f32>(0.92387953251128675613, -0.38268343236508977173);
-const THREE_SIXTEENTHS = vec2<f32>(0.38268343236508977173, -0.92387953251128675613);
 
 fn eighth(a: vec2<f32>) -> vec2<f32> { return ROOT_HALF * vec2<f32>(a.x + a.y, a.y - a.x); }
 

@@ -1,0 +1,148 @@
+//! Butterflies of the fast Fourier transform of every radix: the slot `smoothing/radix`.
+//!
+//! A radix of up to eight is one transform of `shaders/smoothing/fourier.wgsl`. A larger one, A·B, is B transforms of every B-th leg
+//! and A transforms of what comes of them, multiplied by roots of unity in between.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+/// A number of legs, its name, the transforms in a row, and whether more than one pass may use it.
+struct Radix {
+    name: &'static str,
+    legs: usize,
+    /// Legs of the first transforms and of the second ones.
+    factors: Option<[usize; 2]>,
+    /// Whether legs are turned between two passes along a line.
+    turns: bool,
+}
+
+const RADICES: [Radix; 6] = [
+    Radix { name: "two", legs: 2, factors: None, turns: false },
+    Radix { name: "four", legs: 4, factors: None, turns: false },
+    Radix { name: "eight", legs: 8, factors: None, turns: true },
+    Radix { name: "sixteen", legs: 16, factors: Some([4, 4]), turns: true },
+    Radix { name: "thirty_two", legs: 32, factors: Some([4, 8]), turns: true },
+    // Only for lines that one pass transforms whole.
+    Radix { name: "sixty_four", legs: 64, factors: Some([8, 8]), turns: false },
+];
+
+/// The variants of the slot: path and text.
+pub fn variants() -> impl Iterator<Item = (String, String)> {
+    RADICES.iter().map(|radix| (format!("smoothing/radix/{}", radix.name), radix.text()))
+}
+
+impl Radix {
+    fn text(&self) -> String {
+        let Self { legs, .. } = *self;
+        let mut text = format!("// Butterflies of {} legs.\n", self.name.replace('_', "-"));
+        let _ = writeln!(text, "const RADIX = {legs}u;\nalias Legs = array<vec2<f32>, {legs}>;\n");
+        text += &self.roots();
+        text += &self.transformed();
+        text += &self.gathered_and_scattered();
+        if self.turns {
+            text += &self.turned();
+        }
+        text += "// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.\n";
+        let weighed = (0..legs).map(|leg| format!("v[{leg}].yx * symbol(butterfly, {leg}u)"));
+        let _ = write!(text, "fn weighed_legs(v: Legs, butterfly: Butterfly) -> Legs {{\n{}}}\n", returned(weighed));
+        text
+    }
+
+    /// Powers of the root of unity that are no multiple of an eighth of a turn.
+    fn roots(&self) -> String {
+        let Some([first, second]) = self.factors else { return String::new() };
+        let mut powers: Vec<usize> = (1..first).flat_map(|row| (1..second).map(move |column| row * column)).collect();
+        powers.sort_unstable();
+        powers.dedup();
+        let mut text = format!("// Powers of exp(-2πi/{}).\n", self.legs);
+        for power in powers.into_iter().filter(|power| power % (self.legs / 8) != 0 && !self.is_opposite(*power)) {
+            let (sine, cosine) = (TAU * power as f64 / self.legs as f64).sin_cos();
+            let _ = writeln!(text, "const ROOT{power} = vec2<f32>({cosine:.17}, {:.17});", -sine);
+        }
+        text + "\n"
+    }
+
+    /// Whether a power is taken for the opposite of the first: with sixteen legs, where it is the only one beyond half a turn.
+    fn is_opposite(&self, power: usize) -> bool {
+        self.legs == 16 && power == 9
+    }
+
+    /// A number multiplied by a power of the root of unity.
+    fn turned_by(&self, power: usize, number: &str) -> String {
+        let eighths = (power % (self.legs / 8) == 0).then_some(power / (self.legs / 8));
+        match eighths {
+            Some(0) => number.to_owned(),
+            Some(1) => format!("eighth({number})"),
+            Some(2) => format!("quarter({number})"),
+            Some(3) => format!("quarter(eighth({number}))"),
+            _ if self.is_opposite(power) => format!("-times({number}, ROOT1)"),
+            _ => format!("times({number}, ROOT{power})"),
+        }
+    }
+
+    fn transformed(&self) -> String {
+        let legs = self.legs;
+        let mut text = String::from(
+            "// Leg by leg: naga takes an alias for a type of its own, and returning one for the other makes SPIR-V and HLSL that are\n\
+             // not valid.\nfn transformed(v: Legs) -> Legs {\n",
+        );
+        let results: Vec<String> = match self.factors {
+            None if legs == 2 => vec!["v[0] + v[1]".to_owned(), "v[0] - v[1]".to_owned()],
+            None => {
+                let all: Vec<String> = (0..legs).map(|leg| format!("v[{leg}]")).collect();
+                let _ = writeln!(text, "    let t = fourier{legs}({});", all.join(", "));
+                (0..legs).map(|leg| format!("t[{leg}]")).collect()
+            }
+            Some([first, second]) => {
+                for column in 0..second {
+                    let every: Vec<String> = (0..first).map(|row| format!("v[{}]", column + row * second)).collect();
+                    let _ = writeln!(text, "    let s{column} = fourier{first}({});", every.join(", "));
+                }
+                for row in 0..first {
+                    let turned: Vec<String> =
+                        (0..second).map(|column| self.turned_by(row * column, &format!("s{column}[{row}]"))).collect();
+                    let _ = writeln!(text, "    let t{row} = fourier{second}({});", turned.join(", "));
+                }
+                (0..legs).map(|leg| format!("t{}[{}]", leg % first, leg / first)).collect()
+            }
+        };
+        text + &returned(results.into_iter()) + "}\n\n"
+    }
+
+    /// Legs half a radix apart lie next to each other in memory.
+    fn gathered_and_scattered(&self) -> String {
+        let half = self.legs / 2;
+        let mut text = String::from("fn gathered(butterfly: Butterfly) -> Legs {\n");
+        for pair in 0..half {
+            let _ = writeln!(text, "    let p{pair} = load_pair(butterfly, {pair}u);");
+        }
+        let parts = ["xy", "zw"].into_iter().flat_map(|part| (0..half).map(move |pair| format!("p{pair}.{part}")));
+        text = text + &returned(parts) + "}\nfn scattered(butterfly: Butterfly, v: Legs) {\n";
+        for leg in 0..half {
+            let _ = writeln!(text, "    store_pair(butterfly, {leg}u, vec4<f32>(v[{leg}], v[{}]));", leg + half);
+        }
+        text + "}\n\n"
+    }
+
+    fn turned(&self) -> String {
+        let mut text = String::from(
+            "// Multiplies leg j by the j-th power of a root of unity.\nfn turned_legs(v: Legs, step: u32) -> Legs {\n    let w1 = roots[step];\n",
+        );
+        for power in 2..self.legs {
+            let largest = 1 << power.ilog2();
+            let _ = if power == largest {
+                writeln!(text, "    let w{power} = roots[{power}u * step];")
+            } else {
+                writeln!(text, "    let w{power} = times(w{largest}, w{});", power - largest)
+            };
+        }
+        let turned = (0..self.legs).map(|leg| if leg == 0 { "v[0]".to_owned() } else { format!("times(v[{leg}], w{leg})") });
+        text + &returned(turned) + "}\n\n"
+    }
+}
+
+/// A function's last statement: the legs, a line each.
+fn returned(legs: impl Iterator<Item = String>) -> String {
+    let lines: String = legs.map(|leg| format!("        {leg},\n")).collect();
+    format!("    return Legs(\n{lines}    );\n")
+}
