@@ -26,7 +26,7 @@ struct Side {
 // face, over their distance: even under exchange. Default: off, no pressure acts in this part of the step. Variants of
 // exchange/form: gradient (constant mass), exchange (mass crosses the faces), whose rate and density are those of slot
 // exchange/turning: consistent, paper. The plan follows the form of the scene.
-fn twist_of(face: u32, facet: Facet) -> Vector { return Vector(0.0); }
+fn twist_of(face: Face, facet: Facet) -> Vector { return Vector(0.0); }
 fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 { return 0.0; }
 fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }
 fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Side) -> f32 { return 0.0; }
@@ -58,6 +58,16 @@ fn energy_through(facet: Facet, twist: Vector, impulse: Vector, mass: f32, mine:
 // how often that was less. Default: off, nothing that crosses a face can run out. The plan chooses `counted`.
 fn report_cuts() {}
 
+// The mass and the impulse that cross a face, into `mine`: the same for an exchange and for its prediction.
+struct Crossing { twist: Vector, mass: f32, impulse: Vector }
+fn crossing_of(face: Face, facet: Facet, mine: Side, theirs: Side) -> Crossing {
+    let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
+    let mass = transferred_mass(facet, twist, mine, theirs);
+    let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
+        + rubbing_impulse(facet, mine, theirs);
+    return Crossing(twist, mass, impulse);
+}
+
 // Computes what crosses the faces that a cell owns. One invocation a cell; reads particles and faces, adds integer units to
 // both cells of a face in `exchanges`.
 @compute @workgroup_size(WORKGROUP)
@@ -71,23 +81,18 @@ fn exchange_through_faces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(
     var fits = true;
     let count = face_counts[slot];
     for (var number = 0u; number < count; number++) {
-        let face = number * PARTICLES + slot;
-        let word = face_words[face];
-        let other = neighbour_of(word);
-        let they = stored_particle(other);
+        let face = face_of(slot, number);
+        let they = stored_particle(face.other);
         if (!owns_face(me.position.w, they.position.w)) { continue; }
-        let theirs = side_of(other, they);
-        let facet = facet_of(face, word, me.position, they.position);
-        let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
-        let mass = transferred_mass(facet, twist, mine, theirs);
-        let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
-            + rubbing_impulse(facet, mine, theirs);
-        let energy = energy_through(facet, twist, impulse, mass, mine, theirs);
-        let exact = vec4<f32>(impulse * IMPULSE_STEPS, mass * MASS_STEPS, energy * ENERGY_STEPS);
+        let theirs = side_of(face.other, they);
+        let facet = facet_of(face, me.position, they.position);
+        let crossing = crossing_of(face, facet, mine, theirs);
+        let energy = energy_through(facet, crossing.twist, crossing.impulse, crossing.mass, mine, theirs);
+        let exact = vec4<f32>(crossing.impulse * IMPULSE_STEPS, crossing.mass * MASS_STEPS, energy * ENERGY_STEPS);
         fits = fits && all_within(exact.xy, EXCHANGED_UNITS_LIMIT) && all_within(exact.zw, EXCHANGED_UNITS_LIMIT);
         let units = vec4<i32>(round(exact));
         total += units;
-        move_units(other, -units);
+        move_units(face.other, -units);
     }
     move_units(slot, total);
     raise(select(FAILURE_IMPULSE, 0u, fits));

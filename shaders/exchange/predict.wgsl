@@ -21,21 +21,17 @@ fn predict_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_
     var heat = 0.0;
     let count = face_counts[slot];
     for (var number = 0u; number < count; number++) {
-        let face = number * PARTICLES + slot;
-        let word = face_words[face];
-        let other = neighbour_of(word);
-        if (other == slot) { continue; }
-        let they = stored_particle(other);
-        let theirs = side_of(other, they);
-        let facet = facet_of(face, word, me.position, they.position);
-        let twist = limited_twist(facet, twist_of(face, facet), mine, theirs);
-        let mass = transferred_mass(facet, twist, mine, theirs);
-        let impulse = pressing(facet, twist, mine, theirs) + 0.5 * mass * (mine.velocity + theirs.velocity)
-            + rubbing_impulse(facet, mine, theirs);
-        impulses += impulse;
-        masses += mass;
-        heat += carried_energy(facet, twist, mass, mine, theirs)
-            - 0.5 * dot(impulse, mine.velocity - theirs.velocity) + 0.5 * mass * dot(mine.velocity, mine.velocity);
+        let face = face_of(slot, number);
+        if (face.other == slot) { continue; }
+        let they = stored_particle(face.other);
+        let theirs = side_of(face.other, they);
+        let facet = facet_of(face, me.position, they.position);
+        let crossing = crossing_of(face, facet, mine, theirs);
+        impulses += crossing.impulse;
+        masses += crossing.mass;
+        heat += carried_energy(facet, crossing.twist, crossing.mass, mine, theirs)
+            - 0.5 * dot(crossing.impulse, mine.velocity - theirs.velocity)
+            + 0.5 * crossing.mass * dot(mine.velocity, mine.velocity);
     }
     let after = (mine.mass * mine.velocity + impulses) / (mine.mass + masses);
     let volume = volumes[slot];

@@ -18,6 +18,18 @@ fn face_word(slot: u32, image: vec2<i32>) -> u32 {
     return slot | ((code.x + 3u * code.y) << 28u);
 }
 
+// A face of the cell in a slot, 0 <= number < face_counts[slot].
+struct Face {
+    element: u32, // of the arrays of faces
+    word: u32,
+    other: u32,   // the neighbour's slot
+}
+fn face_of(slot: u32, number: u32) -> Face {
+    let element = number * PARTICLES + slot;
+    let word = face_words[element];
+    return Face(element, word, neighbour_of(word));
+}
+
 // From the neighbour's image to me, r_k - r_l.
 fn separation_across(me: Fraction, other: Fraction, word: u32) -> Vector {
     return (Vector(signed(me - other)) - 4294967296.0 * Vector(image_of(word))) * unit_lengths();
@@ -45,11 +57,11 @@ struct Facet {
     image: u32,        // the same code from both cells
 }
 
-fn facet_of(face: u32, word: u32, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
-    let apart = separation_across(fraction_of(mine), fraction_of(theirs), word);
+fn facet_of(face: Face, mine: vec4<u32>, theirs: vec4<u32>) -> Facet {
+    let apart = separation_across(fraction_of(mine), fraction_of(theirs), face.word);
     let distance = length(apart);
-    let image = common_image(mine.w, theirs.w, fraction_of(mine), fraction_of(theirs), word);
-    return Facet(apart / distance, distance, face_lengths[face], image);
+    let image = common_image(mine.w, theirs.w, fraction_of(mine), fraction_of(theirs), face.word);
+    return Facet(apart / distance, distance, face_lengths[face.element], image);
 }
 
 // Two independent standard Gaussian numbers of a face, the same from either cell. `part` distinguishes the draws of a face, the

@@ -1,4 +1,4 @@
-// Particles around the one whose cell is made, their displacements, and the corners of the cell.
+// Particles around the one whose cell is made, their displacements, and the corners and faces of the cell.
 //
 // Lengths are in units of the mean distance of particles, so that single precision is enough for any box.
 override SPACING: f32;
@@ -50,4 +50,17 @@ fn meeting(first: Site, second: Site) -> vec3<f32> {
     let corner = n * (0.5 / select(max(turned, least), -max(turned, least), swap));
     let blur = (lengths / max(turned, least)) * (20.0 * sqrt(pp) + 40.0 * length(q) + 80.0 * length(corner)) * ROUNDING;
     return vec3<f32>(corner, select(blur, UNKNOWN, turned <= least));
+}
+
+// Stores a side of the polygon, from one corner to the next, as a face. Returns its part of the volume, over the square of SPACING.
+fn store_face(slot: u32, number: u32, there: Site, begin: Vector, end: Vector) -> f32 {
+    let away = there.away * scale_of_lengths();
+    let distance = length(away);
+    let normal = away / distance;
+    let face_length = max(dot(end - begin, Vector(-normal.y, normal.x)), 0.0);
+    let element = number * PARTICLES + slot;
+    face_words[element] = there.word;
+    face_lengths[element] = face_length * SPACING;
+    face_offsets[element] = 0.5 * dot(end + begin, Vector(normal.y, -normal.x)) * SPACING;
+    return 0.25 * face_length * distance;
 }

@@ -35,15 +35,7 @@ fn store_faces(slot: u32) {
     for (var i = 0u; i < few_sides; i++) {
         let word = side_names.a.x;
         let corner = bitcast<Vector>(vec2<u32>(xs.a.x, ys.a.x));
-        let there = site_with(word, bitcast<Steps>(vec2<u32>(steps_x.a.x, steps_y.a.x))).away * scale_of_lengths();
-        let distance = length(there);
-        let normal = there / distance;
-        let face_length = max(dot(corner - begin, Vector(-normal.y, normal.x)), 0.0);
-        let element = i * PARTICLES + slot;
-        face_words[element] = word;
-        face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(corner + begin, Vector(normal.y, -normal.x)) * SPACING;
-        volume += 0.25 * face_length * distance;
+        volume += store_face(slot, i, site_with(word, bitcast<Steps>(vec2<u32>(steps_x.a.x, steps_y.a.x))), begin, corner);
         begin = corner;
         // The next side comes first.
         xs = corners_turned(xs);

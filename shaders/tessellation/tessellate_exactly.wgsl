@@ -30,17 +30,8 @@ fn store_exact_faces(slot: u32) {
     var volume = 0.0;
     var begin = corner_at(polygon_sides - 1u);
     for (var i = 0u; i < polygon_sides; i++) {
-        let word = side_word(i);
         let face_corner = corner_at(i);
-        let there = site_of(word).away * scale_of_lengths();
-        let distance = length(there);
-        let normal = there / distance;
-        let face_length = max(dot(face_corner - begin, Vector(-normal.y, normal.x)), 0.0);
-        let element = i * PARTICLES + slot;
-        face_words[element] = word;
-        face_lengths[element] = face_length * SPACING;
-        face_offsets[element] = 0.5 * dot(face_corner + begin, Vector(normal.y, -normal.x)) * SPACING;
-        volume += 0.25 * face_length * distance;
+        volume += store_face(slot, i, site_of(side_word(i)), begin, face_corner);
         begin = face_corner;
     }
     face_counts[slot] = polygon_sides;

@@ -59,15 +59,13 @@ fn image_of_search(slot: u32, mine: Search) -> Vector {
     var image = preconditioners[slot].w * mine.residual;
     let count = face_counts[slot];
     for (var number = 0u; number < count; number++) {
-        let face = number * PARTICLES + slot;
-        let word = face_words[face];
-        let other = neighbour_of(word);
-        if (other == slot) { continue; }
-        let theirs = searches[other];
-        let apart = separation_across(mine.place, theirs.place, word);
+        let face = face_of(slot, number);
+        if (face.other == slot) { continue; }
+        let theirs = searches[face.other];
+        let apart = separation_across(mine.place, theirs.place, face.word);
         let square = dot(apart, apart);
         let v = mine.residual - theirs.residual;
-        image += VISCOSITY * face_lengths[face] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
+        image += VISCOSITY * face_lengths[face.element] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
     }
     return image;
 }
@@ -119,12 +117,10 @@ fn set_up(slot: u32) -> f32 {
     var block = vec3<f32>(inertia, 0.0, inertia); // xx, xy, yy
     let count = face_counts[slot];
     for (var number = 0u; number < count; number++) {
-        let face = number * PARTICLES + slot;
-        let word = face_words[face];
-        let other = neighbour_of(word);
-        if (other == slot) { continue; }
-        let they = stored_particle(other);
-        let facet = facet_of(face, word, me.position, they.position);
+        let face = face_of(slot, number);
+        if (face.other == slot) { continue; }
+        let they = stored_particle(face.other);
+        let facet = facet_of(face, me.position, they.position);
         let e = facet.direction;
         friction += drag(facet, velocity - velocity_of(they));
         noise += random_face_impulse(facet, me.position.w, they.position.w,
