@@ -117,6 +117,11 @@ pub enum Unstable {
 /// Half the box: a drift as long as this could be in either direction.
 pub(crate) const MOST_DRIFT: f64 = (1_u64 << 31) as f64;
 
+/// A distance along an edge of the box, in units of the box fraction, rounded half to even.
+pub(crate) fn whole_fractions(distance: f64, edge: f64) -> f64 {
+    (distance / edge * 4_294_967_296.0).round_ties_even()
+}
+
 /// Momenta as the state keeps them.
 pub(crate) fn narrow(momenta: &[[i64; 3]], step: u64) -> Result<Vec<[i32; 3]>, Unstable> {
     let fits = |units: &i64| i32::try_from(*units).is_ok();

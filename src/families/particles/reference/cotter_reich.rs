@@ -18,7 +18,7 @@ use super::{Reference, Report};
 pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let model = &reference.model;
     let Some(force) = model.pair_force() else { return half_kicks(reference, found, |_, _| 0.0) };
-    let drifts: Vec<[i64; 3]> = (0..reference.state.len()).map(|particle| reference.drift(particle)).collect();
+    let drifts = reference.drifts();
     half_kicks(reference, found, |pair, forces| {
         let before = std::array::from_fn(|axis| {
             let drift = drifts[pair.first][axis] - drifts[pair.second][axis];

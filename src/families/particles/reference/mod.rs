@@ -2,6 +2,7 @@
 
 mod cotter_reich;
 mod couplings;
+mod end_of_step;
 mod groot_warren;
 mod observables;
 pub(crate) mod pairs;
@@ -13,8 +14,7 @@ pub use splitting::Relaxation;
 
 use crate::families::Model;
 use crate::families::Observables;
-use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow};
-use crate::prediction;
+use crate::families::reference::{Unstable, narrow};
 use crate::scene::Integrator;
 use crate::state::State;
 use pairs::Pair;
@@ -80,30 +80,9 @@ impl Reference {
     /// # Errors
     /// [`Unstable`] when a momentum or a drift does not fit the integer state, which is then left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        let Report { mut momenta, kick, .. } = self.report(&self.pairs());
-        add(&mut momenta, &kick);
-        let mut next =
-            State { step: self.state.step + 1, momenta: narrow(&momenta, self.state.step)?, ..State::default() };
-        if let Integrator::GrootWarren { lambda } = self.model.integrator
-            && lambda != 0.5
-        {
-            next.predicted = prediction::predicted(&next.momenta, &kick, lambda);
-        }
-        let kept = std::mem::replace(&mut self.state.momenta, next.momenta);
-        let drifts: Vec<[i64; 3]> = (0..kept.len()).map(|particle| self.drift(particle)).collect();
-        let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
-        if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
-            self.state.momenta = kept;
-            return Err(Unstable::Drift { step: self.state.step, particle });
-        }
-        for (position, drift) in self.state.positions.iter_mut().zip(&drifts) {
-            for axis in 0..3 {
-                position[axis] = position[axis].wrapping_add(drift[axis] as u32);
-            }
-        }
-        self.state.predicted = next.predicted;
-        self.state.step = next.step;
-        Ok(())
+        let Report { momenta, kick, .. } = self.report(&self.pairs());
+        let parts = self.parts_of_drift();
+        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &kick, parts)
     }
 
     /// Measures at the report point of the current step, without changing the state: the motion at r(n), p(n), and the
@@ -145,8 +124,8 @@ impl Reference {
         let mut ahead = self.clone();
         ahead.step()?;
         let mut state = self.state.clone();
-        for (particle, position) in state.positions.iter_mut().enumerate() {
-            for (position, drift) in position.iter_mut().zip(ahead.drift(particle)) {
+        for (position, drift) in state.positions.iter_mut().zip(ahead.drifts()) {
+            for (position, drift) in position.iter_mut().zip(drift) {
                 *position = position.wrapping_add((drift / 2) as u32);
             }
         }
@@ -187,16 +166,14 @@ impl Reference {
         }
     }
 
-    /// dt p/m of the momenta in the state, in whole units of the box fraction, rounded half to even.
-    fn drift(&self, particle: usize) -> [i64; 3] {
-        let momentum = self.model.units.momentum(self.state.momenta[particle]);
-        // A split step drifts in two equal halves, between which a report may fall.
-        let parts = if self.model.splits() { 2 } else { 1 };
-        std::array::from_fn(|axis| {
-            let distance = self.model.time_step * momentum[axis] / self.masses[particle] / parts as f64;
-            let units = (distance / self.model.units.lengths[axis] * 4_294_967_296.0).round_ties_even();
-            parts * units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
-        })
+    /// The drifts that the momenta in the state make.
+    fn drifts(&self) -> Vec<[i64; 3]> {
+        end_of_step::drifts(&self.model, &self.masses, &self.state.momenta, self.parts_of_drift())
+    }
+
+    /// A split step drifts in two equal halves, between which a report may fall.
+    fn parts_of_drift(&self) -> i64 {
+        if self.model.splits() { 2 } else { 1 }
     }
 
     /// vᵢ - vⱼ of a pair.

@@ -2,40 +2,46 @@
 
 use super::pairs::{Forces, Pair, find_pairs};
 use super::{Reference, Report};
-use crate::families::Observables;
+use crate::families::{Model, Observables};
+use crate::state::State;
+
+/// What is observed of the motion: momenta p(n) of particles of some masses. The configuration is left at zero.
+pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &[[i64; 3]]) -> Observables {
+    let mut total = [0_i64; 3];
+    let mut kinetic_energy = 0.0;
+    for (momentum, mass) in momenta.iter().zip(masses) {
+        for axis in 0..3 {
+            total[axis] += momentum[axis];
+            kinetic_energy += (momentum[axis] as f64 * model.units.momentum).powi(2) / (2.0 * mass);
+        }
+    }
+    Observables {
+        step: state.step,
+        particles: state.len() as u64,
+        mobile: model.mobile_particles(),
+        dimension: model.units.dimension,
+        volume: model.units.volume(),
+        mass: masses.iter().sum(),
+        kinetic_energy,
+        potential_energy: 0.0,
+        gradient_squared: 0.0,
+        laplacian: 0.0,
+        conservative_virial: 0.0,
+        total_virial: 0.0,
+        momentum: total.map(|units| units as f64 * model.units.momentum),
+        about_centre_of_mass: model.measures_about_centre_of_mass(),
+        bath_energy: 0.0,
+        bath_square: 0.0,
+        cells: None,
+    }
+}
 
 /// All observables of the report point.
 pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
     let dimension = model.units.dimension;
-    let mut observables = Observables {
-        step: state.step,
-        particles: state.len() as u64,
-        mobile: model.mobile_particles(),
-        dimension,
-        volume: model.units.volume(),
-        mass: reference.masses.iter().sum(),
-        kinetic_energy: 0.0,
-        potential_energy: 0.0,
-        gradient_squared: 0.0,
-        laplacian: 0.0,
-        conservative_virial: 0.0,
-        total_virial: report.total_virial,
-        momentum: [0.0; 3],
-        about_centre_of_mass: model.measures_about_centre_of_mass(),
-        bath_energy: 0.0,
-        bath_square: 0.0,
-        cells: None,
-    };
-    let mut total = [0_i64; 3];
-    for (momentum, mass) in report.momenta.iter().zip(&reference.masses) {
-        for axis in 0..3 {
-            total[axis] += momentum[axis];
-            observables.kinetic_energy += (momentum[axis] as f64 * model.units.momentum).powi(2) / (2.0 * mass);
-        }
-    }
-    observables.momentum = total.map(|units| units as f64 * model.units.momentum);
-
+    let mut observables = of_motion(model, state, &reference.masses, &report.momenta);
+    observables.total_virial = report.total_virial;
     let mut gradients = vec![[0.0; 3]; state.len()];
     for pair in found {
         let potential = Forces::between(model, &state.species, pair).potential;

@@ -1,7 +1,7 @@
 //! Potentials of a distance: energy, force, virial and curvature of pairs and bonds, for steps and for what is observed alike.
 
 use super::pairs::Pair;
-use crate::families::{Model, PairForce};
+use crate::families::PairForce;
 use crate::scene::BondPotential;
 
 /// V, V' and V'' at a distance.
@@ -79,6 +79,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::families::Model;
     use crate::scene;
 
     fn assert_derivatives(name: &str, distance: f64, at: impl Fn(f64) -> Potential) {

@@ -35,7 +35,7 @@ pub(crate) mod splines;
 pub(crate) use depth::mesh_splines;
 
 use crate::families::Observables;
-use crate::families::reference::Unstable;
+use crate::families::reference::{MOST_DRIFT, Unstable};
 use crate::families::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -46,8 +46,6 @@ use motion::{Motion, half_kick};
 const ROUNDING: f64 = 1e-9;
 /// The largest velocity in units.
 const MOST_VELOCITY: i64 = 1 << 30;
-/// Half the box: a drift as long as this could be in either direction.
-const MOST_DRIFT: f64 = (1_u64 << 31) as f64;
 
 /// What is found at the report point of a step.
 struct Report {

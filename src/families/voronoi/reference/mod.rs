@@ -34,7 +34,7 @@ mod observables;
 mod pressure;
 
 use crate::families::Observables;
-use crate::families::reference::{MOST_DRIFT, Unstable};
+use crate::families::reference::{MOST_DRIFT, Unstable, whole_fractions};
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
 use crate::scene::Integrator;
@@ -275,8 +275,7 @@ impl VoronoiReference {
             let mass = f64::from(self.state.masses[particle]) * self.cells.mass_unit;
             for axis in 0..2 {
                 let momentum = f64::from(self.state.momenta[particle][axis]) * self.model.units.momentum;
-                let turns = time * momentum / mass / self.model.units.lengths[axis];
-                let units = (turns * 4_294_967_296.0).round_ties_even();
+                let units = whole_fractions(time * momentum / mass, self.model.units.lengths[axis]);
                 if units.abs() >= MOST_DRIFT {
                     return Err(Unstable::Drift { step, particle });
                 }

@@ -28,9 +28,8 @@ mod tethers;
 
 use crate::families::Model;
 use crate::families::Observables;
-use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow, widen};
-use crate::prediction;
-use crate::scene::Integrator;
+use crate::families::particles::reference::end_of_step;
+use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::State;
 use bath::BathSums;
 use motion::Motion;
@@ -98,29 +97,8 @@ impl CouplingsReference {
     /// [`Unstable`] when a momentum or a drift does not fit the integer state or a bond is too long, and the state is then
     /// left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        let step = self.state.step;
-        let Evaluation { mut momenta, opening, baths, .. } = self.evaluate()?;
-        add(&mut momenta, &opening);
-        let advanced = narrow(&momenta, step)?;
-        let mut predicted = Vec::new();
-        if let Integrator::GrootWarren { lambda } = self.model.integrator
-            && lambda != 0.5
-        {
-            predicted = prediction::predicted(&advanced, &opening, lambda);
-        }
-        let drifts = motion::drifts(&self.model, &self.masses, &advanced);
-        let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
-        if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
-            return Err(Unstable::Drift { step, particle });
-        }
-        for (position, drift) in self.state.positions.iter_mut().zip(&drifts) {
-            for axis in 0..3 {
-                position[axis] = position[axis].wrapping_add(drift[axis] as u32);
-            }
-        }
-        self.state.momenta = advanced;
-        self.state.predicted = predicted;
-        self.state.step = step + 1;
+        let Evaluation { momenta, opening, baths, .. } = self.evaluate()?;
+        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &opening, 1)?;
         self.state.pair_baths = baths.pair_baths;
         self.state.anchors = baths.anchors;
         self.state.position_baths = baths.position_baths;

@@ -1,8 +1,8 @@
 //! What brought the particles where they are: the change of a coupling function h over the last drift.
 
 use crate::families::Model;
+use crate::families::particles::reference::end_of_step;
 use crate::families::particles::reference::pairs::{Pair, dot};
-use crate::families::reference::MOST_DRIFT;
 use crate::scene::Integrator;
 use crate::state::State;
 
@@ -19,7 +19,7 @@ impl Motion {
     /// The drifts that the momenta in the state have made; at step 0 they are taken to have made one.
     pub fn of(model: &Model, state: &State, masses: &[f64]) -> Self {
         let length = |axis: usize| model.units.lengths[axis] / 4_294_967_296.0;
-        let drifts = drifts(model, masses, &state.momenta);
+        let drifts = end_of_step::drifts(model, masses, &state.momenta, 1);
         let seen = if state.predicted.is_empty() { &state.momenta } else { &state.predicted };
         let velocity = |(momentum, mass): (&[i32; 3], &f64)| model.units.momentum(*momentum).map(|p| p / mass);
         Self {
@@ -71,17 +71,4 @@ impl Motion {
         let relative = std::array::from_fn(|axis| first[axis] - second[axis]);
         Some(self.time_step * dot(pair.direction(), relative))
     }
-}
-
-/// dt p/m of all particles, in whole units of the box fraction, rounded half to even.
-pub(super) fn drifts(model: &Model, masses: &[f64], momenta: &[[i32; 3]]) -> Vec<[i64; 3]> {
-    let drift = |(momentum, mass): (&[i32; 3], &f64)| {
-        let momentum = model.units.momentum(*momentum);
-        std::array::from_fn(|axis| {
-            let distance = model.time_step * momentum[axis] / mass;
-            let units = (distance / model.units.lengths[axis] * 4_294_967_296.0).round_ties_even();
-            units.clamp(-MOST_DRIFT, MOST_DRIFT) as i64
-        })
-    };
-    momenta.iter().zip(masses).map(drift).collect()
 }

@@ -8,6 +8,7 @@ use super::angles::Corner;
 use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
 use crate::families::Bonds;
 use crate::families::Observables;
+use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
 
@@ -39,36 +40,19 @@ impl Configuration {
 /// All observables of the report point.
 pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
-    let mut total = [0_i64; 3];
-    let mut kinetic_energy = 0.0;
-    for (momentum, mass) in evaluation.momenta.iter().zip(&reference.masses) {
-        for axis in 0..3 {
-            total[axis] += momentum[axis];
-            kinetic_energy += (momentum[axis] as f64 * model.units.momentum).powi(2) / (2.0 * mass);
-        }
-    }
     let configuration = configuration(reference);
     let mobile = |particle: &usize| !is_fixed(model, state, *particle);
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     let baths = evaluation.bath_sums;
     Observables {
-        step: state.step,
-        particles: state.len() as u64,
-        mobile: model.mobile_particles(),
-        dimension: model.units.dimension,
-        volume: model.units.volume(),
-        mass: reference.masses.iter().sum(),
-        kinetic_energy,
         potential_energy: configuration.potential,
         gradient_squared: (0..state.len()).filter(mobile).map(squares).sum(),
         laplacian: (0..state.len()).filter(mobile).map(|particle| configuration.laplacians[particle]).sum(),
         conservative_virial: configuration.virial,
         total_virial: evaluation.total_virial,
-        momentum: total.map(|units| units as f64 * model.units.momentum),
-        about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
-        cells: None,
+        ..of_motion(model, state, &reference.masses, &evaluation.momenta)
     }
 }
 
