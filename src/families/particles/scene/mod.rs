@@ -9,5 +9,5 @@ mod single;
 
 pub use chains::{AnglesInteraction, BondPotential, BondsInteraction};
 pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
-pub use pairs::{DpdInteraction, DpdPair};
+pub use pairs::*;
 pub use single::{ColouredNoiseInteraction, LangevinInteraction, NoiseProcess, SpeciesFriction, TetherInteraction};
