@@ -124,7 +124,8 @@ fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join("shaders");
     let mut paths = Vec::new();
     find(&root, &root, &mut paths)?;
-    let mut files: BTreeMap<String, String> = ARRAYS.iter().flat_map(Array::variants).chain(radices::variants()).collect();
+    let mut files: BTreeMap<String, String> =
+        ARRAYS.iter().flat_map(Array::variants).chain(radices::variants()).collect();
     for path in paths {
         let text = fs::read_to_string(root.join(format!("{path}.wgsl")))?;
         files.insert(path, text);

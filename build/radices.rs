@@ -136,7 +136,8 @@ impl Radix {
                 writeln!(text, "    let w{power} = times(w{largest}, w{});", power - largest)
             };
         }
-        let turned = (0..self.legs).map(|leg| if leg == 0 { "v[0]".to_owned() } else { format!("times(v[{leg}], w{leg})") });
+        let turned =
+            (0..self.legs).map(|leg| if leg == 0 { "v[0]".to_owned() } else { format!("times(v[{leg}], w{leg})") });
         text + &returned(turned) + "}\n\n"
     }
 }

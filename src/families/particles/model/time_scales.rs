@@ -35,8 +35,7 @@ impl Model {
             _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
         };
         self.largest(|index| {
-            let stiffness: f64 =
-                self.densities().map(|(other, density)| force.stiffness(index, other) * density).sum();
+            let stiffness: f64 = self.densities().map(|(other, density)| force.stiffness(index, other) * density).sum();
             let mass = self.species[index].mass;
             (stiffness * sphere / (self.units.dimension as f64 * force.cutoff * mass)).sqrt()
         })

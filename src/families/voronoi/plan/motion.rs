@@ -106,10 +106,8 @@ impl Builder<'_> {
 
     /// The kernel that adds to the cells what came through their faces.
     fn take_up(&mut self, change: Change, drift: Drift) -> usize {
-        let choices = Choices::new()
-            .with(change)
-            .with_if(self.cells.keeps_energy(), EnergyCheck::Kept)
-            .with_any(match drift {
+        let choices =
+            Choices::new().with(change).with_if(self.cells.keeps_energy(), EnergyCheck::Kept).with_any(match drift {
                 Drift::None => None,
                 Drift::Half => Some(voronoi::Motion::After),
                 Drift::Explicit => Some(voronoi::Motion::Before),

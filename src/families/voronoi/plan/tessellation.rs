@@ -84,7 +84,8 @@ impl Builder<'_> {
     /// A kernel that is made once, however often it is asked for.
     fn shared_kernel(&mut self, name: &'static str, entry: Entry, workgroups: u64) -> usize {
         let stored = self.options.list_growth > 0;
-        let choices = self.choices().with(if stored { tessellation::Corners::Stored } else { tessellation::Corners::Private });
+        let choices =
+            self.choices().with(if stored { tessellation::Corners::Stored } else { tessellation::Corners::Private });
         self.plan.add_kernel_once(Kernel::new(name, entry, choices, workgroups))
     }
 

@@ -37,16 +37,14 @@ impl Builder<'_> {
     /// The bath on coordinates, if there is one.
     fn position_bath(&self) -> Choices {
         let Some(bath) = self.model.position_bath() else { return Choices::new() };
-        Choices::new()
-            .with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White })
-            .with_if(
-                bath.temperature > 0.0,
-                match self.model.units.dimension {
-                    1 => baths::PositionNoise::One,
-                    2 => baths::PositionNoise::Two,
-                    _ => baths::PositionNoise::Three,
-                },
-            )
+        Choices::new().with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White }).with_if(
+            bath.temperature > 0.0,
+            match self.model.units.dimension {
+                1 => baths::PositionNoise::One,
+                2 => baths::PositionNoise::Two,
+                _ => baths::PositionNoise::Three,
+            },
+        )
     }
 
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
