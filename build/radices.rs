@@ -55,7 +55,9 @@ impl Radix {
         powers.sort_unstable();
         powers.dedup();
         let mut text = format!("// Powers of exp(-2πi/{}).\n", self.legs);
-        for power in powers.into_iter().filter(|power| power % (self.legs / 8) != 0 && !self.is_opposite(*power)) {
+        for power in
+            powers.into_iter().filter(|power| !power.is_multiple_of(self.legs / 8) && !self.is_opposite(*power))
+        {
             let (sine, cosine) = (TAU * power as f64 / self.legs as f64).sin_cos();
             let _ = writeln!(text, "const ROOT{power} = vec2<f32>({cosine:.17}, {:.17});", -sine);
         }
@@ -69,7 +71,7 @@ impl Radix {
 
     /// A number multiplied by a power of the root of unity.
     fn turned_by(&self, power: usize, number: &str) -> String {
-        let eighths = (power % (self.legs / 8) == 0).then_some(power / (self.legs / 8));
+        let eighths = power.is_multiple_of(self.legs / 8).then_some(power / (self.legs / 8));
         match eighths {
             Some(0) => number.to_owned(),
             Some(1) => format!("eighth({number})"),
@@ -144,6 +146,6 @@ impl Radix {
 
 /// A function's last statement: the legs, a line each.
 fn returned(legs: impl Iterator<Item = String>) -> String {
-    let lines: String = legs.map(|leg| format!("        {leg},\n")).collect();
-    format!("    return Legs(\n{lines}    );\n")
+    let lines: Vec<String> = legs.map(|leg| format!("        {leg},")).collect();
+    format!("    return Legs(\n{}\n    );\n", lines.join("\n"))
 }
