@@ -110,7 +110,7 @@ fn an_interrupted_run_goes_on_where_it_was() {
 
 #[test]
 fn an_interrupted_sweep_goes_on_where_it_was() {
-    let place = place().with("/time/steps", json!(6000));
+    let place = place().with("/time/steps", json!(2500));
     let (out, table) = (place.argument("out"), place.path("out/seed=1").join(files::ENERGIES));
     let arguments = ["sweep", &place.scene(), "--vary", "seed=1,2,3", "--jobs", "1", "--out", &out];
     let (code, said) = interrupted(&arguments, "-INT", &table);
@@ -245,14 +245,14 @@ fn a_table_that_vanishes_under_way_is_an_error_at_the_end() {
     let (code, said) = ended(child);
     assert!(code == Some(5) && said.contains("energies.csv` is not complete: it was removed"), "{code:?} {said}");
     // What was measured is not lost with it.
-    assert_eq!(Summary::load(&place.path("out").join(files::SUMMARY)).unwrap().steps, 6000);
+    assert_eq!(place.summary("out").steps, 6000);
     fails(&["resume", &out], 5, &["cannot continue", "energies.csv"]);
 }
 
 /// Other files of the run are looked for too: a trajectory that another file replaces, and pictures.
 #[test]
 fn files_that_vanish_under_way_are_errors_at_the_end() {
-    let place = place().with("/time/steps", json!(6000)).with("/output/snapshot/every", json!(500));
+    let place = place().with("/time/steps", json!(3000)).with("/output/snapshot/every", json!(500));
     let scene = place.scene();
     for (name, problem) in [
         (files::TRAJECTORY_GSD, "it was removed"),
@@ -270,7 +270,7 @@ fn files_that_vanish_under_way_are_errors_at_the_end() {
         let (code, said) = ended(child);
         assert!(code == Some(5) && said.contains(&format!("{name}` is not complete: {problem}")), "{code:?} {said}");
         assert!(!said.contains("continues from"), "{said}");
-        assert_eq!(Summary::load(&path.join(files::SUMMARY)).unwrap().steps, 6000);
+        assert_eq!(place.summary("out").steps, 3000);
         assert!(path.join(files::ENERGIES_PLOT).exists());
         fs::remove_dir_all(path).unwrap();
     }

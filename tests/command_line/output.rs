@@ -15,6 +15,8 @@ use mesoscope::table::Table;
 use std::fs;
 use std::path::Path;
 
+use crate::support::program::listing;
+
 fn run_id() -> Id {
     Id::of_run(&scene(3))
 }
@@ -48,19 +50,12 @@ fn state(step: u64, dimension: usize) -> State {
     }
 }
 
-fn directory_listing(path: &Path) -> Vec<String> {
-    let mut names: Vec<String> =
-        fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
-}
-
 #[test]
 fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join("a/b/run");
     let run = RunDirectory::create(&path, false).unwrap();
-    assert_eq!(directory_listing(&path), [files::LOCK]);
+    assert_eq!(listing(&path), [files::LOCK]);
     fs::write(run.file("notes.txt"), "mine").unwrap();
     drop(run);
     let run = RunDirectory::create(&path, false).unwrap();
@@ -72,10 +67,7 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
         let error = RunDirectory::create(&path, force).unwrap_err();
         assert!(error.to_string().contains(&format!("in use by process {}", std::process::id())), "{error}");
     }
-    assert_eq!(
-        directory_listing(&path),
-        ["energies.csv", "mesoscope.lock", "notes.txt", "run.json", "snapshot-000012.png"]
-    );
+    assert_eq!(listing(&path), ["energies.csv", "mesoscope.lock", "notes.txt", "run.json", "snapshot-000012.png"]);
     let run = {
         drop(run);
         RunDirectory::open(&path).unwrap()
@@ -93,7 +85,7 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
     fs::remove_dir(run.file(files::ENERGIES_PLOT)).unwrap();
 
     RunDirectory::create(&path, true).unwrap();
-    assert_eq!(directory_listing(&path), ["notes.txt"]);
+    assert_eq!(listing(&path), ["notes.txt"]);
 }
 
 #[test]
@@ -119,7 +111,7 @@ fn files_of_the_user_are_neither_removed_nor_followed() {
     drop(RunDirectory::claim(&path).unwrap());
     let mut expected: Vec<&str> = mine.into_iter().chain([files::SUMMARY, "t.csv"]).collect();
     expected.sort_unstable();
-    assert_eq!(directory_listing(&path), expected);
+    assert_eq!(listing(&path), expected);
     assert!(mine.iter().all(|name| fs::read(path.join(name)).unwrap() == b"mine"));
     #[cfg(unix)]
     {
@@ -147,7 +139,7 @@ fn snapshots_a_resumed_run_takes_again_are_removed() {
     }
     run.remove_snapshots_after(3).unwrap();
     drop(run);
-    assert_eq!(directory_listing(root.path()), (1..=3).map(files::snapshot).collect::<Vec<_>>());
+    assert_eq!(listing(root.path()), (1..=3).map(files::snapshot).collect::<Vec<_>>());
 }
 
 #[test]
@@ -184,12 +176,12 @@ fn a_file_appears_complete_or_not_at_all() {
     .unwrap_err();
     assert!(error.to_string().contains("interrupted"));
     assert_eq!(fs::read(&path).unwrap(), b"first");
-    assert_eq!(directory_listing(root.path()), ["run.json"]);
+    assert_eq!(listing(root.path()), ["run.json"]);
 
     // The final name is a directory: the move fails, and leaves nothing behind.
     fs::create_dir(root.path().join("taken")).unwrap();
     assert!(write_atomically(&root.path().join("taken"), |writer| writer.write_all(b"x")).is_err());
-    assert_eq!(directory_listing(root.path()), ["run.json", "taken"]);
+    assert_eq!(listing(root.path()), ["run.json", "taken"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -378,7 +370,7 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
     nothing.particles.clear();
     checkpoint::save(&path, run_id(), &nothing, &State::default(), &[], &[]).unwrap();
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
-    assert_eq!(directory_listing(root.path()), [files::CHECKPOINT]);
+    assert_eq!(listing(root.path()), [files::CHECKPOINT]);
 
     state.momenta.pop();
     assert!(matches!(checkpoint::save(&path, run_id(), &scene, &state, &[], &[]), Err(OutputError::Io { .. })));
@@ -599,7 +591,7 @@ fn trajectories_resume_at_the_step() {
                 assert!(GsdFile::open(&path, Mode::Read).unwrap().find_chunk(0, "particles/mass").is_some());
             }
         }
-        assert!(!directory_listing(root.path()).iter().any(|name| name.contains(".tmp")));
+        assert!(!listing(root.path()).iter().any(|name| name.contains(".tmp")));
     }
 }
 

@@ -176,7 +176,7 @@ fn resuming_a_finished_run_does_nothing() {
     // Killed between the last checkpoint and the summary: the rest is written.
     fs::remove_file(place.path("out").join(files::SUMMARY)).unwrap();
     succeeds(&["resume", &place.argument("out"), "--quiet"]);
-    assert_eq!(Summary::load(&place.path("out").join(files::SUMMARY)).unwrap().steps, 60);
+    assert_eq!(place.summary("out").steps, 60);
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn an_explosion_is_reported_with_its_step() {
     let kept = state(&place.path("out"));
     assert_eq!((kept.step, kept.len()), (0, 375));
     // What was measured until then is a whole table.
-    read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    place.table("out", files::ENERGIES);
     assert!(!place.path("out").join(files::SUMMARY).exists());
     fails(&["plot", &out], 5, &["run.json", "no run has been finished there", "mesoscope resume"]);
     let found = |message: &str| message.lines().find(|line| line.contains("became unstable")).map(str::to_owned);
@@ -258,7 +258,7 @@ fn crowding_at_the_ends_of_the_box_is_survived() {
         "{}",
         text(&output.stderr)
     );
-    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let energies = place.table("out", files::ENERGIES);
     assert_eq!(energies.column("step").unwrap(), [0.0, 3.0, 6.0, 9.0, 12.0]);
 }
 
@@ -397,17 +397,8 @@ fn check_prints_the_plan() {
 fn plots_can_be_drawn_again() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     place.run("out", &["--quiet"]);
-    let names = [files::ENERGIES_PLOT, AnalysisId::RadialDistribution.tables()[0].plot, files::SNAPSHOT];
-    let before = names.map(|name| bytes(&place.path("out").join(name)));
-    for name in names {
-        fs::remove_file(place.path("out").join(name)).unwrap();
-    }
+    place.draws_again(&[files::ENERGIES_PLOT, AnalysisId::RadialDistribution.tables()[0].plot, files::SNAPSHOT]);
     let out = place.argument("out");
-    let said = succeeds(&["plot", &out]);
-    for (name, before) in names.into_iter().zip(&before) {
-        assert!(said.contains(name), "{said}");
-        assert!(bytes(&place.path("out").join(name)) == *before, "{name} changed");
-    }
     succeeds(&["plot", &out, "--set", "output.plot.width=800", "--set", "output.snapshot.height=100"]);
     assert_eq!(size(&place.path("out").join(files::ENERGIES_PLOT)), (800, 480));
     assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 100));
@@ -425,7 +416,7 @@ fn two_species_in_a_plane() {
         .with("/interactions/0/repulsion", json!(0));
     let said = place.run("out", &[]);
     assert!(said.contains("200 particles in 2 dimensions") && !said.contains("configurational"), "{said}");
-    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let energies = place.table("out", files::ENERGIES);
     let columns = "step,time,kinetic_energy,total_energy,temperature,pressure,momentum_x,momentum_y,\
                    center_of_mass_velocity_x,center_of_mass_velocity_y";
     assert_eq!(energies.columns.join(","), columns);
@@ -444,13 +435,13 @@ fn scenes_of_no_and_of_one_particle() {
             .with("/output/diffusion", json!({"every": 2, "window": 6}))
             .with("/output/viscosity", json!({"every": 2, "window": 12}));
         place.run("out", &[]);
-        let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+        let energies = place.table("out", files::ENERGIES);
         assert_eq!(energies.rows.len(), 21);
         assert!(energies.column("kinetic_energy").unwrap().iter().all(|energy| *energy == 0.0));
         for name in empty {
             assert!(energies.column(name).unwrap().iter().all(|value| value.is_nan()), "{name} of {count}");
         }
-        let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+        let summary = place.summary("out");
         assert!(summary.means["temperature"].is_null());
         assert!(summary.warnings.iter().any(|warning| warning.contains("radial_distribution")));
         assert_eq!(size(&place.path("out").join(files::SNAPSHOT)), (200, 160));
@@ -461,10 +452,10 @@ fn scenes_of_no_and_of_one_particle() {
 fn a_run_of_no_steps() {
     let place = place();
     place.run("out", &["--quiet", "--set", "time.equilibration=0", "--steps", "0"]);
-    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let energies = place.table("out", files::ENERGIES);
     assert_eq!(energies.column("step").unwrap(), [0.0]);
     succeeds(&["resume", &place.argument("out"), "--steps", "6", "--quiet"]);
-    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let energies = place.table("out", files::ENERGIES);
     assert_eq!(energies.column("step").unwrap(), [0.0, 3.0, 6.0]);
 }
 
@@ -476,6 +467,6 @@ fn warnings_and_quiet() {
     assert!(text(&output.stderr).contains("warning: space.box[2]"), "{}", text(&output.stderr));
     let output = mesoscope(&["run", &scene, "--out", &out, "--force", "--quiet"]);
     assert_eq!((text(&output.stdout), text(&output.stderr)), ("", ""));
-    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    let summary = place.summary("out");
     assert!(summary.warnings.iter().any(|warning| warning.starts_with("space.box[2]")));
 }

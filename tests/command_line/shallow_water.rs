@@ -8,7 +8,7 @@ use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
-use crate::support::program::{Place, bytes, colours, contents, fails, listing, mesoscope, size, succeeds, text};
+use crate::support::program::{Place, bytes, colours, fails, listing, mesoscope, size, succeeds, text};
 
 /// A scene of 1024 particles, two loops and small pictures.
 fn place() -> Place {
@@ -64,7 +64,7 @@ fn circulations_of_nothing() {
     let said = place.run("out", &[]);
     assert!(said.contains("circulation of `inner`  0.0000, changes by up to"), "{said}");
     assert!(!said.contains("circulation of `outer`"), "{said}");
-    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    let summary = place.summary("out");
     let circulation = &summary.results["circulation"];
     assert_eq!(circulation["inner"]["initial"], 0.0);
     assert!(circulation["inner"]["largest_relative_change"].is_null(), "{circulation}");
@@ -174,13 +174,13 @@ fn a_plain_scene_leaves_depth_and_potential_vorticity() {
     ];
     assert_eq!(listing(&place.path("out")), expected);
     assert!(said.contains("total energy ") && !said.contains("temperature") && !said.contains("snapshot"), "{said}");
-    let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+    let energies = place.table("out", files::ENERGIES);
     assert!(
         !energies.columns.iter().any(|name| name.contains("bath") || name.contains("extended")),
         "{:?}",
         energies.columns
     );
-    let summary = Summary::load(&place.path("out").join(files::SUMMARY)).unwrap();
+    let summary = place.summary("out");
     assert!(summary.not_conserved[0].contains("only as well as the time step"), "{:?}", summary.not_conserved);
 }
 
@@ -193,31 +193,10 @@ fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
             .with("/interactions/0/bath", bath)
             .with("/output/fields", json!({"every": 10}))
             .with("/output/trajectory", json!({"every": 8}));
-        place.run("whole", &["--quiet"]);
-        place.run("again", &["--quiet", "--set", "output.checkpoint.every=7"]);
         // Step 20 falls on a row and a picture, step 13 on nothing.
-        place.run("parts", &["--quiet", "--steps", "13"]);
-        succeeds(&["resume", &place.argument("parts"), "--steps", "20", "--quiet"]);
-        succeeds(&["resume", &place.argument("parts"), "--steps", "40", "--quiet"]);
+        place.whole_again_and_in_parts();
         let whole = listing(&place.path("whole"));
         assert!(whole.contains(&"potential_vorticity-000005.npy".to_owned()), "{whole:?}");
-        for other in ["again", "parts"] {
-            assert_eq!(listing(&place.path(other)), whole);
-            for name in whole.iter().filter(|name| *name != files::SUMMARY) {
-                if other == "again" && name == files::CHECKPOINT {
-                    continue; // It holds the scene, which differs.
-                }
-                // Of another scene the id is another.
-                let read = |run| match other {
-                    "again" => contents(&place.path(run), name),
-                    _ => bytes(&place.path(run).join(name)),
-                };
-                assert!(read("whole") == read(other), "{name} of {other} differs, {integrator}");
-            }
-        }
-        let [whole, parts] =
-            ["whole", "parts"].map(|run| Summary::load(&place.path(run).join(files::SUMMARY)).unwrap());
-        assert_eq!((whole.means, whole.results), (parts.means, parts.results));
     }
 }
 
@@ -226,16 +205,8 @@ fn plots_can_be_drawn_again() {
     let place = place().with("/output/fields", json!({"every": 0, "quantities": ["depth", "speed"]}));
     place.run("out", &["--quiet"]);
     let out = place.path("out");
-    let names = ["energies.png", "circulation.png", "depth.png", "speed.png", "depth.npy", "speed.npy"];
-    let before = names.map(|name| bytes(&out.join(name)));
-    for name in names {
-        fs::remove_file(out.join(name)).unwrap();
-    }
-    let said = succeeds(&["plot", &place.argument("out")]);
-    for (name, before) in names.into_iter().zip(&before) {
-        assert!(said.contains(name), "`{name}` is not in: {said}");
-        assert!(bytes(&out.join(name)) == *before, "{name} changed");
-    }
+    let before =
+        place.draws_again(&["energies.png", "circulation.png", "depth.png", "speed.png", "depth.npy", "speed.npy"]);
     succeeds(&["plot", &place.argument("out"), "--set", "output.plot.height=600", "--set", "output.plot.theme=dark"]);
     assert_eq!(size(&out.join("depth.png")).1, 600);
     assert_eq!(size(&out.join("circulation.png")), (640, 600));
@@ -280,12 +251,12 @@ fn a_crowd_makes_the_run_go_on_with_more_memory() {
             ),
             "{said}"
         );
-        let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+        let energies = place.table("out", files::ENERGIES);
         assert_eq!(energies.column("step").unwrap(), [0.0, 4.0, 8.0, 12.0]);
         if storage_is_of_bins {
             // A resumed run meets the same crowd.
             succeeds(&["resume", &out, "--steps", "16"]);
-            let energies = read_table(&place.path("out").join(files::ENERGIES)).unwrap();
+            let energies = place.table("out", files::ENERGIES);
             assert_eq!(energies.rows.len(), 5);
             succeeds(&["plot", &out]);
         }

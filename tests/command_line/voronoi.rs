@@ -1,14 +1,12 @@
 //! Voronoi DPD as its user meets it: files, bytes, messages and exit codes of the program.
 
-use std::fs;
-
 use mesoscope::families::Model;
-use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::output::{checkpoint, files};
 use mesoscope::scene::AnalysisId;
 use mesoscope::table::Table;
 use serde_json::{Value, json};
 
-use crate::support::program::{Place, bytes, colours, contents, listing, mesoscope, succeeds, text};
+use crate::support::program::{Place, bytes, colours, listing, mesoscope, succeeds, text};
 
 /// A scene of 144 cells and small pictures.
 fn place() -> Place {
@@ -27,14 +25,6 @@ fn place() -> Place {
             "neighbours": {"every": 10},
         },
     }))
-}
-
-fn table(place: &Place, out: &str, name: &str) -> Table {
-    read_table(&place.path(out).join(name)).unwrap()
-}
-
-fn summary(place: &Place, out: &str) -> Summary {
-    Summary::load(&place.path(out).join(files::SUMMARY)).unwrap()
 }
 
 /// All values of a column, which are finite.
@@ -82,7 +72,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in expected.iter().filter(|name| name.contains("png")) {
         assert!(colours(&place.path("out").join(name)) > 20, "{name} shows nothing");
     }
-    let energies = table(&place, "out", files::ENERGIES);
+    let energies = place.table("out", files::ENERGIES);
     assert_eq!(energies.rows.len(), 11);
     assert!(column(&energies, "momentum_x").iter().all(|value| *value == 0.0), "to the last bit");
     assert!(column(&energies, "mass").iter().all(|value| *value == 720.0), "to the last bit");
@@ -96,15 +86,15 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     for name in ["internal_energy", "configurational_temperature", "pressure_conservative"] {
         assert_eq!(energies.column(name), None, "{name} does not apply");
     }
-    let neighbours = table(&place, "out", AnalysisId::Neighbours.table());
+    let neighbours = place.table("out", AnalysisId::Neighbours.table());
     let sum: f64 = column(&neighbours, "fraction").iter().sum();
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
-    let decay = table(&place, "out", AnalysisId::ShearWave.table());
+    let decay = place.table("out", AnalysisId::ShearWave.table());
     assert_eq!(decay.rows.len(), 21);
     let amplitude = column(&decay, "amplitude")[0];
     // A thermal part with the deviation √(2kT/ΣM), and Σ sin² of a lattice with jitter.
     assert!((amplitude - 0.3).abs() < 4.0 * (2.0_f64 / 720.0).sqrt() + 0.02, "{amplitude}");
-    let summary = summary(&place, "out");
+    let summary = place.summary("out");
     assert_eq!(summary.results["neighbours"]["mean"]["mean"], json!(6.0));
     assert_eq!(summary.results["neighbours"]["samples"], json!(5));
     assert_eq!(summary.conserved_exactly, ["mass, to the last bit", "total momentum, to the last bit"]);
@@ -127,7 +117,7 @@ fn every_fluid_has_its_columns_and_keeps_what_it_should() {
                     .with("/output/snapshot/color", json!("temperature"));
             }
             place.run("out", &["--quiet"]);
-            let energies = table(&place, "out", files::ENERGIES);
+            let energies = place.table("out", files::ENERGIES);
             let constant = |name: &str| {
                 let values = column(&energies, name);
                 assert!(values.iter().all(|value| *value == values[0]), "{form}, {energy}: {name} is {values:?}");
@@ -140,7 +130,7 @@ fn every_fluid_has_its_columns_and_keeps_what_it_should() {
             assert!(energies.column("limited_exchanges").is_some(), "{form}");
             assert_eq!(energies.column("solver_iterations").is_some(), integrator == "splitting");
             assert_eq!(energies.column("potential_energy").is_some(), form == "gradient" && !energy);
-            let summary = summary(&place, "out");
+            let summary = place.summary("out");
             if energy {
                 constant("total_energy");
                 assert_eq!(summary.conserved_exactly.len(), 3);
@@ -168,31 +158,10 @@ fn the_same_scene_gives_the_same_bytes_and_half_a_run_resumed_is_a_whole_run() {
         if !energy.is_null() {
             place = place.with("/interactions/0/energy", energy);
         }
-        place.run("whole", &["--quiet"]);
-        place.run("again", &["--quiet", "--set", "output.checkpoint.every=7"]);
         // Step 20 falls on a row, a picture and a sample, step 13 on nothing.
-        place.run("parts", &["--quiet", "--steps", "13"]);
-        succeeds(&["resume", &place.argument("parts"), "--steps", "20", "--quiet"]);
-        succeeds(&["resume", &place.argument("parts"), "--steps", "40", "--quiet"]);
-        let whole = listing(&place.path("whole"));
-        for other in ["again", "parts"] {
-            assert_eq!(listing(&place.path(other)), whole);
-            for name in whole.iter().filter(|name| *name != files::SUMMARY) {
-                if other == "again" && name == files::CHECKPOINT {
-                    continue; // It holds the scene, which differs.
-                }
-                // Of another scene the id is another.
-                let read = |run| match other {
-                    "again" => contents(&place.path(run), name),
-                    _ => bytes(&place.path(run).join(name)),
-                };
-                assert!(read("whole") == read(other), "{name} of {other} differs, {form}");
-            }
-        }
-        let limited = column(&table(&place, "whole", files::ENERGIES), "limited_exchanges");
+        place.whole_again_and_in_parts();
+        let limited = column(&place.table("whole", files::ENERGIES), "limited_exchanges");
         assert!(limited[5] > 0.0 && limited[10] > limited[5], "{limited:?}");
-        let [whole, parts] = ["whole", "parts"].map(|run| summary(&place, run));
-        assert_eq!((whole.means, whole.results), (parts.means, parts.results));
     }
 }
 
@@ -201,16 +170,7 @@ fn plots_can_be_drawn_again() {
     let place = place().with("/particles/0/velocities", wave()).with("/output/shear_wave", json!({"every": 2}));
     place.run("out", &["--quiet"]);
     let out = place.path("out");
-    let names = ["energies.png", "neighbours.png", "shear_wave.png", "snapshot.png"];
-    let before = names.map(|name| bytes(&out.join(name)));
-    for name in names {
-        fs::remove_file(out.join(name)).unwrap();
-    }
-    let said = succeeds(&["plot", &place.argument("out")]);
-    for (name, before) in names.into_iter().zip(&before) {
-        assert!(said.contains(name), "`{name}` is not in: {said}");
-        assert!(bytes(&out.join(name)) == *before, "{name} changed");
-    }
+    let before = place.draws_again(&["energies.png", "neighbours.png", "shear_wave.png", "snapshot.png"]);
     succeeds(&["plot", &place.argument("out"), "--set", "output.snapshot.color=speed"]);
     assert_ne!(bytes(&out.join("snapshot.png")), before[3], "another quantity");
 }
@@ -231,7 +191,7 @@ fn the_last_state_is_in_the_checkpoint() {
     let mass = state.masses.iter().map(|mass| f64::from(*mass)).sum::<f64>() * cells.mass_unit;
     assert_eq!(mass, 720.0);
     assert_eq!(state.total_momentum(), [0; 3]);
-    let energies = table(&place, "out", files::ENERGIES);
+    let energies = place.table("out", files::ENERGIES);
     let total = state.energies.iter().map(|energy| f64::from(*energy)).sum::<f64>() * cells.energy_unit;
     assert_eq!(column(&energies, "total_energy")[10], total);
 }

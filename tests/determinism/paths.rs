@@ -4,14 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::families::Model;
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::files;
 use mesoscope::plan::{self, Hardware, Options, Storage, Traversal};
 use mesoscope::run::Simulation;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 
-use crate::support::{cells, engine, fluid, start, water};
+use crate::support::{adapter, cells, engine, fluid, start, water};
 
 const TRAJECTORY: &str = r#"output.trajectory={"every":1000}"#;
 
@@ -200,10 +199,6 @@ fn molecules_are_whole() {
 
 fn run(scene: Scene, directory: &Path) {
     Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
-}
-
-fn adapter() -> AdapterChoice {
-    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! A run that was interrupted and resumed leaves the files of one that was not, whatever it measures and wherever it was
 //! interrupted; what its checkpoint holds of analyses is checked.
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::checkpoint::{self, Checkpoint};
 use mesoscope::output::{Summary, files};
 use mesoscope::run::{Event, Interrupt, Outcome, RunError, Simulation};
@@ -9,14 +8,10 @@ use mesoscope::scene::{self, Scene};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::support::{cells, fluid, water};
+use crate::support::{adapter, cells, fluid, water};
 
 /// Steps of a run, the last of them in the middle of windows.
 const STEPS: u64 = 42;
-
-fn choice() -> AdapterChoice {
-    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
-}
 
 /// A scene with plots as small as can be, checkpoints and steps as above, and changes.
 fn small(scene: &Scene, changes: &[&str]) -> Scene {
@@ -32,14 +27,14 @@ fn small(scene: &Scene, changes: &[&str]) -> Scene {
 }
 
 fn run(scene: &Scene, directory: &Path) -> Outcome {
-    Simulation::start(scene.clone(), directory, true).execute(&choice(), &mut |_| {}).unwrap()
+    Simulation::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 /// Runs a scene until it is interrupted at a step after the first.
 fn run_until(scene: &Scene, directory: &Path, step: u64) {
     let interrupt = Interrupt::default();
     let run = Simulation::start(scene.clone(), directory, true).until(&interrupt);
-    let stopped = run.execute(&choice(), &mut |event| match event {
+    let stopped = run.execute(&adapter(), &mut |event| match event {
         // The interrupt is seen after one step more.
         Event::Advanced(progress) if progress.step + 1 >= step => interrupt.ask(),
         _ => {}
@@ -51,7 +46,7 @@ fn run_until(scene: &Scene, directory: &Path, step: u64) {
 }
 
 fn resume(directory: &Path) -> Result<Outcome, RunError> {
-    Simulation::resume(directory, None)?.execute(&choice(), &mut |_| {})
+    Simulation::resume(directory, None)?.execute(&adapter(), &mut |_| {})
 }
 
 /// Everything in the directory of a finished run; of its summary and checkpoint what does not tell of the clock.

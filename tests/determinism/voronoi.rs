@@ -38,19 +38,7 @@ fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
 #[test]
 fn reruns_batches_scans_and_workgroup_sizes_give_the_same_bytes() {
     for scene in scenes() {
-        let plain = run(&scene, Options::default(), 8);
-        assert_eq!(plain.state.step, STEPS);
-        for (options, batch) in [
-            (Options::default(), 8),
-            (Options::default(), 1),
-            (Options { many_level_scan: true, ..Options::default() }, STEPS),
-            (Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() }, 8),
-            (Options { workgroup_size: Some(128), list_growth: 1, ..Options::default() }, 8),
-        ] {
-            assert!(same(&plain, &run(&scene, options, batch)), "{options:?}, batches of {batch}");
-        }
-        let other = Scene { seed: scene.seed + 1, ..scene.clone() };
-        assert!(!same(&plain, &run(&other, Options::default(), 8)));
+        bytes::same_in_every_way(&scene, STEPS);
     }
 }
 

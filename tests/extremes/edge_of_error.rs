@@ -11,7 +11,8 @@ use mesoscope::state::State;
 
 use crate::support::compiler::{Compiler, Deviation, Functions};
 use crate::support::{
-    COTTER_REICH, GROOT_WARREN, SPLITTING, cells, fluid, largest_difference, oscillators, start, units_of_a_step,
+    COTTER_REICH, GROOT_WARREN, MIXTURE, SPLITTING, cells, fluid, largest_difference, oscillators, start,
+    units_of_a_step,
 };
 
 const GAUSSIAN: &str = r#"noise={"distribution":"gaussian"}"#;
@@ -129,8 +130,6 @@ fn every_function_at_the_edge_of_its_error() {
 #[test]
 fn steps_are_those_of_the_reference_at_the_edge_of_error() {
     const POWERS: &str = "interactions.0.weight_exponent=1";
-    const MIXTURE: &str =
-        r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":2.5}]"#;
     for deviation in [Deviation::Up, Deviation::Either] {
         let gpu = Compiler::Erring(Functions::All, deviation).gpu();
         for changes in [

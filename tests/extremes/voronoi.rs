@@ -3,16 +3,8 @@
 use mesoscope::engine::EngineError;
 use mesoscope::families::reference::VoronoiReference;
 use mesoscope::plan::Options;
-use mesoscope::state::State;
 
-use crate::support::{Device, Implementation, cells, engine, start};
-
-const ENERGY: &str = "interactions.0.energy={}";
-
-fn sums(state: &State) -> ([i64; 3], i64, i64) {
-    let masses = state.masses.iter().map(|units| i64::from(*units)).sum();
-    (state.total_momentum(), masses, state.energies.iter().map(|units| i64::from(*units)).sum())
-}
+use crate::support::{Device, ENERGY, Implementation, cells, engine, start, totals};
 
 #[test]
 fn none_and_a_few_cells() {
@@ -26,7 +18,7 @@ fn none_and_a_few_cells() {
             let mut run = Device::from_state(&scene, &state, Options::default());
             run.step(30);
             let after = run.state();
-            assert_eq!(sums(&after), sums(&state), "{count} {more:?}");
+            assert_eq!(totals(&after), totals(&state), "{count} {more:?}");
             let row = run.observe();
             assert_eq!(row.particles, u64::from(count));
             assert!(row.kinetic_energy.is_finite());
@@ -67,7 +59,7 @@ fn no_temperature() {
         let first = run.observe();
         run.step(100);
         let last = run.observe();
-        assert_eq!(sums(&run.reported()), sums(&state));
+        assert_eq!(totals(&run.reported()), totals(&state));
         assert!(last.kinetic_energy < 0.95 * first.kinetic_energy && last.kinetic_energy > 0.0);
         if energy.is_some() {
             let heat = last.cells.unwrap().internal_energy - first.cells.unwrap().internal_energy;
@@ -99,7 +91,7 @@ fn viscosities_from_nothing_to_much() {
             let mut run = Device::from_state(&scene, &state, Options::default());
             run.step(200);
             let row = run.observe();
-            assert_eq!(sums(&run.reported()), sums(&state));
+            assert_eq!(totals(&run.reported()), totals(&state));
             // 798 degrees of freedom: ±.05; the sound of a start from a lattice may warm it.
             let temperature = row.kinetic_temperature();
             println!("{changes:?}: {temperature:.3}, {:?}", row.cells.unwrap().iterations);
@@ -149,7 +141,7 @@ fn a_huge_and_a_tiny_temperature() {
             let mut run = Device::from_state(&scene, &state, Options::default());
             run.step(100);
             let row = run.observe();
-            assert_eq!(sums(&run.reported()), sums(&state));
+            assert_eq!(totals(&run.reported()), totals(&state));
             let found = row.kinetic_temperature() / temperature.parse::<f64>().unwrap();
             assert!((found - 1.0).abs() < 0.35, "{temperature} {more:?}: {found}");
         }
@@ -180,7 +172,7 @@ fn dense_and_dilute_and_long_boxes() {
         let mut run = Device::from_state(&scene, &state, Options::default());
         run.step(100);
         let row = run.observe();
-        assert_eq!(sums(&run.reported()), sums(&state));
+        assert_eq!(totals(&run.reported()), totals(&state));
         assert!((row.cells.unwrap().volume / volume - 1.0).abs() < 1e-5);
         assert!((row.kinetic_temperature() - 1.0).abs() < 0.5, "{lengths}: {}", row.kinetic_temperature());
     }
@@ -198,7 +190,7 @@ fn coincident_cells_part() {
     let mut run = Device::from_state(&scene, &state, Options::default());
     run.step(50);
     let after = run.state();
-    assert_eq!(sums(&after), sums(&state));
+    assert_eq!(totals(&after), totals(&state));
     for (index, position) in after.positions.iter().enumerate() {
         assert!(after.positions[..index].iter().all(|other| other != position));
     }
@@ -238,7 +230,7 @@ fn a_huge_conductivity() {
     let mut run = Device::from_state(&scene, &state, Options::default());
     run.step(100);
     let row = run.observe();
-    assert_eq!(sums(&run.reported()), sums(&state));
+    assert_eq!(totals(&run.reported()), totals(&state));
     assert!(row.cells.unwrap().limited_exchanges > 1000);
     assert!((row.cells.unwrap().internal_temperature - 1.0).abs() < 0.1);
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use mesoscope::engine::{Engine, Sample};
 use mesoscope::families::Model;
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
@@ -13,15 +12,12 @@ use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Sc
 use mesoscope::table::Table;
 use serde_json::Value;
 
-use crate::support::{COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, start};
-
-/// The adapter of the tests, as the command line would choose it.
-fn choice() -> AdapterChoice {
-    AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
-}
+use crate::support::{
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, adapter, changed, engine, fluid, start,
+};
 
 fn run(scene: Scene, directory: &Path) -> Outcome {
-    Simulation::start(scene, directory, true).execute(&choice(), &mut |_| {}).unwrap()
+    Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 fn number(outcome: &Outcome, path: &[&str]) -> f64 {
@@ -218,38 +214,38 @@ fn constant_of(engine: &Engine<'_>, kernel: &str, name: &str) -> f64 {
 #[test]
 fn reported_forces_are_changes_of_momenta() {
     let species = r#"particles=[{"species":"A","count":200},{"species":"B","count":175,"mass":2.5}]"#;
-    for space in ["space.box=[5,5,5]", "space.box=[11,12]"] {
-        for particles in ["title=test", species] {
-            for integrator in INTEGRATORS {
-                let scene = fluid(&[
-                    integrator,
-                    space,
-                    particles,
-                    "time.steps=100",
-                    r#"output.histograms=[{"quantity":"acceleration","every":1000}]"#,
-                ]);
-                let (model, state) = start(&scene);
-                let mut engine = engine(&scene, &state, Options::default());
-                engine.advance(30, 30).unwrap();
-                let before = engine.state().unwrap();
-                let reported = engine.reported().unwrap();
-                let forces: Vec<i32> =
-                    engine.words("reported_forces").unwrap().into_iter().map(|word| word as i32).collect();
-                let mut strongest = 0;
-                for id in 0..before.len() {
-                    for axis in 0..3 {
-                        let change = reported.momenta[id][axis] - before.momenta[id][axis];
-                        let force = forces[4 * id + axis];
-                        // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
-                        let tolerance = if *integrator == SPLITTING { 2 } else { 0 };
-                        assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
-                        strongest = strongest.max(force.abs());
-                    }
+    // Every integrator in either space and with either list of species.
+    for (row, space) in ["space.box=[5,5,5]", "space.box=[11,12]"].into_iter().enumerate() {
+        for (column, integrator) in INTEGRATORS.iter().enumerate() {
+            let particles = ["title=test", species][(row + column) % 2];
+            let scene = fluid(&[
+                integrator,
+                space,
+                particles,
+                "time.steps=100",
+                r#"output.histograms=[{"quantity":"acceleration","every":1000}]"#,
+            ]);
+            let (model, state) = start(&scene);
+            let mut engine = engine(&scene, &state, Options::default());
+            engine.advance(30, 30).unwrap();
+            let before = engine.state().unwrap();
+            let reported = engine.reported().unwrap();
+            let forces: Vec<i32> =
+                engine.words("reported_forces").unwrap().into_iter().map(|word| word as i32).collect();
+            let mut strongest = 0;
+            for id in 0..before.len() {
+                for axis in 0..3 {
+                    let change = reported.momenta[id][axis] - before.momenta[id][axis];
+                    let force = forces[4 * id + axis];
+                    // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
+                    let tolerance = if *integrator == SPLITTING { 2 } else { 0 };
+                    assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
+                    strongest = strongest.max(force.abs());
                 }
-                assert!(strongest > 1 << 20, "{strongest}");
-                let time = model.time_step * if *integrator == SPLITTING { 1.0 } else { 0.5 };
-                assert_eq!(engine.plan().force_unit, model.units.momentum / time);
             }
+            assert!(strongest > 1 << 20, "{strongest}");
+            let time = model.time_step * if *integrator == SPLITTING { 1.0 } else { 0.5 };
+            assert_eq!(engine.plan().force_unit, model.units.momentum / time);
         }
     }
 }
@@ -419,7 +415,7 @@ fn velocities_about_the_centre_of_mass() {
                     "velocities": {"type": "listed", "velocities": [[-1, 0.25, 3]]}}]}"#,
         );
         let text = serde_json::to_string(&scene).unwrap();
-        let scene = scene::parse("test", &text, &[histograms, correlations]).unwrap();
+        let scene = changed(&text, &[&histograms, &correlations]);
         let directory = tempfile::tempdir().unwrap();
         let outcome = run(scene, directory.path());
         [

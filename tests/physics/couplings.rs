@@ -20,7 +20,9 @@ use mesoscope::plan::Options;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::{PairBath, State};
 
-use crate::support::{Device, Implementation, Measured, deviate, fluid, largest_difference, oscillators, start};
+use crate::support::{
+    Device, Implementation, Measured, changed, deviate, fluid, largest_difference, oscillators, start,
+};
 
 /// Every implementation of couplings, at the start of a scene from a given state.
 fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
@@ -299,13 +301,14 @@ fn a_free_bath_has_the_discrete_velocity_autocorrelation_within_one_per_cent() {
 }
 
 fn check_velocity_autocorrelation(precision: Precision) {
-    const LAGS: usize = 50;
     for scheme in SCHEMES {
         for a in [1e-3, 1.0, 1e3] {
+            // Others than slow baths, and the symmetric one that flips its sign, have forgotten all by then.
+            let lags = if a < 1.0 || scheme == "symmetric" && a > 1.0 { 50 } else { 20 };
             let (scene, law) = oscillator(scheme, a, 1.5, 0.0, precision.of(55_000));
             let (model, mut state) = start(&scene);
             settle(&mut state, &model, &law);
-            let expected = law.autocorrelation(LAGS);
+            let expected = law.autocorrelation(lags);
             for mut run in runs(&scene, &state) {
                 let momenta = |state: &State| -> Vec<f64> {
                     state.momenta.iter().flatten().map(|units| f64::from(*units)).collect()
@@ -648,8 +651,7 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
         8 * count,
         2 * count
     );
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    let scene = scene::parse("test", &text, &changes).unwrap();
+    let scene = changed(&text, changes);
     let (model, mut state) = start(&scene);
     for index in 0..count {
         let p = (1.5_f64).sqrt() * deviate(8, [index as u32, 0]);

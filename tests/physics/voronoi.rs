@@ -11,11 +11,10 @@ use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
 
-use crate::support::{Device, Implementation, Measured, cells, engine, start};
+use crate::support::{Device, ENERGY, Implementation, Measured, cells, engine, start, totals};
 
 const FORMS: [&str; 3] = ["gradient", "consistent", "paper"];
 const INTEGRATORS: [&str; 2] = ["splitting", "euler"];
-const ENERGY: &str = "interactions.0.energy={}";
 const REST: &str = r#"particles.0.velocities={"type":"rest"}"#;
 
 fn form(name: &str) -> String {
@@ -24,13 +23,6 @@ fn form(name: &str) -> String {
 
 fn integrator(name: &str) -> String {
     format!(r#"integrator.type="{name}""#)
-}
-
-/// Sums of momenta, masses and total energies in integer units.
-fn totals(state: &State) -> ([i64; 3], i64, i64) {
-    let masses = state.masses.iter().map(|units| i64::from(*units)).sum();
-    let energies = state.energies.iter().map(|units| i64::from(*units)).sum();
-    (state.total_momentum(), masses, energies)
 }
 
 /// Every form with every integrator, at the temperature of the scene and with energies.

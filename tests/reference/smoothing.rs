@@ -212,9 +212,19 @@ fn transform_mesh(field: &mut [[f64; 2]], mesh: [u32; 2]) {
     }
 }
 
-/// A direct solve: `factor` of every mode.
+/// A direct solve: `factor` of every mode, which is the same for opposite waves.
 fn direct(field: &[f64], mesh: [u32; 2], factor: impl Fn([u32; 2]) -> f64) -> Vec<f64> {
-    let mut waves: Vec<[f64; 2]> = field.iter().map(|&value| [value, 0.0]).collect();
+    direct_of_two([field, field], mesh, factor).map(|[value, _]| value).collect()
+}
+
+/// The same of two fields at once: what is real stays real, and what is imaginary imaginary.
+fn direct_of_two(
+    [one, other]: [&[f64]; 2],
+    mesh: [u32; 2],
+    factor: impl Fn([u32; 2]) -> f64,
+) -> impl Iterator<Item = [f64; 2]> {
+    let count = one.len() as f64;
+    let mut waves: Vec<[f64; 2]> = one.iter().zip(other).map(|(&one, &other)| [one, other]).collect();
     transform_mesh(&mut waves, mesh);
     for (index, wave) in waves.iter_mut().enumerate() {
         let factor = factor([index as u32 % mesh[0], index as u32 / mesh[0]]);
@@ -222,7 +232,7 @@ fn direct(field: &[f64], mesh: [u32; 2], factor: impl Fn([u32; 2]) -> f64) -> Ve
         *wave = [factor * wave[1], factor * wave[0]];
     }
     transform_mesh(&mut waves, mesh);
-    waves.iter().map(|wave| wave[1] / field.len() as f64).collect()
+    waves.into_iter().map(move |wave| [wave[1] / count, wave[0] / count])
 }
 
 /// The factor of (1 - Λ²∇²)^-power, written out again.
@@ -259,10 +269,14 @@ fn rounding(mesh: [u32; 2]) -> f64 {
 
 /// The error is a part of the result, or of what was smoothed.
 fn check(water: &ShallowWater, of_result: f64, of_given: f64) {
-    for (name, masses) in [("random", random(water.mesh, 1)), ("smooth", smooth(water.mesh))] {
-        let given = deviations(&masses);
-        let expected = direct(&given, water.mesh, |wave| exact(water, wave));
-        let error = relative(&solve(water, &masses), &expected);
+    let device = Device::new(water, Options::default());
+    let masses = [random(water.mesh, 1), smooth(water.mesh)];
+    let [one, other] = masses.each_ref().map(|masses| deviations(masses));
+    let expected: (Vec<f64>, Vec<f64>) =
+        direct_of_two([&one, &other], water.mesh, |wave| exact(water, wave)).map(|[one, other]| (one, other)).unzip();
+    let fields = [("random", one, expected.0), ("smooth", other, expected.1)];
+    for (masses, (name, given, expected)) in masses.iter().zip(fields) {
+        let error = relative(&device.smooth(masses), &expected);
         let tolerance = of_result + of_given * (dot(&given, &given) / dot(&expected, &expected)).sqrt();
         let what = format!("{name} {:?} {:?}", water.mesh, water.smoothing);
         println!("{what}: {error:.2e}");
@@ -294,7 +308,7 @@ fn fourier_solves_are_those_of_double_precision() {
 /// Long lines take two passes of a large radix, or three.
 #[test]
 fn fourier_solves_of_large_meshes_are_those_of_double_precision() {
-    for mesh in [[1024, 1024], [512, 4096], [2048, 512]] {
+    for mesh in [[1024, 1024], [64, 4096], [2048, 64]] {
         check(&water(mesh, 4.0, 1, FIVE_POINT), rounding(mesh), 0.0);
     }
 }

@@ -33,6 +33,26 @@ pub fn run(scene: &Scene, options: Options, steps: u64, batch: u64) -> Bytes {
     harvest(engine, Vec::new())
 }
 
+/// The bytes of a scene in batches of 8 steps, which are the same again and in other batches, with another scan, other sizes of workgroups
+/// and longer lists, and others with another seed.
+#[track_caller]
+pub fn same_in_every_way(scene: &Scene, steps: u64) -> Bytes {
+    let plain = run(scene, Options::default(), steps, 8);
+    assert_eq!(plain.state.step, steps);
+    for (options, batch) in [
+        (Options::default(), 8),
+        (Options::default(), 1),
+        (Options { many_level_scan: true, ..Options::default() }, steps),
+        (Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() }, 8),
+        (Options { workgroup_size: Some(128), list_growth: 1, ..Options::default() }, 8),
+    ] {
+        assert!(same(&plain, &run(scene, options, steps, batch)), "{options:?}, batches of {batch}");
+    }
+    let other = Scene { seed: scene.seed + 1, ..scene.clone() };
+    assert!(!same(&plain, &run(&other, Options::default(), steps, 8)), "the seed changes nothing");
+    plain
+}
+
 /// The same with the particles in another order of storage at the start.
 #[track_caller]
 pub fn shuffled(scene: &Scene, options: Options, steps: u64, batch: u64, random: &mut StdRng) -> Bytes {

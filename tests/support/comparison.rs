@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use mesoscope::measure::Observables;
 use mesoscope::self_test::{Function, errors_of_functions};
 use mesoscope::state::State;
 
@@ -43,6 +44,32 @@ pub fn predictions_agree(found: &State, expected: &State) {
     }
     let differing = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
     assert!(differing * 20 <= found.len(), "{differing} of {} shifts differ", found.len());
+}
+
+/// Total momentum, mass and energy in integer units, of which the last two are zero where particles have none of their own.
+pub fn totals(state: &State) -> ([i64; 3], i64, i64) {
+    let masses = state.masses.iter().map(|units| i64::from(*units)).sum();
+    let energies = state.energies.iter().map(|units| i64::from(*units)).sum();
+    (state.total_momentum(), masses, energies)
+}
+
+/// Observables of a fluid on the device are those of the reference of the very same state: momentum to the bit, the others to single
+/// precision, and the Laplacian also to what single precision may make of `jump`, the second derivative at the cutoff.
+#[track_caller]
+pub fn same_observables(measured: &Observables, expected: &Observables, jump: f64, changes: &[&str]) {
+    for (name, a, b) in [
+        ("kinetic energy", measured.kinetic_energy, expected.kinetic_energy),
+        ("potential energy", measured.potential_energy, expected.potential_energy),
+        ("conservative virial", measured.conservative_virial, expected.conservative_virial),
+        ("virial", measured.total_virial, expected.total_virial),
+        ("gradient", measured.gradient_squared, expected.gradient_squared),
+        ("laplacian", measured.laplacian, expected.laplacian),
+    ] {
+        let scale = b.abs().max(expected.kinetic_energy.abs()).max(1e-3);
+        let allowed = 2e-4 * scale + if name == "laplacian" { jump } else { 0.0 };
+        assert!((a - b).abs() <= allowed, "{name}: {a} on the device, {b} in the reference ({changes:?})");
+    }
+    assert_eq!(measured.momentum, expected.momentum, "({changes:?})");
 }
 
 /// The largest difference of any momentum or position, in integer units.

@@ -25,11 +25,11 @@ use mesoscope::plan::{self, Hardware, Options, Traversal};
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-pub use comparison::{largest_difference, predictions_agree, units_of_a_step};
+pub use comparison::{largest_difference, predictions_agree, same_observables, totals, units_of_a_step};
 pub use implementations::{Device, Implementation};
 pub use scenes::{
-    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, cells, fluid, oscillators, scene, shear_flow,
-    still_water, water,
+    COTTER_REICH, ENERGY, EVERY_STEP, GROOT_WARREN, GYRO, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, ROTATE,
+    SPLITTING, WHITE, built_in, cells, changed, fluid, oscillators, scene, shear_flow, still_water, water,
 };
 pub use statistics::{Measured, deviate, equilibrium, order};
 
@@ -65,6 +65,12 @@ pub fn in_eights() -> Options {
     Options { traversal: hardware().takes_eights().then_some(Traversal::Clusters), ..Options::default() }
 }
 
+/// Every way to visit pairs that the adapter has.
+pub fn traversals() -> Vec<Traversal> {
+    let clusters = hardware().takes_eights().then_some(Traversal::Clusters);
+    [Traversal::Rows].into_iter().chain(clusters).collect()
+}
+
 /// A scene's model and initial state.
 pub fn start(scene: &Scene) -> (Model, State) {
     let model = Model::new(scene);
@@ -90,10 +96,15 @@ pub fn water_reference(scene: &Scene) -> ShallowWaterReference {
     ShallowWaterReference::new(model, state).expect("a scene of shallow water")
 }
 
-/// Observables of the last sample of an engine.
-pub fn observables(engine: &mut Engine<'_>, scene: &Scene) -> Observables {
+/// Observables of all samples of an engine that were not taken from it before.
+pub fn series(engine: &mut Engine<'_>, scene: &Scene) -> Vec<Observables> {
     let model = Model::new(scene);
     let samples = engine.finish().expect("samples");
-    let last = samples.iter().rev().find(|sample| sample.sampler == 0).expect("a sample");
-    mesoscope::measure::observables_of(last, engine.plan(), &model)
+    let rows = samples.iter().filter(|sample| sample.sampler == 0);
+    rows.map(|row| mesoscope::measure::observables_of(row, engine.plan(), &model)).collect()
+}
+
+/// Observables of the last sample of an engine.
+pub fn observables(engine: &mut Engine<'_>, scene: &Scene) -> Observables {
+    series(engine, scene).pop().expect("a sample")
 }

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mesoscope::output::{Summary, files};
+use mesoscope::output::{Summary, files, read_table};
+use mesoscope::table::Table;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -107,6 +108,63 @@ impl Place {
         let (scene, out) = (self.scene(), self.argument(out));
         succeeds(&[&["run", &scene, "--out", &out], further].concat())
     }
+
+    /// What a finished run says of itself.
+    #[track_caller]
+    pub fn summary(&self, out: &str) -> Summary {
+        Summary::load(&self.path(out).join(files::SUMMARY)).unwrap()
+    }
+
+    /// A table of a run.
+    #[track_caller]
+    pub fn table(&self, out: &str, name: &str) -> Table {
+        read_table(&self.path(out).join(name)).unwrap()
+    }
+
+    /// Runs the scene, of 40 steps, as a `whole`, with other checkpoints and in three parts: the files are the same to the byte, but for what
+    /// holds the scene itself or the time that the run took.
+    #[track_caller]
+    pub fn whole_again_and_in_parts(&self) {
+        self.run("whole", &["--quiet"]);
+        self.run("again", &["--quiet", "--set", "output.checkpoint.every=7"]);
+        self.run("parts", &["--quiet", "--steps", "13"]);
+        for steps in ["20", "40"] {
+            succeeds(&["resume", &self.argument("parts"), "--steps", steps, "--quiet"]);
+        }
+        let whole = listing(&self.path("whole"));
+        for other in ["again", "parts"] {
+            assert_eq!(listing(&self.path(other)), whole);
+            for name in whole.iter().filter(|name| *name != files::SUMMARY) {
+                if other == "again" && name == files::CHECKPOINT {
+                    continue; // It holds the scene, which differs.
+                }
+                // Of another scene the id is another.
+                let read = |run| match other {
+                    "again" => contents(&self.path(run), name),
+                    _ => bytes(&self.path(run).join(name)),
+                };
+                assert!(read("whole") == read(other), "{name} of {other} differs: {}", self.scene);
+            }
+        }
+        let [whole, parts] = ["whole", "parts"].map(|run| self.summary(run));
+        assert_eq!((whole.means, whole.results), (parts.means, parts.results));
+    }
+
+    /// Removes files of the run `out` and lets `plot` write them again: the same bytes, which are returned.
+    #[track_caller]
+    pub fn draws_again(&self, names: &[&str]) -> Vec<Vec<u8>> {
+        let out = self.path("out");
+        let before: Vec<Vec<u8>> = names.iter().map(|name| bytes(&out.join(name))).collect();
+        for name in names {
+            fs::remove_file(out.join(name)).unwrap();
+        }
+        let said = succeeds(&["plot", &self.argument("out")]);
+        for (name, before) in names.iter().zip(&before) {
+            assert!(said.contains(name), "`{name}` is not in: {said}");
+            assert!(bytes(&out.join(name)) == *before, "{name} changed");
+        }
+        before
+    }
 }
 
 /// Names of directories and files, sorted.
@@ -122,8 +180,8 @@ pub fn bytes(path: &Path) -> Vec<u8> {
     fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-#[track_caller]
 /// A file of a run without the id of the run, which follows from the whole scene: what the run has found and drawn.
+#[track_caller]
 pub fn contents(directory: &Path, name: &str) -> Vec<u8> {
     let mut found = bytes(&directory.join(name));
     let summary = String::from_utf8(bytes(&directory.join(mesoscope::output::files::SUMMARY))).unwrap();

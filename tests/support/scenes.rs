@@ -13,13 +13,35 @@ pub const COTTER_REICH: &str = r#"integrator={"type":"cotter-reich"}"#;
 /// Every integrator, each variant that has kernels of its own.
 pub const INTEGRATORS: &[&str] = &[SPLITTING, GROOT_WARREN, PREDICTED, COTTER_REICH];
 
+/// Every step is reported.
+pub const EVERY_STEP: &str = "output.energies.every=1";
+/// Two species in the standard fluid, and the force that tells them apart.
+pub const MIXTURE: &str =
+    r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":2.5}]"#;
+pub const MIXTURE_FORCE: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["A","B"],"repulsion":40,"friction":9}]}]"#;
+
+/// Integrators of shallow water.
+pub const GYRO: &str = r#"integrator={"type":"gyro"}"#;
+pub const ROTATE: &str = r#"integrator={"type":"rotate"}"#;
+/// White noise on the mesh of shallow water.
+pub const WHITE: &str = r#"interactions.0.bath={"type":"white"}"#;
+
+/// An internal energy for each Voronoi cell.
+pub const ENERGY: &str = "interactions.0.energy={}";
+
 /// A scene from its JSON text.
 pub fn scene(text: &str) -> Scene {
     changed(text, &[])
 }
 
-/// The same with other values merged in, given as `path=value`.
-fn changed(text: &str, changes: &[&str]) -> Scene {
+/// A built-in scene with other values merged in, given as `path=value`.
+pub fn built_in(name: &str, changes: &[&str]) -> Scene {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    scene::load(name, &changes).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A scene from its JSON text with other values merged in.
+pub fn changed(text: &str, changes: &[&str]) -> Scene {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     scene::parse("test", text, &changes).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -63,8 +85,7 @@ pub fn still_water(changes: &[&str]) -> Scene {
 
 /// The built-in shear flow, with other values merged in.
 pub fn shear_flow(changes: &[&str]) -> Scene {
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    scene::load("shallow-water", &changes).unwrap_or_else(|error| panic!("{error}"))
+    built_in("shallow-water", changes)
 }
 
 /// Cells of unit mean volume and five molecules each, on a jittered lattice, with changes given as `path=value`.
