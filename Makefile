@@ -17,7 +17,7 @@ $(shell mkdir -p -m 700 "$(XDG_RUNTIME_DIR)")
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help run test validate bench adapter cargo
+.PHONY: help run test validate bench book adapter cargo
 
 help: ## this list
 	@echo 'make TARGET [SCENE=dpd-fluid] [OUT=directory] [ARGUMENTS="--set time.step=0.02"]'
@@ -36,7 +36,7 @@ test: cargo adapter ## formatting, lints, all tests, documentation, and the book
 	cargo test --locked
 	MESOSCOPE_PLAN=gpu cargo test --locked --test reference --test physics -- $(ON_GPU_PLANS)
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
-	@if command -v mdbook >/dev/null; then mdbook build; fi
+	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
 
 validate: cargo adapter ## the long tests, and all tests on other drivers
 	@sh .ci/spirv.sh
@@ -45,6 +45,9 @@ validate: cargo adapter ## the long tests, and all tests on other drivers
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked
+
+book: ## the documentation as a book in target/book, with mdBook
+	sh .ci/book.sh
 
 adapter: ## a software Vulkan driver, where there is no Vulkan adapter
 	@sh .ci/adapter.sh
