@@ -10,7 +10,7 @@ pub enum EngineError {
     /// The graphics layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// The simulation left the range where its numbers mean anything; [`crate::families::Instability`] says how.
+    /// The simulation left the range of valid numbers; [`crate::families::Instability`] says how.
     #[error("the run became unstable at step {}", .0.step)]
     Unstable(Failure),
     /// More particles at the ends of rows than their copies have capacity for, or more in a bin than it holds.
@@ -19,7 +19,7 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
     },
-    /// The adapter left a loop before its end, as software adapters do after some 65 000 turns.
+    /// The adapter left a loop before its end, as software adapters do after some 65 000 iterations.
     #[error(
         "the adapter {adapter} gave up at step {step}: too many particles crowd in one place or form one chain; use another \
          adapter, particles further apart, or shorter chains"

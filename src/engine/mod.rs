@@ -1,5 +1,5 @@
-//! Executes a plan: owns buffers, textures and pipelines, records many steps a submission, and reads results back while the next
-//! batch runs. Knows no physics.
+//! Executes a plan: owns buffers, textures and pipelines, records many steps per submission, and reads results back while the next
+//! batch runs. It knows no physics.
 
 mod error;
 mod pipeline;
@@ -31,7 +31,7 @@ pub struct Control {
     pub step: [u32; 2],
     /// The step that the next sort begins.
     pub next: [u32; 2],
-    /// Key of this step's random words.
+    /// The key of this step's random words.
     pub key: [u32; 2],
     /// Key of the whole stream.
     pub seed_key: [u32; 2],
@@ -45,7 +45,7 @@ pub struct Control {
     pub failure_elapsed: u32,
     /// The first place with a failure.
     pub failure_place: u32,
-    /// 1 when the neighbours of particles have to be listed again.
+    /// 1 when the neighbour list has to be rebuilt.
     pub demand: u32,
     /// Exchanges that a limit has cut, low word.
     pub limited: u32,
@@ -64,7 +64,7 @@ pub struct Sample {
     pub sums: Vec<i64>,
 }
 
-/// Where the particles are within a step.
+/// How far the particles are within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
     /// Advanced, in no particular order: what a checkpoint holds.
@@ -94,12 +94,12 @@ enum Phase {
 /// let steps: Vec<u64> = engine.finish()?.iter().map(|sample| sample.step).collect();
 /// assert_eq!(steps, [0, 20]);
 ///
-/// // From the same state it does the same, to the last bit and in whatever batches.
+/// // From the same state it computes the same, to the last bit, whatever the batches.
 /// engine.upload(&start)?;
 /// engine.advance(30, 7)?;
 /// assert_eq!(engine.state()?, state);
 ///
-/// // Nor does the order count in which the particles are stored; a buffer of the plan can be read as it is.
+/// // The order in which particles are stored does not matter either; any buffer of the plan can be read.
 /// let backwards: Vec<usize> = (0..start.len()).rev().collect();
 /// engine.upload_in_order(&start, &backwards)?;
 /// assert_eq!(engine.words("particles")?[3] as usize, start.len() - 1, "the last particle is stored first");
@@ -124,7 +124,7 @@ pub struct Engine<'a> {
     collected: Vec<Sample>,
 }
 
-/// Where particles are, with how often they have gone round the box, by id; a state that does not say is the first.
+/// Positions with the number of crossings of the box, by id; a state without these numbers counts as the first.
 fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
     if state.images.len() != state.len() && (state.step > 0 || !state.images.is_empty()) {
         return Err(EngineError::State { reason: "the times round the box are missing".to_owned() });
@@ -221,8 +221,8 @@ impl<'a> Engine<'a> {
         self.upload_in_order(state, &in_order)
     }
 
-    /// The same with the particles stored in a given order of their ids, which changes no result: what a run has
-    /// shuffled its particles into is forgotten by a checkpoint, and may be.
+    /// The same with the particles stored in a given order of their ids, which changes no result: a checkpoint need not keep the order
+    /// of storage.
     ///
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan or the order is not one of all ids.
@@ -278,8 +278,8 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    /// Goes on with a window of a sampler that was open when the state was saved: so many of its samples had been taken,
-    /// and its buffer held these words. Only right after an upload.
+    /// Continues a window of a sampler that was open when the state was saved: this many of its samples had been taken, and its buffer held
+    /// these words. Only directly after an upload.
     ///
     /// # Errors
     /// [`EngineError::State`] if the sampler has no window of more samples, or its buffer another number of words.
@@ -298,11 +298,11 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    /// Advances by `steps`, taking every sample that falls due at the start of each step, in submissions of at most
-    /// `batch` steps. Returns before the device is done; see [`Self::finish`].
+    /// Advances by `steps`, taking every sample that is due at the start of each step, in submissions of at most `batch`
+    /// steps. Returns before the device is done; see [`Self::finish`].
     ///
     /// # Errors
-    /// [`EngineError`] as soon as a finished batch shows a failure, or if the steps are more than can be numbered.
+    /// [`EngineError`] as soon as a finished batch shows a failure, or if the step number would overflow.
     pub fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
         if steps > u64::MAX - self.step {
             return Err(EngineError::State {
@@ -351,8 +351,8 @@ impl<'a> Engine<'a> {
         std::mem::take(&mut self.collected)
     }
 
-    /// The state to continue from, ordered by id. Only right after [`Self::advance`] or [`Self::upload`]: before the
-    /// samples of the current step are taken.
+    /// The state to continue from, ordered by id. Only directly after [`Self::advance`] or [`Self::upload`], before the samples of the
+    /// current step are taken.
     ///
     /// # Errors
     /// [`EngineError`] if the device failed, or if the step has been reported already.
@@ -424,7 +424,7 @@ impl<'a> Engine<'a> {
         Ok(state)
     }
 
-    /// Adds how often the particles have gone round the box until they came to where they are, where they are followed.
+    /// Adds how often the particles have crossed the box, if that is counted.
     fn complete_images(&mut self, state: &mut State) -> Result<(), EngineError> {
         if !self.plan.paths.are_followed() {
             return Ok(());
@@ -451,12 +451,12 @@ impl<'a> Engine<'a> {
         self.stages[kernel].dispatch(pass);
     }
 
-    /// Whether what lies in memory is put in order at the current step.
+    /// Whether the particles are sorted in memory at the current step.
     fn tidies(&self) -> bool {
         !self.plan.tidy.is_empty() && (self.step - self.first_step).is_multiple_of(TIDYING)
     }
 
-    /// Sorts, if that is still to be done, and takes whatever samples are due.
+    /// Sorts, unless that has been done, and takes the samples that are due.
     fn record_sample(&mut self, recording: &mut Recording<'_>) {
         if self.phase == Phase::Advanced {
             if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {

@@ -1,4 +1,4 @@
-//! One kernel ready to run: pipeline, bound buffers, size.
+//! A kernel ready to run: pipeline, bound buffers, size.
 
 use std::collections::HashMap;
 use std::iter;
@@ -40,7 +40,7 @@ impl Stage {
 /// The buffer that holds the workgroups of kernels whose number depends on the step.
 pub(super) const DEMANDS: &str = "demands";
 
-/// The constant by which kernels of a folded dispatch number their workgroups.
+/// The constant with which kernels of a folded dispatch number their workgroups.
 const FOLD: &str = "FOLD";
 
 /// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.
@@ -73,7 +73,7 @@ fn stage(
     buffers: &HashMap<&'static str, wgpu::Buffer>,
     textures: &HashMap<&'static str, Texels>,
 ) -> Result<Stage, GpuError> {
-    // What a kernel sets for itself goes before what holds for all.
+    // A kernel's own constants take precedence over those of the plan.
     let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
     let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
     let [width, height] = folded(kernel.workgroups);

@@ -1,4 +1,4 @@
-//! Results on their way from the device: copied at the end of a batch, mapped when it has run.
+//! Results read back from the device: copied at the end of a batch, mapped when it has run.
 
 use std::collections::HashMap;
 use std::sync::mpsc;
@@ -8,7 +8,7 @@ use super::{Control, Sample};
 use crate::gpu::{Gpu, GpuError};
 use crate::plan::Plan;
 
-/// A device that has not finished a batch by then is taken for lost.
+/// A device that has not finished a batch by then counts as lost.
 const PATIENCE: Duration = Duration::from_mins(10);
 
 pub(super) struct Readback {
@@ -103,7 +103,7 @@ fn arrived(
     Ok(view.to_vec())
 }
 
-/// Waits for the device and reads as many bytes as `copy` records to be copied into a buffer.
+/// Waits for the device and reads as many bytes as `copy` copies into a buffer.
 pub(crate) fn read(
     gpu: &Gpu,
     size: u64,

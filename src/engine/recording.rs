@@ -1,4 +1,4 @@
-//! Commands on their way to the device.
+//! Recording and submission of commands.
 
 use super::pipeline::Stage;
 use crate::gpu::{Gpu, compute_pass};
@@ -16,8 +16,7 @@ impl<'a> Recording<'a> {
         Self { gpu, label, encoder: gpu.encoder(label), pass: None }
     }
 
-    /// Records a kernel; after one that takes long, submits what there is. Systems that watch over their displays time a whole
-    /// submission.
+    /// Records a kernel; after one that takes long, submits what has been recorded. A system's watchdog times a whole submission.
     pub(super) fn dispatch(&mut self, stage: &Stage) {
         let (encoder, label) = (&mut self.encoder, self.label);
         let pass = self.pass.get_or_insert_with(|| compute_pass(encoder, label).forget_lifetime());

@@ -49,7 +49,7 @@ impl Texels {
         self.planned.bytes()
     }
 
-    /// Fills it from its beginning; the rest of the last row that is reached becomes zeros.
+    /// Fills it from its beginning; the rest of the last row written becomes zeros.
     pub(super) fn write(&self, gpu: &Gpu, words: &[u32]) {
         let row_words = (self.planned.row_bytes() / 4) as usize;
         let (full, rest) = words.split_at(words.len() - words.len() % row_words);

@@ -1,4 +1,4 @@
-//! Where the time of a step goes: real steps with every kernel timed by itself.
+//! Where the time of a step goes: real steps in which every kernel is timed separately.
 
 use std::time::Instant;
 
@@ -34,12 +34,11 @@ impl Engine<'_> {
         }
     }
 
-    /// Advances by `steps` and times each kernel by itself, in the order of a step. Steps that take a sample or
-    /// tidy are done but not timed; if all do, or `steps` is 0, nothing is returned.
+    /// Advances by `steps` and times each kernel separately, in the order of a step. Steps that take a sample or sort the memory are
+    /// executed but not timed; if there are no others, nothing is returned.
     ///
-    /// Results of the steps are those of [`Self::advance`], to the bit. The sum over the kernels leaves out what it
-    /// costs to hand a batch to the device, and with [`StageClock::Submissions`] it is only as sharp as an empty
-    /// submission is steady.
+    /// The steps give the same results as [`Self::advance`], to the bit. The sum over the kernels does not include the cost of submitting a
+    /// batch. With [`StageClock::Submissions`] it is only as accurate as the time of an empty submission is constant.
     ///
     /// ```
     /// # use mesoscope::engine::Engine;

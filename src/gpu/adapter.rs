@@ -1,21 +1,21 @@
-//! Which adapters there are and which one to take.
+//! The available adapters, and the choice of one.
 
 use super::GpuError;
 
-/// Which adapter to take.
+/// Which adapter to use.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum AdapterChoice {
-    /// The best there is: a discrete GPU before an integrated one before anything else; software last.
+    /// The best available: a discrete GPU before an integrated one before any other; software last.
     #[default]
     Best,
     /// A software adapter.
     Software,
-    /// The adapter of this number in [`list_adapters`], or the first whose name contains this text, whatever the case.
+    /// The adapter with this number in [`list_adapters`], or the first whose name contains this text, ignoring case.
     Named(String),
 }
 
 impl AdapterChoice {
-    /// The choice a user wrote: `software`, a number or a part of a name; nothing means the best.
+    /// The choice of a user: `software`, a number or a part of a name; without one, the best.
     ///
     /// ```
     /// use mesoscope::gpu::AdapterChoice;
@@ -34,7 +34,7 @@ impl AdapterChoice {
     }
 }
 
-/// An adapter in words.
+/// The description of an adapter.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AdapterDescription {
     /// Its name.
@@ -77,8 +77,8 @@ fn rank(info: &wgpu::AdapterInfo) -> u32 {
 
 fn adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-    // Indirect sizes are zero or those of the plan, which have been checked: a kernel that checks them each time would cost
-    // as much as the kernels that they spare.
+    // Indirect sizes are zero or those of the plan, which have been checked: checking them each time would cost as much as the
+    // kernels that are skipped.
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     let instance = wgpu::Instance::new(descriptor);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));

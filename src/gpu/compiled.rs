@@ -1,5 +1,5 @@
-//! Kernels that a device has compiled, kept for the engines after the first: a sweep, a restart and a scan over seeds
-//! find theirs ready.
+//! Kernels that a device has compiled, kept for later engines: a sweep, a restart or a scan over seeds does not compile them
+//! again.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -11,15 +11,15 @@ use super::error::GpuError;
 use super::shader::{LinkedShader, validate};
 use crate::shaders::{Choices, Entry, linked_text};
 
-/// As many as some ten engines have. The next one drops all, which engines that use them keep.
+/// As many as some ten engines have. When that is exceeded all are dropped; engines in use keep theirs.
 const MOST_KEPT: usize = 256;
 
-/// Values by what they were made from.
+/// Values by their keys.
 struct Kept<K, V>(Mutex<HashMap<K, V>>);
 
 impl<K: Eq + Hash, V: Clone> Kept<K, V> {
-    /// The value that is kept, or the one that `make` makes, which is kept if it is not an error. Two threads that ask for
-    /// the same at once both make it.
+    /// The stored value, or the result of `make`, which is stored unless it is an error. Two threads that ask for the same value at
+    /// once both make it.
     fn get_or_make(&self, key: K, make: impl FnOnce() -> Result<V, GpuError>) -> Result<V, GpuError> {
         if let Some(kept) = self.0.lock().ok().and_then(|kept| kept.get(&key).cloned()) {
             return Ok(kept);
@@ -44,7 +44,7 @@ impl<K, V> Default for Kept<K, V> {
 /// The text of a kernel, and the bits of the constants that it uses.
 type Ingredients = (String, Vec<(&'static str, u64)>);
 
-/// What a linked module becomes before a pipeline is made of it, on a device with some features.
+/// Changes a linked module before a pipeline is made from it, given the features of the device.
 pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync>;
 
 /// What a device has compiled.
@@ -61,7 +61,7 @@ impl Compiled {
 }
 
 impl Gpu {
-    /// The pipeline of a kernel with those of the constants that it uses, and what it was linked to.
+    /// The pipeline of a kernel with the constants that it uses, and the linked kernel.
     ///
     /// # Errors
     /// [`GpuError`] if the kernel does not link or the device refuses it.

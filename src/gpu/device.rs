@@ -6,19 +6,19 @@ use super::adapter::{self, AdapterChoice, AdapterDescription};
 use super::compiled::{Compiled, Rewriting};
 use super::error::GpuError;
 
-/// What a plan needs beyond the limits every WebGPU adapter has.
+/// What a plan needs beyond the limits of every WebGPU adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Requirements {
     /// The largest storage buffer in bytes.
     pub largest_buffer: u64,
     /// The most storage buffers that one kernel binds.
     pub storage_buffers: u32,
-    /// Whether to leave alone what only some adapters have, subgroups and the serial memory of software adapters: plans are
-    /// then the ones for any GPU.
+    /// Whether to ignore what only some adapters have, subgroups and the serial memory of software adapters: the plans are then
+    /// those for any GPU.
     pub portable: bool,
 }
 
-/// A limit of an adapter below what is needed.
+/// A limit of an adapter that is too low.
 #[derive(Debug, PartialEq, Eq)]
 struct Shortage {
     quantity: &'static str,
@@ -33,11 +33,11 @@ impl Shortage {
     }
 }
 
-/// Lanes of the largest workgroup, and the bytes that one shares: what every adapter has that computes.
+/// Lanes of the largest workgroup, and the bytes that it shares: every adapter with compute shaders allows these.
 const LANES: u32 = 256;
 const SHARED_BYTES: u32 = 16_384;
 
-/// The limits to ask for, as far as an adapter has them.
+/// The limits to request, as far as an adapter has them.
 fn limits(offered: &wgpu::Limits, requirements: Requirements) -> Result<wgpu::Limits, Shortage> {
     let mut limits = wgpu::Limits::default().or_worse_values_from(offered);
     let enough = |quantity, allowed: u64, needed: u64| {
@@ -86,8 +86,8 @@ impl Gpu {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
     }
 
-    /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it. What no kernel needs, such as
-    /// the size of textures, may be less.
+    /// Opens an adapter with WebGPU's core limits, raised only where `requirements` ask for it. Limits that no kernel needs, such as the
+    /// size of textures, may be lower.
     ///
     /// ```
     /// use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements, list_adapters};
@@ -107,9 +107,9 @@ impl Gpu {
         Self::open_with(choice, requirements, None)
     }
 
-    /// The same with every kernel rewritten before a pipeline is made of it.
+    /// The same, but every kernel is rewritten before a pipeline is made from it.
     ///
-    /// This is how a test plays another compiler: `rewriting` gets each linked module and the features of the device, which
+    /// With this a test emulates another compiler: `rewriting` gets each linked module and the features of the device, which
     /// has double precision wherever the adapter has, and may change arithmetic as drivers do, say by contracting products
     /// and sums. It must leave the bindings as they are.
     ///
@@ -165,7 +165,7 @@ impl Gpu {
         if serial_memory {
             limits.max_storage_textures_per_shader_stage = STORAGE_TEXTURES;
         }
-        // Only these take particles in eights.
+        // Only these have subgroups work on eight particles together.
         let subgroups = serial_memory && adapter.features().contains(wgpu::Features::SUBGROUP);
         let timestamps = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         let wanted = |feature, usable| if usable { feature } else { wgpu::Features::empty() };
@@ -200,7 +200,7 @@ impl Gpu {
         })
     }
 
-    /// The adapter in words.
+    /// The description of the adapter.
     #[must_use]
     pub fn description(&self) -> &AdapterDescription {
         &self.description
@@ -218,14 +218,14 @@ impl Gpu {
         &self.queue
     }
 
-    /// The number of lanes of every subgroup, if it is fixed and subgroup operations are used: where memory is serial.
+    /// The number of lanes of every subgroup, if it is fixed and subgroup operations are used, which they are where memory is serial.
     #[must_use]
     pub fn subgroup_size(&self) -> Option<u32> {
         self.subgroup_size
     }
 
-    /// Whether lanes load and store one after the other, and kernels may do so with eight bytes at a time, and load from and
-    /// store to one texture.
+    /// Whether lanes load and store one after the other. Kernels may then load and store eight bytes at a time, and read from and write to
+    /// the same texture.
     #[must_use]
     pub fn serial_memory(&self) -> bool {
         self.serial_memory
@@ -234,7 +234,7 @@ impl Gpu {
     /// The first error that reached no error scope, or the loss of the device.
     ///
     /// # Errors
-    /// [`GpuError::Lost`] with the driver's words.
+    /// [`GpuError::Lost`] with the driver's message.
     pub fn health(&self) -> Result<(), GpuError> {
         match self.trouble.lock().ok().and_then(|trouble| trouble.clone()) {
             Some(reason) => Err(GpuError::Lost { adapter: self.description.name.clone(), reason }),

@@ -1,15 +1,15 @@
-//! The environment that graphics drivers look into.
+//! The environment variables of graphics drivers.
 
-/// Begins the process again with what Mesa's drivers should find in their environment, where the user has not set it:
+/// Restarts the process with the environment variables that Mesa's drivers need, where the user has not set them:
 ///
-/// - `LP_NUM_THREADS`, the threads of the software adapter: two for each core. It deals the workgroups of a kernel out to
-///   its threads once, in equal parts; with a thread a core all others wait for the one whose core is shared with
-///   something else, while of two a core the scheduler makes the best.
-/// - `XDG_RUNTIME_DIR`, where a container or a batch job has none, or one that is no absolute path: the layer that selects
-///   devices looks for a display there, and without one writes an error to standard error for every adapter.
+/// - `LP_NUM_THREADS`, the threads of the software adapter: two per core. The adapter divides the workgroups of a kernel among its
+///   threads once, in equal parts. With one thread per core, all of them wait for the one whose core is shared with another process;
+///   with two, the scheduler can balance them.
+/// - `XDG_RUNTIME_DIR`, where a container or a batch job has none, or one that is not an absolute path: the layer that selects
+///   devices looks for a display there, and without one it writes an error to standard error for every adapter.
 ///
-/// Both have to be there before the process has threads, so this is for the first line of `main`. On systems other than
-/// Linux, and where the process cannot begin again, it does nothing.
+/// Both must be set before the process has threads, so call this in the first line of `main`. On systems other than Linux, and where
+/// the process cannot be restarted, it does nothing.
 ///
 /// ```no_run
 /// fn main() -> Result<(), Box<dyn std::error::Error>> {

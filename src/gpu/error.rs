@@ -14,7 +14,7 @@ pub enum GpuError {
     NoSuchAdapter {
         /// What was asked for.
         wanted: String,
-        /// The adapters there are.
+        /// The available adapters.
         available: String,
     },
     /// The adapter cannot do what the scene needs.
@@ -22,7 +22,7 @@ pub enum GpuError {
     TooSmall {
         /// Name of the adapter.
         adapter: String,
-        /// The limit in words.
+        /// The name of the limit.
         quantity: &'static str,
         /// What the adapter allows.
         allowed: u64,
@@ -34,7 +34,7 @@ pub enum GpuError {
     Open {
         /// Name of the adapter.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
     /// A shader does not compile.
@@ -44,7 +44,7 @@ pub enum GpuError {
         kernel: String,
         /// File and line, where known.
         place: String,
-        /// The compiler's words.
+        /// The compiler's message.
         reason: String,
     },
     /// The device ran out of memory.
@@ -64,7 +64,7 @@ pub enum GpuError {
     Lost {
         /// Name of the adapter.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
     /// A call was refused by validation: a defect of this program.

@@ -1,4 +1,4 @@
-//! Kernels linked, parsed and validated, with the way back from an error to its file.
+//! Kernels linked, parsed and validated; errors name the file and the line.
 
 use std::collections::BTreeMap;
 

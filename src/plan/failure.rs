@@ -9,11 +9,11 @@ pub enum FailureKind {
     Momentum,
     /// A particle moved further in one step than it may.
     Displacement,
-    /// An array was too small for a crowd: the frame of a row, a bin, a list.
+    /// Too many particles in one place for an array: the frame of a row, a bin, a list.
     Frames,
-    /// More mass around a mesh node than its integers hold.
+    /// More mass around a mesh node than its integer can hold.
     Crowding,
-    /// No depth left at a mesh node.
+    /// A depth became negative at a mesh node.
     Depth,
     /// A bond longer than its potential allows.
     Bond,
@@ -26,7 +26,7 @@ pub enum FailureKind {
 }
 
 impl FailureKind {
-    /// All of them, in order of their bits.
+    /// All of them, in the order of their bits.
     pub const ALL: [Self; 10] = [
         Self::Impulse,
         Self::Momentum,
@@ -75,7 +75,7 @@ impl FailureKind {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Failure {
-    /// The first step at which anything was wrong.
+    /// The first step that failed.
     pub step: u64,
     /// The bits of all that was found in the batch.
     pub bits: u32,
@@ -84,7 +84,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Whether it is of a kind, among others.
+    /// Whether this kind is among its kinds.
     #[must_use]
     pub fn is(&self, kind: FailureKind) -> bool {
         self.bits & kind.bit() != 0

@@ -7,11 +7,11 @@ use crate::state::Units;
 pub struct Grid {
     /// Number of dimensions.
     pub dimension: usize,
-    /// Cells on each axis; 1 where there is room for fewer than three.
+    /// Cells on each axis; 1 where fewer than three would fit.
     pub cells: [u32; 3],
     /// On each axis, the prefilter sees the box divided by two to this power.
     pub windows: [u32; 3],
-    /// Length of a window unit of each axis over one of x; 0 on an axis with a single cell.
+    /// Length of a window unit on each axis, relative to x; 0 on an axis with a single cell.
     pub ratios: [f64; 3],
     /// Square of the prefilter's reach in window units of x.
     pub reach_squared: f64,
@@ -20,7 +20,7 @@ pub struct Grid {
 impl Grid {
     /// The grid for a cutoff in a box.
     ///
-    /// Cells are capped at 1024 an axis and, for few particles in a large box, at about four cells a particle.
+    /// There are at most 1024 cells on an axis and, for few particles in a large box, about four cells per particle.
     ///
     /// ```
     /// use mesoscope::{plan::Grid, state::Units};

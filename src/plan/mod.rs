@@ -57,7 +57,7 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
     plan
 }
 
-/// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
+/// Folds a number of workgroups into two dimensions of at most 65 535 each; a few of them may have nothing to do.
 pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
     const LIMIT: u32 = 65_535;
     if workgroups <= LIMIT {
@@ -73,14 +73,14 @@ pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
 pub struct Hardware {
     /// Lanes of every subgroup, if fixed and usable.
     pub subgroup_size: Option<u32>,
-    /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is dear, and one
-    /// of eight bytes no dearer than one of four; texels of a texture are loaded whole.
+    /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is expensive, and one of
+    /// eight bytes costs no more than one of four; texels of a texture are loaded whole.
     pub serial_memory: bool,
 }
 
 impl Hardware {
-    /// Whether particles and cells are worth taking in eights: where every subgroup has eight lanes, of an adapter whose lanes
-    /// are those of a processor's vectors. Lanes of GPUs need not keep step behind a loop that they leave at different times.
+    /// Whether it pays that a subgroup works on eight particles or cells together: where every subgroup has eight lanes and these are the
+    /// lanes of a processor's vectors. Lanes of a GPU need not run in step after a loop that they leave at different times.
     ///
     /// ```
     /// use mesoscope::plan::Hardware;
@@ -105,30 +105,30 @@ pub struct Options {
     /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 256; 64
     /// if `None`.
     pub workgroup_size: Option<u32>,
-    /// Room for copies of particles in the frames of rows; a quarter more than expected if `None`.
+    /// Capacity for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
     /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
     pub storage: Option<Storage>,
-    /// Whether kernels suit lanes that are taken one after the other; left to the hardware if `None`.
+    /// Whether kernels are adapted to lanes that run one after the other; left to the hardware if `None`.
     pub serial_memory: Option<bool>,
-    /// Whether pairs without memory are listed too, for integrators with one traversal a step.
+    /// Whether pairs without memory are kept in a list too, for integrators with one traversal a step.
     pub listed: bool,
-    /// How often the room for the pairs of a particle in the list has been doubled.
+    /// How often the capacity of the list for the pairs of a particle has been doubled.
     pub list_growth: u32,
-    /// Pairs that one dispatch looks at for a radial distribution function, at most; about a second's work if `None`.
+    /// The most pairs that one dispatch examines for a radial distribution function; about a second's work if `None`.
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
 }
 
 impl Options {
-    /// Whether there is a plan that takes a larger crowd.
+    /// Whether a plan with a larger capacity exists.
     #[must_use]
     pub fn has_room_left(&self) -> bool {
         self.list_growth < 31
     }
 
-    /// The same choices with room for any crowd of so many particles in a cell, and twice the room in lists.
+    /// The same choices with a capacity for this many particles in any cell, and twice the capacity of lists.
     ///
     /// ```
     /// use mesoscope::plan::{Options, Storage};
@@ -147,13 +147,13 @@ impl Options {
         }
     }
 
-    /// Whether kernels suit lanes that are taken one after the other.
+    /// Whether kernels are adapted to lanes that run one after the other.
     #[must_use]
     pub fn suits_serial_memory(&self, hardware: Hardware) -> bool {
         self.serial_memory.unwrap_or(hardware.serial_memory)
     }
 
-    /// Lanes of a workgroup: a power of two, for the sums over a workgroup are halved again and again.
+    /// Lanes of a workgroup: a power of two, because sums over a workgroup are halved again and again.
     #[must_use]
     pub fn workgroup(&self) -> u64 {
         u64::from(self.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
@@ -171,38 +171,38 @@ pub enum Traversal {
     Alone,
 }
 
-/// Steps after which what lies in memory is put in order anew: seldom enough to cost next to nothing, and often enough that what lies
-/// side by side is found side by side.
+/// Steps after which particles are sorted in memory: rarely enough to cost almost nothing, and often enough that neighbours in space
+/// stay neighbours in memory.
 pub const TIDYING: u64 = 32;
 
 /// How the particles of shallow water are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
-    /// Found in order of cells, sorted every step: for any crowd.
+    /// Sorted by cell every step: for any number of particles in a cell.
     Sorted,
     /// In a bin of fixed capacity for every cell, without a sort: faster on small meshes, as long as none is full.
     Bins,
 }
 
-/// A kernel: the modules it is linked from, its constants and its size.
+/// A kernel: its entry point and variants, its constants and its size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     /// What it does, in a word or two.
     pub name: &'static str,
     /// Its entry point.
     pub entry: Entry,
-    /// The variants chosen for it; those of slots that it does not come to mean nothing.
+    /// The variants chosen for it; those of slots that it does not reach have no effect.
     pub choices: Choices,
     /// Number of workgroups.
     pub workgroups: u32,
-    /// Where its number of workgroups is in the buffer `demands`, in threes of words, if it depends on the step.
+    /// The position of its number of workgroups in the buffer `demands`, which has three words for each, if that depends on the step.
     pub demand: Option<u32>,
     /// Constants of this kernel only; all others come from [`Plan::constants`].
     pub constants: Vec<(&'static str, f64)>,
     /// Variables whose buffer has another name: `(variable, buffer)`.
     pub renamed: Vec<(&'static str, &'static str)>,
-    /// Whether it may take so long that nothing is to follow it in one submission: systems that watch over their displays end
-    /// one of seconds.
+    /// Whether it may take so long that it has to be the last of a submission: systems with a watchdog end a submission that takes
+    /// seconds.
     pub takes_long: bool,
 }
 
@@ -213,12 +213,12 @@ pub enum Contents {
     Zeros,
     /// These bytes.
     Bytes(Vec<u8>),
-    /// What grows with the number of particles, and is made when it is needed.
+    /// A table that grows with the number of particles and is generated on upload.
     Table(Table),
 }
 
 impl Contents {
-    /// The bytes; none of zeros.
+    /// The bytes; `None` for zeros.
     #[must_use]
     pub fn bytes(&self) -> Option<std::borrow::Cow<'_, [u8]>> {
         match self {
@@ -281,7 +281,7 @@ pub struct Sampler {
     pub capacity: u64,
     /// Whether the kernels read the particles that the report leaves in the order of their ids.
     pub needs_report: bool,
-    /// What is kept on the device from one sample to the next, if anything.
+    /// What stays on the device from one sample to the next, if anything.
     pub window: Option<Window>,
 }
 
@@ -340,16 +340,16 @@ pub struct Plan {
     pub constants: Vec<(&'static str, f64)>,
     /// All buffers.
     pub buffers: Vec<Buffer>,
-    /// All textures: arrays that are loaded lane by lane where that is dear.
+    /// All textures: arrays that are loaded lane by lane where that is expensive.
     pub textures: Vec<Texture>,
-    /// Kernels run once after an upload, which also begin the first step where steps end with the beginning of the next.
+    /// Kernels that run once after an upload. Where steps end with the beginning of the next one, they also begin the first step.
     pub prepare: Vec<usize>,
-    /// Kernels that begin a step, unless the end of the one before has, and order the particles.
+    /// Kernels that begin a step, unless the end of the previous step has done so, and sort the particles.
     pub sort: Vec<usize>,
-    /// Kernels that put what was ordered into that order in memory too, every [`TIDYING`] steps: what lies side by side is loaded
-    /// faster, and results are the same.
+    /// Kernels that sort the particles in memory too, every [`TIDYING`] steps: neighbours in memory load faster, and the results are
+    /// the same.
     pub tidy: Vec<usize>,
-    /// Kernels between the ordering and the report.
+    /// Kernels between the sort and the report.
     pub before_report: Vec<usize>,
     /// Kernels that report: sums of observables, and particles in order of id.
     pub report: Vec<usize>,
@@ -361,12 +361,12 @@ pub struct Plan {
     pub samplers: Vec<Sampler>,
     /// How often particles go round the box, where a trajectory asks.
     pub paths: Paths,
-    /// At most so many storage buffers are bound by one kernel, before any is held in a texture; eight, which every adapter has,
-    /// at the least.
+    /// The most storage buffers that one kernel binds, before any of them is kept in a texture; at least eight, which every adapter
+    /// allows.
     pub storage_buffers: u32,
-    /// The buffer in which a report leaves the particles by number, if it is not the one that holds the state.
+    /// The buffer in which a report leaves the particles by id, if it is not the one that holds the state.
     pub reported: Option<&'static str>,
-    /// Arithmetic operations a particle and step, an estimate from the density.
+    /// Arithmetic operations per particle and step, estimated from the density.
     pub operations_per_particle: f64,
 }
 
@@ -401,7 +401,7 @@ impl Kernel {
         }
     }
 
-    /// Paths of the pages and variants that it comes to, below `shaders` and without extensions.
+    /// Paths of the pages and variants that it reaches, below `shaders` and without extensions.
     ///
     /// ```
     /// use mesoscope::families::Model;
@@ -464,7 +464,7 @@ impl Sampler {
 }
 
 impl Plan {
-    /// A plan of a model that does nothing yet; its noise is of the stream.
+    /// A plan of a model that does nothing yet, with the random numbers of a stream.
     pub(crate) fn new(model: &Model, cells: [u32; 3], layout: Layout, quanta: Quanta, stream: u32) -> Self {
         Self {
             particles: model.particle_count(),
@@ -495,13 +495,13 @@ impl Plan {
         }
     }
 
-    /// Adds a kernel, and says which it is.
+    /// Adds a kernel and returns its index.
     pub(crate) fn add_kernel(&mut self, kernel: Kernel) -> usize {
         self.kernels.push(kernel);
         self.kernels.len() - 1
     }
 
-    /// Adds a kernel unless the same is there already, and says which it is.
+    /// Adds a kernel unless the same one is there already, and returns its index.
     pub(crate) fn add_kernel_once(&mut self, kernel: Kernel) -> usize {
         let same = |known: &Kernel| known.entry == kernel.entry && known.choices == kernel.choices;
         self.kernels.iter().position(same).unwrap_or_else(|| self.add_kernel(kernel))
@@ -540,7 +540,7 @@ impl Plan {
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &["particles.0.number_density=6".to_owned()])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
-    /// // Room for positions and momenta at least; some MiB in all for 48 000 particles.
+    /// // At least positions and momenta; a few MiB in all for 48 000 particles.
     /// assert!(plan.bytes() > 24 * plan.particles && plan.bytes() < 64 << 20);
     /// let textures: u64 = plan.textures.iter().map(|texture| texture.bytes()).sum();
     /// assert_eq!(plan.bytes(), textures + plan.buffers.iter().map(|buffer| buffer.bytes).sum::<u64>());
@@ -552,7 +552,7 @@ impl Plan {
         self.buffers.iter().map(|buffer| buffer.bytes).chain(textures).sum()
     }
 
-    /// The same plan without anything that reports, samples or analyses: steps alone, for a trial of their speed.
+    /// The same plan without reports, samples and analyses: the steps alone, to measure their speed.
     ///
     /// ```
     /// use mesoscope::families::Model;

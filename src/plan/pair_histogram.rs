@@ -11,11 +11,10 @@ use crate::state::Units;
 /// Histograms kept on the device between two readbacks.
 const CAPACITY: u64 = 16;
 
-/// Pairs that one dispatch looks at, at most: a second's work of a small adapter. Systems that watch over their displays end
-/// what takes seconds.
+/// The most pairs that one dispatch examines: a second's work of a small adapter. Systems with a watchdog end what takes seconds.
 const PAIRS: u64 = 1 << 30;
 
-/// Part of them that takes no time to speak of, one over this: a batch of steps may have many such histograms.
+/// One part in this many of them takes negligible time: a batch of steps may have many such histograms.
 const SHORT: u128 = 64;
 
 /// The most dispatches that share a histogram.
@@ -24,7 +23,7 @@ const MOST_DISPATCHES: u64 = 1 << 12;
 /// Enough workgroups to fill an adapter.
 const ENOUGH: u64 = 8192;
 
-/// What the kernel that counts pairs has to know.
+/// What the kernel that counts pairs depends on.
 pub(crate) struct PairHistogram<'a> {
     pub units: &'a Units,
     pub grid: &'a Grid,
@@ -92,7 +91,7 @@ impl PairHistogram<'_> {
         (2 * (self.asked.range / width).ceil() as u64 + 1).min(self.grid.cells[axis].into())
     }
 
-    /// Dispatches that share the pairs, and whether each takes so long that those of a batch are not to be added up.
+    /// Dispatches that share the pairs, and whether each takes so long that it has to be the last of a submission.
     fn dispatches(&self, particles: u64, spans: [u64; 3]) -> (u64, bool) {
         let cells_around = spans.iter().product::<u64>();
         let candidates =
@@ -103,11 +102,11 @@ impl PairHistogram<'_> {
     }
 
     /// Workgroups that share the particles of a row, and those that share the rows around each of these: enough to fill the
-    /// adapter, and so many that no lane makes more turns than it should.
+    /// adapter, and so many that no lane runs more loop iterations than it should.
     fn shares(&self, particles: u64, spans: [u64; 3]) -> (u64, u64) {
         let rows = self.grid.rows();
         let rows_around = spans[1] * spans[2];
-        // Lanes of a vector wait for the fullest of their cells, and every cell costs a turn and the end of a loop.
+        // Lanes of a vector wait for the fullest of their cells, and every cell costs an iteration and the end of a loop.
         let in_cell = (particles / self.grid.count()).max(1);
         let turns_of_cell = in_cell + 2 * in_cell.isqrt() + 2;
         let candidates = turns_of_cell.saturating_mul(spans[0]).saturating_mul(rows_around);

@@ -1,30 +1,30 @@
-//! How often particles go round the box, which trajectories tell: followed on the device, and only for them.
+//! How often particles cross the periodic box: counted on the device, only for trajectories.
 
 use super::{Kernel, Plan};
 
-/// Bytes of what is kept of a particle.
+/// Bytes kept for each particle.
 const PATH: u64 = 32;
 
-/// Particles are followed at least so often.
+/// The most steps between two counts.
 const LONGEST: f64 = 1024.0;
 
-/// Words of [`Paths::buffer`] for each particle: its position when it was last followed and how often it had gone round the box.
+/// Words of [`Paths::buffer`] for each particle: its position at the last count, and how often it had crossed the box until then.
 pub(crate) const PATH_WORDS: usize = PATH as usize / 4;
 
-/// The kernels that follow the particles.
+/// The kernels that count.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Paths {
-    /// Kernels in order, as indices into [`Plan::kernels`]; none where nobody asks.
+    /// Kernels in order, as indices into [`Plan::kernels`]; empty unless a trajectory is written.
     pub kernels: Vec<usize>,
-    /// Steps after which they run again: no particle goes half round the box in between, or the run ends.
+    /// Steps between two counts: no particle crosses half the box in between, or the run ends.
     pub every: u64,
 }
 
 impl Paths {
-    /// Name of the buffer of what is kept of each particle, by id.
+    /// Name of the buffer with what is kept for each particle, by id.
     pub const BUFFER: &'static str = "paths";
 
-    /// Whether anybody asks.
+    /// Whether anything is counted.
     #[must_use]
     pub fn are_followed(&self) -> bool {
         !self.kernels.is_empty()
@@ -32,8 +32,7 @@ impl Paths {
 }
 
 impl Plan {
-    /// Has these kernels follow the particles; none goes further in a step than a share of the box of `stride` along any
-    /// axis.
+    /// Lets these kernels count. In a step no particle moves further than the fraction `stride` of the box along any axis.
     pub(crate) fn follow(&mut self, kernels: impl IntoIterator<Item = Kernel>, stride: f64) {
         let kernels = kernels.into_iter().map(|kernel| self.add_kernel(kernel)).collect();
         // Strictly less than half a box, whatever the rounding.

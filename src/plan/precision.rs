@@ -1,4 +1,4 @@
-//! Whether the numbers of a scene leave single precision any that it can hold.
+//! Whether single precision can hold the numbers that follow from a scene.
 
 use super::{Contents, Plan};
 use crate::scene::{Scene, SceneError};

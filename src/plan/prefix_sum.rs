@@ -1,4 +1,4 @@
-//! The prefix sum over cells, which tells where each of them begins among the ordered particles.
+//! The prefix sum over cells: where each cell begins among the sorted particles.
 
 use super::{Kernel, Options};
 use crate::shaders::{Choices, Entry};
@@ -6,9 +6,9 @@ use crate::shaders::{Choices, Entry};
 /// Cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_CELLS: u64 = 1 << 14;
 
-/// What the kernels of a prefix sum are made of.
+/// What the kernels of a prefix sum depend on.
 pub(crate) struct PrefixSum<'a> {
-    /// What is chosen for every kernel: how cells lie in rows, and whether the sum begins a step.
+    /// The variants of every kernel: how cells form rows, and whether the sum begins a step.
     pub choices: &'a Choices,
     /// Rows of cells.
     pub rows: u64,
@@ -31,7 +31,7 @@ impl PrefixSum<'_> {
     }
 }
 
-/// Whether so many cells are summed in several levels.
+/// Whether this many cells are summed in several levels.
 pub(crate) fn needs_levels(cells: u64, options: Options) -> bool {
     cells > SINGLE_SCAN_CELLS || options.many_level_scan
 }

@@ -1,4 +1,4 @@
-//! Kernels that put what others have summed up into rows of samples, where the host reads them.
+//! Kernels that write sums into rows of samples, where the host reads them.
 
 use super::{Kernel, Plan, Sampler, SamplerId};
 use crate::shaders::{Choices, Entry};
@@ -18,7 +18,7 @@ pub(crate) fn record_histogram(bins: u64) -> Kernel {
 }
 
 impl Plan {
-    /// Adds the sampler of the observables that the workgroups of the report leave, so many each.
+    /// Adds the sampler of the observables: each workgroup of the report leaves this many sums.
     pub(crate) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
         let record = self.add_kernel(record_sums("record_observables", quantities, groups));
         self.samplers.push(Sampler {

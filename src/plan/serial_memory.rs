@@ -1,26 +1,26 @@
-//! Suits a plan to adapters whose lanes load and store one after the other.
+//! Adapts a plan to adapters whose lanes load and store one after the other.
 //!
-//! Software adapters assemble a vector that lanes load from a buffer word by word, each time through memory; from a texture
-//! they load whole texels. So what kernels load lane by lane, and often, is held in textures.
+//! From a buffer, software adapters load a vector word by word for each lane; from a texture they load whole texels. So arrays that
+//! kernels often load lane by lane are kept in textures.
 
 use super::{Buffer, Kernel, Layout, Plan, Texture};
 use crate::shaders::{Choice, Entry, arrays, core, grid, pairs};
 
-/// Turns of all loops together that an invocation is given on average: software adapters leave loops after 65 535 of them.
+/// Iterations of all loops together that an invocation gets on average: software adapters leave loops after 65 535 of them.
 pub(crate) const TURNS: u64 = 1 << 14;
 
-/// A buffer that may be held in a texture instead.
+/// A buffer that may be kept in a texture instead.
 #[derive(Clone, Copy)]
 struct Candidate {
     name: &'static str,
     /// Words of a texel.
     words: u32,
-    /// Where kernels find it then.
+    /// The variant with which kernels read it then.
     texture: Choice,
 }
 
 impl Candidate {
-    /// What a kernel comes to by the name: the buffer, or another in its place.
+    /// What a kernel reaches by the name: the buffer, or another in its place.
     fn bound(&self, kernel: &Kernel) -> &'static str {
         let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == self.name);
         renamed.map_or(self.name, |(_, buffer)| buffer)
@@ -31,9 +31,8 @@ fn candidate(name: &'static str, words: u32, texture: impl Into<Choice>) -> Cand
     Candidate { name, words, texture: texture.into() }
 }
 
-/// Kernels that move particles or shares of nodes about and do little else load and store words in pairs; where arithmetic is
-/// what costs, taking the pairs apart costs more than it saves. Of the particles this matters where they are too many for
-/// textures.
+/// Kernels that mainly move particles or shares of nodes load and store words in pairs; where arithmetic dominates, separating the
+/// pairs costs more than it saves. For particles this matters only where they are too many for textures.
 const MOVES_WORDS: [Entry; 8] = [
     Entry::VisitMeshCells,
     Entry::VisitMeshStrips,
@@ -46,7 +45,7 @@ const MOVES_WORDS: [Entry; 8] = [
 ];
 
 impl Plan {
-    /// Suits kernels and buffers to lanes that are taken one after the other.
+    /// Adapts kernels and buffers to lanes that run one after the other.
     pub(crate) fn suit_serial_memory(&mut self) {
         let candidates = self.candidates();
         for array in &candidates {
@@ -59,7 +58,7 @@ impl Plan {
                     kernel.choices.choose(array.texture);
                 }
             }
-            // Where loops are left before their end, kernels notice. The clock, which every lane reads, is in a texel.
+            // Kernels notice if a loop is left before its end. The clock, which every lane reads, is in a texel.
             kernel.choices.choose(core::Turns::Counted);
             kernel.choices.choose(core::Clock::Texture);
             if MOVES_WORDS.contains(&kernel.entry) {
@@ -73,7 +72,7 @@ impl Plan {
         self.add_texture("clock", "step and key of its random words, for kernels to read", 4, 1);
     }
 
-    /// Arrays that every kernel of this plan comes to by functions, so that they may be in textures.
+    /// Arrays that every kernel of this plan accesses through functions, so that they may be in textures.
     fn candidates(&self) -> Vec<Candidate> {
         let waves =
             [candidate("waves", 2, arrays::Waves::Texture), candidate("waves_next", 2, arrays::WavesNext::Texture)];
@@ -104,7 +103,7 @@ impl Plan {
         candidates
     }
 
-    /// Holds a buffer in a texture, if there is such a buffer and it fits.
+    /// Keeps a buffer in a texture, if there is such a buffer and it fits.
     fn hold_in_texture(&mut self, array: &Candidate) {
         let Some(place) = self.buffers.iter().position(|buffer| buffer.name == array.name) else { return };
         let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));

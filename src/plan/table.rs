@@ -1,8 +1,8 @@
-//! Tables as long as a scene has bonds, angles or chains: described by the plan, made when they are uploaded.
+//! Tables whose length follows from the bonds, angles or chains of a scene: described by the plan, generated on upload.
 
 use crate::families::{Angles, Bonds, ChainGroup};
 
-/// What a table holds, of whatever length.
+/// What a table holds.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Table {
     /// Words about species and kinds, then the ends and the kind of each bond, as `shaders/bonds/bonds.wgsl` reads them.
@@ -21,7 +21,7 @@ pub enum Table {
         /// The impulse of each kind of angles, bits of `f32`.
         impulses: Vec<u32>,
     },
-    /// Partners that each particle is spared from, in rows of equal length, filled up with the particle itself.
+    /// Partners that do not repel each particle, in rows of equal length, padded with the particle itself.
     Exclusions {
         /// The bonds.
         bonds: Bonds,

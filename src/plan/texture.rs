@@ -1,4 +1,4 @@
-//! Arrays that lie in textures.
+//! Arrays in textures.
 
 use super::{Contents, Plan};
 
@@ -18,16 +18,16 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Texels in a row, as `shaders/core/texels.wgsl` has it: short enough that what fills up the last row is little.
+    /// Texels in a row, as `shaders/core/texels.wgsl` has it: short enough that little is wasted in the last row.
     pub const ROW: u64 = 4096;
 
     /// Rows that every adapter has.
     const ROWS: u64 = 8192;
 
-    /// Bytes of the largest buffer that every adapter has: to one of that size textures are read back.
+    /// Bytes of the largest buffer that every adapter allows: textures are read back through one of that size.
     const BYTES: u64 = 1 << 28;
 
-    /// Whether every adapter has room for a texture of so many texels of so many words.
+    /// Whether every adapter can hold a texture of this many texels of this many words.
     ///
     /// ```
     /// use mesoscope::plan::Texture;
@@ -47,7 +47,7 @@ impl Texture {
         self.row_bytes() * u64::from(self.size[1])
     }
 
-    /// Bytes of a row: a multiple of 256, as copies ask for.
+    /// Bytes of a row: a multiple of 256, as copies require.
     #[must_use]
     pub fn row_bytes(&self) -> u64 {
         4 * u64::from(self.words) * u64::from(self.size[0])

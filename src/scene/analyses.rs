@@ -56,7 +56,7 @@ pub struct Viscosity {
     pub window: u64,
 }
 
-/// The normalised autocorrelation ⟨A(0)·A(t)⟩ / ⟨A(0)²⟩ of a vector that every particle has.
+/// The normalised autocorrelation ⟨A(0)·A(t)⟩ / ⟨A(0)²⟩ of a vector of every particle.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Autocorrelation {
@@ -71,12 +71,12 @@ pub struct Autocorrelation {
     /// The curve fitted to it.
     #[serde(default)]
     pub fit: DecayFit,
-    /// What velocities are relative to; left out, the box where momentum is conserved, else the centre of mass.
+    /// The frame of reference of velocities; left out, the box where momentum is conserved, else the centre of mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
 }
 
-/// A vector that every particle has and that can be correlated with itself.
+/// A vector of every particle whose autocorrelation can be measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CorrelatedQuantity {
@@ -113,7 +113,7 @@ pub enum DecayFit {
     DampedOscillation,
 }
 
-/// What velocities are relative to.
+/// The frame of reference of velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Frame {
@@ -138,14 +138,14 @@ pub struct Histogram {
     pub bins: u32,
     /// Largest magnitude: components are counted from minus to plus this, speeds from zero. Left out, six times the
     /// thermal scale: of velocity √(kT/m), of acceleration √(kT/m) √(ω² + min(2Γ/dt, 4/dt²)) with the frequency ω of
-    /// the repulsion and the rate Γ of the friction in the mean field of neighbours. What is beyond is counted apart.
+    /// the repulsion and the rate Γ of the friction in the mean field of neighbours. Values beyond it are counted separately.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub range: Option<f64>,
-    /// The component that is counted; left out, all of them alike.
+    /// The component that is counted; left out, all components together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Axis>,
-    /// What velocities are relative to; left out, the box where momentum is conserved, else the centre of mass.
+    /// The frame of reference of velocities; left out, the box where momentum is conserved, else the centre of mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
 }
@@ -186,7 +186,7 @@ pub enum Axis {
     Z,
 }
 
-/// What a run can measure besides the observables, in the order in which their files are listed.
+/// What a run can measure in addition to the observables, in the order in which their files are listed.
 ///
 /// ```
 /// use mesoscope::scene::AnalysisId;
@@ -218,7 +218,7 @@ pub enum AnalysisId {
     ShearWave,
 }
 
-/// A table that an analysis leaves, and the plot of it.
+/// A table that an analysis writes, and its plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AnalysisTable {
     /// Name of the table.
@@ -281,7 +281,7 @@ impl AnalysisId {
         self.names().0
     }
 
-    /// The tables that it leaves.
+    /// The tables that it writes.
     #[must_use]
     pub const fn tables(self) -> &'static [AnalysisTable] {
         self.names().1
@@ -293,7 +293,7 @@ impl AnalysisId {
         self.tables()[0].file
     }
 
-    /// The part of a scene that asks for it.
+    /// The part of a scene that requests it.
     pub(crate) fn path(self) -> String {
         match self {
             Self::Autocorrelation(quantity) => format!("output.autocorrelations ({})", quantity.name()),

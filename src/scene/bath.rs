@@ -20,7 +20,7 @@ pub enum Bath {
         /// Rate α at which the bath forgets.
         #[schemars(range(min = 0.0))]
         rate: f64,
-        /// Coupling λ, in place of a friction: what a bath that never forgets (α = 0) is given by.
+        /// Coupling λ, in place of a friction; required for a bath that never forgets (α = 0).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(range(min = 0.0))]
         coupling: Option<f64>,

@@ -1,6 +1,6 @@
 //! The scenes inside the program.
 
-/// A scene inside the program.
+/// A built-in scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Builtin {
@@ -16,7 +16,7 @@ macro_rules! builtin {
     };
 }
 
-/// The scenes inside the program, the main one first.
+/// The built-in scenes, the main one first.
 ///
 /// ```
 /// use mesoscope::scene;

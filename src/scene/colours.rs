@@ -30,7 +30,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// Values beyond this leave no room for a scale in single precision.
+/// A scale of values beyond this would overflow in single precision.
 const LARGEST: f64 = 1e30;
 
 fn check_range(path: &str, [low, high]: [f64; 2], problems: &mut Problems) {

@@ -26,15 +26,15 @@ pub struct Scene {
     pub seed: u64,
     /// The simulation box.
     pub space: Space,
-    /// The clock.
+    /// Time step and duration.
     pub time: Time,
-    /// Temperature kT of the heat bath, in units of energy. Zero leaves the noise out.
+    /// Temperature kT of the heat bath, in units of energy. Zero switches the noise off.
     #[schemars(range(min = 0.0))]
     pub temperature: f64,
     /// How the equations of motion are integrated.
     #[serde(default)]
     pub integrator: Integrator,
-    /// How random numbers are made.
+    /// How random numbers are generated.
     #[serde(default)]
     pub noise: Noise,
     /// Groups of particles.
@@ -77,7 +77,7 @@ pub struct Time {
     pub equilibration: u64,
 }
 
-/// How random numbers are made.
+/// How random numbers are generated.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Noise {
@@ -93,8 +93,8 @@ pub struct Noise {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Distribution {
-    /// Uniform on (-√3, √3): enough for a sum over many pairs and steps, and the cheapest (default). Long steps show what
-    /// it lacks: it raises the configurational temperature of `groot-warren` by 0.003 at a step of 0.06.
+    /// Uniform on (-√3, √3): sufficient for a sum over many pairs and steps, and the cheapest (default). At long steps it is less accurate: it
+    /// raises the configurational temperature of `groot-warren` by 0.003 at a step of 0.06.
     #[default]
     Uniform,
     /// Gaussian, by Box and Muller's transform; a step takes 7 to 17 % longer.

@@ -70,13 +70,13 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Something a scene may say, but that its author should know about.
+/// Something that is allowed in a scene, but that its author should know.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Warning {
     /// Where: `time.step`.
     pub path: String,
-    /// What to know and what to do about it.
+    /// What it means and what to do about it.
     pub message: String,
 }
 

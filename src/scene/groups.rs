@@ -18,24 +18,23 @@ pub struct ParticleGroup {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub number_density: Option<f64>,
-    /// Mass of one particle. Left out in shallow water, where the surface makes it.
+    /// Mass of one particle. Left out in shallow water, where the surface determines it.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
-    /// Shallow water: particles without mass, which drift along. The circulation of a tracer group on a circle is
-    /// measured.
+    /// Shallow water: particles without mass that drift with the flow. The circulation of a tracer group on a circle is measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub tracer: bool,
-    /// Whether the particles are held where they start.
+    /// Whether the particles stay where they start.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub fixed: bool,
-    /// Chains that the particles form, one after the other; left out, none.
+    /// The chains that the particles form, one after the other; left out, none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<Chain>,
     /// Where the particles start.
     #[serde(default)]
     pub placement: Placement,
-    /// How fast they start.
+    /// Their velocities at the start.
     #[serde(default)]
     pub velocities: Velocities,
 }
@@ -44,7 +43,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// Tells other readers of the schema that a group says in exactly one way how many particles it has.
+/// States in the schema that a group gives its number of particles in exactly one way.
 fn one_amount(schema: &mut schemars::Schema) {
     let given = |key: &str| serde_json::json!({"required": [key], "properties": {key: {"type": "number"}}});
     let listed = serde_json::json!({
@@ -60,7 +59,7 @@ fn one_amount(schema: &mut schemars::Schema) {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
-    /// Particles in a chain; those of the group are a whole number of chains.
+    /// Particles in a chain; the group has to be a whole number of chains.
     #[schemars(range(min = 2))]
     pub beads: u32,
     /// Distance of neighbours along a chain at the start.
@@ -115,7 +114,7 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-/// How fast the particles of a group start.
+/// The velocities of the particles of a group at the start.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Velocities {

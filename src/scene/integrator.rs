@@ -8,9 +8,8 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
-    /// traversal a step. The default: both temperatures within about one
-    /// per cent at a step of 0.04 in the standard fluid; with strong friction it runs cold. In Voronoi DPD O is friction
-    /// and noise by Crank-Nicolson.
+    /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the standard fluid; with
+    /// strong friction they are too low. In Voronoi DPD O is friction and noise by Crank-Nicolson.
     Splitting {},
     /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
     GrootWarren {
@@ -24,13 +23,13 @@ pub enum Integrator {
     /// default of scenes that have those.
     CotterReich {},
     /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
-    /// circles. Symplectic in its magnetic form, so that the circulation of material loops is kept at any time step.
+    /// circles. Symplectic in its magnetic form, so that it conserves the circulation of material loops at any time step.
     /// The default of scenes of shallow water.
     Gyro {},
     /// Shallow water: R(½) kick(½) drift kick(½) R(½) with R the rotation of velocities alone.
     Rotate {},
     /// Voronoi DPD: the explicit scheme of Euler, as printed by Flekkøy, Coveney and De Fabritiis,
-    /// doi:10.1103/PhysRevE.62.2140. Hot by 2 % at a time step of 0.005 where `splitting` is right at 0.16.
+    /// doi:10.1103/PhysRevE.62.2140. Its temperature is 2 % too high at a time step of 0.005, where that of `splitting` is right even at 0.16.
     Euler {},
 }
 

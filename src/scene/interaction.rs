@@ -1,4 +1,4 @@
-//! What acts on particles: the tag of a scene, which names the families.
+//! Interactions: the tagged union of a scene, which names the families.
 
 pub use crate::families::particles::scene::{
     AnglesInteraction, BondPotential, BondsInteraction, ChainEquilibrium, ChainOutput, ChainPulse,
@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 pub enum Interaction {
     /// Dissipative particle dynamics: soft repulsion a(1 - r/rc), friction and noise along the line of centres.
     Dpd(DpdInteraction),
-    /// Friction and noise on every particle by itself: Langevin dynamics, with memory a generalised Langevin equation.
+    /// Friction and noise on every single particle: Langevin dynamics, with memory a generalised Langevin equation.
     Langevin(LangevinInteraction),
     /// A random force on every particle that is constant for random times.
     ColouredNoise(ColouredNoiseInteraction),
@@ -52,7 +52,7 @@ impl Interaction {
 }
 
 impl Interaction {
-    /// Whether it acts on particles, beside others; else it is alone in a scene of another family.
+    /// Whether it acts on particles and can be combined with others; the others are the only interaction of a scene of another family.
     #[must_use]
     pub fn is_of_particles(&self) -> bool {
         !matches!(self, Self::ShallowWater(_) | Self::Voronoi(_))

@@ -1,4 +1,4 @@
-//! From a file or a built-in name to a checked scene.
+//! Loading: from a file or a built-in name to a checked scene.
 
 use std::collections::HashSet;
 use std::fs::File;
@@ -36,8 +36,8 @@ pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
     Ok(load_for(source, overrides, None)?.0)
 }
 
-/// Like [`load`], for a run of so many steps: where that is fewer than the scene has, equilibration and the windows of
-/// correlations that no longer fit are shortened, unless an override sets them. Says what was shortened.
+/// Like [`load`], for a run of this many steps: if the scene has more, equilibration and the windows of correlations that no longer
+/// fit are shortened, unless an override sets them. Also returns what was shortened.
 ///
 /// ```
 /// use mesoscope::scene;
@@ -67,7 +67,7 @@ pub fn load_for(source: &str, overrides: &[String], steps: Option<u64>) -> Resul
 /// ```
 ///
 /// # Errors
-/// No such scene, a file that cannot be read or is not text.
+/// There is no such scene, or the file cannot be read or is not text.
 pub fn read(source: &str) -> Result<(String, String), SceneError> {
     let path = Path::new(source);
     // A directory of a scene's name is the likely place of its last run, not a scene.
@@ -82,7 +82,7 @@ pub fn read(source: &str) -> Result<(String, String), SceneError> {
     }
 }
 
-/// The longest text taken for a scene: more than ten million listed particles.
+/// The longest text that is read as a scene: more than ten million listed particles.
 const LONGEST_TEXT: u64 = 512 << 20;
 
 fn bytes(path: &Path) -> io::Result<Vec<u8>> {
@@ -183,7 +183,7 @@ pub fn parse_for(
 /// The schema, which is derived once.
 static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
 
-/// A text as far as it can be read.
+/// What could be read of a text.
 struct Reading {
     /// The mistakes of its shape.
     problems: Problems,
@@ -229,7 +229,7 @@ pub(crate) fn checked(name: &str, scene: &Scene) -> Result<Scene, SceneError> {
     parse(name, &text, &[])
 }
 
-/// Numbers that further checks can do with, for those that a scene has to give and does not.
+/// Numbers for further checks in place of required ones that a scene lacks.
 fn fill_in(document: &mut Value, substitute: Substitute) {
     let numbers = match substitute {
         Substitute::Least => [1e-3.into(), 1e-3.into(), 0.into()],

@@ -1,6 +1,6 @@
 //! "Did you mean": the accepted name closest to what was written.
 
-/// Symbols of the field that people write for a key that is spelled out here.
+/// Common symbols that people write for a key that is spelled out here.
 const SYMBOLS: [(&str, &str); 11] = [
     ("a", "repulsion"),
     ("density", "number_density"),
@@ -15,13 +15,13 @@ const SYMBOLS: [(&str, &str); 11] = [
     ("timestep", "step"),
 ];
 
-/// Bytes of a word that anybody misspells; the comparison takes the product of two lengths.
+/// The longest word that is compared; the time grows with the product of two lengths.
 const LONGEST: usize = 64;
 
-/// Candidates that are looked at.
+/// The most candidates that are compared.
 const MOST: usize = 512;
 
-/// The candidate most like `word`, if any is like it at all.
+/// The candidate most similar to `word`, if any is similar.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     if word.len() > LONGEST {
         return None;

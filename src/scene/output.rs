@@ -7,14 +7,14 @@ use super::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the run measures and writes. Everything optional is off, and free, unless it is asked for.
+/// What the run measures and writes. Everything optional is off, and costs nothing, unless it is requested.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// The table of energies.
     #[serde(default)]
     pub energies: Energies,
-    /// The look of the plots.
+    /// The appearance of the plots.
     #[serde(default)]
     pub plot: PlotStyle,
     /// Pictures of the particles.
@@ -32,7 +32,7 @@ pub struct Output {
     /// Mean squared displacement and velocity autocorrelation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
-    /// Sizes of chains: distance of the ends and radius of gyration.
+    /// Sizes of chains: end-to-end distance and radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain_sizes: Option<ChainSizes>,
     /// Shear viscosity from the decay of transverse momentum waves.
@@ -49,7 +49,7 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
     pub histograms: Vec<Histogram>,
-    /// How many neighbours Voronoi cells have, as a table and a plot.
+    /// The numbers of neighbours of Voronoi cells, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<Neighbours>,
     /// The decay of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it.
@@ -79,10 +79,10 @@ impl Default for Energies {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Checkpoint {
-    /// Steps between two checkpoints; each replaces the last. The end of the run is always one.
+    /// Steps between two checkpoints; each replaces the previous one. There is always one at the end of the run.
     #[schemars(range(min = 1))]
     pub every: u64,
-    /// Minutes after which there is another checkpoint, wherever the run then is.
+    /// Minutes between two checkpoints, whatever the step.
     #[schemars(range(min = 1))]
     pub minutes: u32,
 }

@@ -4,16 +4,16 @@ use serde_json::{Map, Value};
 
 use super::error::Problem;
 
-/// Where an override may stand, in words.
+/// The form of an override, for messages.
 const FORM: &str = "path.to.key=value, as in time.step=0.02";
 
-/// Sets what one override names. Missing keys are created; whether they are known is for the schema to say.
+/// Sets the value that an override names. Missing keys are created; the schema decides whether they are known.
 pub(super) fn apply(document: &mut Value, argument: &str) -> Result<(), Problem> {
     set(document, argument)
         .map_err(|(found, accepted)| Problem::new(format_args!("override `{argument}`"), found, accepted))
 }
 
-/// What was found and what is accepted, if it is not done.
+/// What was found and what is accepted, if it fails.
 fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
     let misshapen = |found: &str| (found.to_owned(), FORM.to_owned());
     let (path, text) = argument.split_once('=').ok_or_else(|| misshapen("found no `=`"))?;

@@ -1,4 +1,4 @@
-//! A place in a JSON document, spelled out only when there is something to say about it.
+//! A place in a JSON document, formatted only for messages.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -21,7 +21,7 @@ impl<'a> Path<'a> {
     }
 }
 
-/// How the document itself is called in a message.
+/// The name of the document itself in a message.
 pub(super) const TOP_LEVEL: &str = "top level";
 
 impl fmt::Display for Path<'_> {

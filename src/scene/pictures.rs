@@ -1,20 +1,20 @@
-//! The look of plots and pictures.
+//! The appearance of plots and pictures.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The look of the plots.
+/// The appearance of the plots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlotStyle {
     /// Width of a plot in pixels.
     #[schemars(range(min = 320, max = 8192))]
     pub width: u32,
-    /// Height of a plot in pixels; left out, three quarters of the width, and for fields what the shape of the box asks for.
+    /// Height of a plot in pixels; left out, three quarters of the width, and for fields what follows from the shape of the box.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 240, max = 8192))]
     pub height: Option<u32>,
-    /// Factor on every type size and line width.
+    /// Factor on all font sizes and line widths.
     #[schemars(range(min = 0.25, max = 8.0))]
     pub scale: f64,
     /// Light or dark.
@@ -41,7 +41,7 @@ impl PlotStyle {
     }
 }
 
-/// Colours of paper and ink.
+/// Colours of background and ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Theme {
@@ -58,11 +58,11 @@ pub enum Theme {
 pub struct Snapshot {
     /// Steps between two numbered pictures `snapshot-<number>.png`; zero writes only `snapshot.png` at the end.
     pub every: u64,
-    /// Width of a picture in pixels; left out, what the shape of the box asks for.
+    /// Width of a picture in pixels; left out, what follows from the shape of the box.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 64, max = 8192))]
     pub width: Option<u32>,
-    /// Height of a picture in pixels; left out, what the shape of the box asks for. Without both the longer side has 1200.
+    /// Height of a picture in pixels; left out, what follows from the shape of the box. Without both the longer side has 1200.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 64, max = 8192))]
     pub height: Option<u32>,
@@ -70,7 +70,7 @@ pub struct Snapshot {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
-    /// What the colour of a particle shows; left out, the species, or the density of Voronoi cells of one species.
+    /// The quantity that the colour of a particle shows; left out, the species, or the density for Voronoi cells of one species.
     pub color: SnapshotColor,
     /// The lowest and the highest value on the scale of colours, of all pictures of the run; left out, they follow from the
     /// first picture and the temperature of the scene.
@@ -78,7 +78,7 @@ pub struct Snapshot {
     pub range: Option<[f64; 2]>,
 }
 
-/// What the colour of a particle shows.
+/// The quantity that the colour of a particle shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SnapshotColor {
@@ -87,8 +87,8 @@ pub enum SnapshotColor {
     Species,
     /// The speed, on a perceptually uniform scale.
     Speed,
-    /// Mass by volume; of Voronoi cells only.
+    /// The density, for Voronoi cells only.
     Density,
-    /// The temperature inside; of Voronoi cells with internal energies only.
+    /// The internal temperature, for Voronoi cells with internal energies only.
     Temperature,
 }

@@ -1,11 +1,11 @@
-//! The mistakes of a scene, however many there are.
+//! The mistakes of a scene.
 
 use super::error::Problem;
 
-/// Mistakes that are kept; further ones are counted.
+/// The most mistakes that are kept; further ones are counted.
 const MOST: usize = 250;
 
-/// The mistakes of a scene: the first of them in words, and how many there are beyond.
+/// The mistakes of a scene: the first of them as text, and the number of the others.
 #[derive(Debug, Default)]
 pub(crate) struct Problems {
     listed: Vec<Problem>,
@@ -25,7 +25,7 @@ impl Problems {
         self.listed.is_empty()
     }
 
-    /// Whether further mistakes are only counted, so that nobody reads what would be said of them.
+    /// Whether further mistakes are only counted, so that their text is not needed.
     pub fn is_full(&self) -> bool {
         self.listed.len() >= MOST
     }

@@ -12,8 +12,8 @@ use super::nearest::nearest;
 use super::path::Path;
 use super::problems::Problems;
 
-/// What stands in for numbers that are refused, and for lists of a wrong length: two choices that are far apart, so that
-/// whatever is said of both does not depend on what stands in.
+/// Substitutes for numbers that are refused, and for lists of a wrong length: two choices that are far apart, so that a message that
+/// both give does not depend on the substitute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Substitute {
     /// Small numbers and short lists.
@@ -22,16 +22,16 @@ pub(super) enum Substitute {
     Most,
 }
 
-/// Checks `document` against `schema` and mends it on the way: afterwards it satisfies the schema wherever it can be read at
-/// all. Unknown keys, and values that cannot be read where there may be none, are taken out after they are reported; numbers
-/// out of range and lists of a wrong length are replaced; whole numbers written as `1e6` or `2000.0` become integers.
+/// Checks `document` against `schema` and repairs it: afterwards it satisfies the schema wherever it can be read at all. Unknown keys,
+/// and optional values that cannot be read, are removed after they are reported; numbers out of range and lists of a wrong length
+/// are replaced; whole numbers written as `1e6` or `2000.0` become integers.
 pub(super) fn check(schema: &Value, document: &mut Value, substitute: Substitute) -> Problems {
     let mut walker = Walker { root: schema, substitute, problems: Problems::default(), ranges: HashMap::new() };
     walker.check(schema, document, &Path::Root);
     walker.problems
 }
 
-/// Magnitudes of numbers other than zero with which a program can reckon: products of three are finite and not zero.
+/// Magnitudes of non-zero numbers that can be computed with: products of three are finite and not zero.
 const MAGNITUDES: [f64; 2] = [1e-100, 1e100];
 
 fn is_reckonable(number: f64) -> bool {
@@ -86,7 +86,7 @@ impl<'a> Walker<'a> {
         })
     }
 
-    /// Reports what stands at `path` as not accepted by `schema`.
+    /// Reports that the value at `path` is not accepted by `schema`.
     fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
         if self.problems.is_full() {
             self.problems.push(Problem::unread());
@@ -410,7 +410,7 @@ impl Range {
             && self.below.is_none_or(|below| number < below)
     }
 
-    /// A number in the range; where it has no end, one that is no extreme.
+    /// A number in the range; if the range has no end, a moderate one.
     fn substitute(&self, substitute: Substitute) -> Value {
         let least = self.least.or(self.above.map(|above| above + if self.integer { 1.0 } else { 1e-3 }));
         let most = self.most.or(self.below.map(|below| below - if self.integer { 1.0 } else { 1e-3 }));
@@ -443,7 +443,7 @@ impl Range {
     }
 }
 
-/// What stands in a scene, short enough for one line.
+/// A value of a scene, short enough for one line.
 fn found(value: &Value) -> String {
     match value {
         Value::String(text) if text.chars().count() > 40 => {

@@ -1,5 +1,5 @@
-//! A scene cut to a number of steps: what no longer fits into the run, the start that averages leave out and the windows of
-//! correlations, becomes shorter with it.
+//! Shortens a scene to a number of steps: equilibration and the windows of correlations that no longer fit into the run become
+//! shorter too.
 
 use serde_json::Value;
 
@@ -8,8 +8,8 @@ use super::error::Warning;
 /// Analyses with windows, and the fewest samples that the schema accepts in one of them.
 const WINDOWED: [(&str, u64); 3] = [("diffusion", 2), ("viscosity", 8), ("autocorrelations", 2)];
 
-/// Sets the number of steps of a scene and makes fit what does not; says what that was. What one of the `overrides` sets
-/// stays as it was asked for, and is left to the checks to refuse.
+/// Sets the number of steps of a scene, shortens what no longer fits and returns what that was. Values that `overrides` set stay; the
+/// checks may refuse them.
 pub(super) fn shorten(document: &mut Value, steps: u64, overrides: &[String]) -> Vec<Warning> {
     let asked: Vec<String> = overrides.iter().map(|argument| key(argument)).collect();
     let is_asked = |path: &str| {
@@ -108,8 +108,8 @@ impl Window {
         format!("output.{}{index}", self.name)
     }
 
-    /// Takes fewer samples, or the fewest more often; where even those do not fit, the analysis is left out. Does nothing if
-    /// what is asked for does not let it.
+    /// Takes fewer samples, or the fewest at shorter intervals; if even those do not fit, the analysis is left out. Does nothing if an
+    /// override forbids it.
     fn shorten(&self, document: &mut Value, measured: u64) -> Option<Warning> {
         let place = self.place();
         let samples = (measured / self.every).max(self.fewest);

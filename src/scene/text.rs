@@ -1,4 +1,4 @@
-//! JSON text to a JSON value, with the mistakes a plain parser hides: keys given twice.
+//! JSON text to a JSON value, with the mistakes that a plain parser hides: duplicate keys.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -10,7 +10,7 @@ use super::error::{Problem, SceneError};
 use super::path::Path;
 use super::problems::Problems;
 
-/// The value of a JSON text, and a problem for every key that an object repeats.
+/// The value of a JSON text, and a problem for every duplicate key.
 pub(super) fn parse(name: &str, text: &str) -> Result<(Value, Problems), SceneError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let repeated = RefCell::new(Problems::default());
@@ -37,7 +37,7 @@ fn syntax(name: &str, text: &str, error: &serde_json::Error) -> SceneError {
     SceneError::Syntax { name: name.to_owned(), line, column, message }
 }
 
-/// What to do about the commonest things that are not JSON.
+/// Advice for common mistakes in JSON.
 fn hint(text: &str, line: usize, column: usize, said: &str) -> Option<&'static str> {
     if said.contains("number out of range") {
         return Some("every number must be finite in double precision");

@@ -1,4 +1,4 @@
-//! Bonds and angles: what a scene says about them.
+//! Bonds and angles in a scene.
 
 use crate::scene::Bath;
 use schemars::JsonSchema;
@@ -25,7 +25,7 @@ pub struct BondsInteraction {
     /// The heat bath of every bond, coupled to its length.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
     pub bath: Bath,
-    /// Whether bonded particles are spared each other's repulsion.
+    /// Whether bonded particles do not repel each other.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exclude_repulsion: bool,
 }
@@ -39,7 +39,7 @@ pub enum BondPotential {
         /// Spring constant K.
         #[schemars(range(min = 0.0))]
         stiffness: f64,
-        /// Length r₀ at rest.
+        /// Rest length r₀.
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         length: f64,
@@ -52,7 +52,7 @@ pub enum BondPotential {
         /// Largest extension R.
         #[schemars(extend("exclusiveMinimum" = 0))]
         extent: f64,
-        /// Length r₀ at rest.
+        /// Rest length r₀.
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         length: f64,
@@ -67,7 +67,7 @@ pub struct AnglesInteraction {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(max = 256))]
     pub species: Option<Vec<String>>,
-    /// Triples of particle numbers, the middle of the angle in the middle, in place of chains.
+    /// Triples of particle numbers with the vertex of the angle in the middle, in place of chains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub triples: Vec<[u32; 3]>,
     /// Stiffness k.

@@ -1,4 +1,4 @@
-//! What scenes with bonds, angles, baths, coloured noise, tethers and fixed particles have to fulfil beyond their shape.
+//! Checks of scenes with bonds, angles, baths, coloured noise, tethers and fixed particles that a schema cannot express.
 
 use std::collections::{HashMap, HashSet};
 
@@ -160,7 +160,7 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// What makes a scene a coupled one, in words.
+/// What makes a scene a coupled one, for messages.
 fn reason(scene: &Scene) -> String {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let what = match interaction {

@@ -1,8 +1,8 @@
-//! What a coloured noise asks of its scene.
+//! Checks of coloured noise.
 
 use crate::scene::{ColouredNoiseInteraction, NoiseProcess, Problem, Problems, Scene};
 
-/// Steps within the time of a process, below which it would jump more often in a step than a device should count.
+/// The shortest time of a process, in steps: below it there would be too many jumps in a step.
 const LEAST_TIME: f64 = 1.0 / 256.0;
 
 /// Jumps after which the random numbers of a particle begin again.

@@ -1,15 +1,15 @@
-//! Harmonic chains side by side: what a scene says about them.
+//! Harmonic chains in a scene.
 
 use crate::scene::{Interaction, Problem, Problems, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A harmonic chain of beads, and the chains of clusters that stand for it with and without friction and noise: Español
-/// 1996, doi:10.1103/PhysRevE.53.1572. Each of the three between fixed ends, twice over: with a pulse at temperature zero,
-/// and in equilibrium at the temperature of the scene.
+/// A harmonic chain of beads, and two coarse-grained chains of clusters, with and without friction and noise: Español 1996,
+/// doi:10.1103/PhysRevE.53.1572. Each of the three has fixed ends and is simulated twice: with a pulse at temperature zero, and in
+/// equilibrium at the temperature of the scene.
 ///
-/// It makes the particles of the scene itself, in a box of one dimension. The chains do not meet, however often they go
-/// round the box.
+/// It creates the particles of the scene itself, in a box of one dimension. The chains do not interact, however often they go round
+/// the box.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HarmonicChainInteraction {
@@ -24,11 +24,11 @@ pub struct HarmonicChainInteraction {
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: f64,
-    /// Friction between clusters in units of √(mκ); ½, the default, is what beads amount to.
+    /// Friction between clusters in units of √(mκ); ½, the default, is that of the chain of beads.
     #[serde(default = "half")]
     #[schemars(range(min = 0.0))]
     pub friction: f64,
-    /// Distance of beads at rest, long enough that none passes another; of clusters n times as much.
+    /// Distance of beads at rest, long enough that none passes another; that of clusters is n times as long.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub spacing: f64,
     /// The chains with a pulse.
@@ -37,7 +37,7 @@ pub struct HarmonicChainInteraction {
     pub equilibrium: ChainEquilibrium,
 }
 
-/// A Gaussian pulse at rest in the middle of a chain, which falls into halves that travel to the ends.
+/// A Gaussian pulse at rest in the middle of a chain, which splits into two halves that travel to the ends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChainPulse {
@@ -56,7 +56,7 @@ pub struct ChainPulse {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChainEquilibrium {
-    /// Number of clusters in a chain; the error of averages is about one by its root, however long the run.
+    /// Number n of clusters in a chain; the relative error of averages is about 1/√n, however long the run.
     #[schemars(range(min = 2, max = 65_536))]
     pub clusters: u32,
 }

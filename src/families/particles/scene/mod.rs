@@ -1,4 +1,4 @@
-//! What a scene says about particles, and what such a scene has to fulfil.
+//! Scenes of particles: their types and checks.
 
 mod chains;
 pub(crate) mod checks;

@@ -1,4 +1,4 @@
-//! Pair forces: what a scene says about them.
+//! Pair forces in a scene.
 
 use crate::scene::Bath;
 use schemars::JsonSchema;
@@ -16,7 +16,7 @@ pub struct DpdInteraction {
     #[serde(default = "two")]
     #[schemars(range(min = 0.0))]
     pub weight_exponent: f64,
-    /// Repulsion a of every pair of species not listed in `pairs`; all zero leaves the conservative force out.
+    /// Repulsion a of every pair of species not listed in `pairs`; if all are zero there is no conservative force.
     #[serde(default)]
     pub repulsion: f64,
     /// Friction γ of every pair of species not listed in `pairs`; the noise follows from σ² = 2γkT.
@@ -31,7 +31,7 @@ pub struct DpdInteraction {
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
     pub bath: Bath,
     /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, or together with couplings
-    /// other than pairs. A wide one is built less often and holds more pairs; no result but the noise depends on it.
+    /// other than pairs. With a wide margin the list is rebuilt less often and holds more pairs; no result but the noise depends on it.
     #[serde(default = "default_skin")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub skin: f64,

@@ -4,7 +4,7 @@ use crate::scene::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Friction and noise on every particle by itself, coupled to its coordinates.
+/// Friction and noise on every single particle, coupled to its coordinates.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LangevinInteraction {
@@ -33,7 +33,7 @@ pub struct SpeciesFriction {
 }
 
 /// A random force on every particle that stays constant for random times: the dynamics of Borreguero, Ellero and Adams.
-/// It acts on particles one by one, so that momentum is not conserved.
+/// It acts on single particles, so that momentum is not conserved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ColouredNoiseInteraction {
@@ -58,7 +58,7 @@ pub enum NoiseProcess {
     Kangaroo,
     /// The same with exponentially distributed holding times of mean ε/φ: C(t) = α(ε/t)(1 - exp(-t/ε)).
     KangarooExponential,
-    /// Holding times of mean τ whatever the direction: C(t) = α exp(-t/τ).
+    /// Exponentially distributed holding times of mean τ, independent of the direction: C(t) = α exp(-t/τ).
     Short,
     /// As the paper prints it, equations (8) and (9): two dimensions only. Its mean is not zero and it ages.
     Literal,

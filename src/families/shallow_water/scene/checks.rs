@@ -12,7 +12,7 @@ use crate::scene::{
 /// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
 const MOST_ITERATIONS: f64 = 10_000.0;
 
-/// Lengths of smoothing, in edges of the box, whose square single precision can still distinguish from 1.
+/// The longest smoothing length, in edges of the box, whose square single precision can still distinguish from 1.
 const LARGEST_SMOOTHING: f64 = 1e6;
 
 /// Points on each axis at which the depth at the start is tried, where that takes no more than so many terms.
@@ -153,7 +153,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// The water has to have a depth everywhere: particles with a negative mass there are none.
+/// The water must have a positive depth everywhere, because masses cannot be negative.
 fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Problems) {
     let surface = Surface::new(&water.surface, lengths);
     if surface.is_flat() {
@@ -203,7 +203,7 @@ fn trials(lengths: [f64; 2], terms: f64) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Refuses what has no meaning without shallow water.
+/// Refuses what has a meaning in shallow water only.
 pub(crate) fn check_absence(scene: &Scene, problems: &mut Problems) {
     let only = "a scene with a `shallow-water` interaction only";
     if matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {

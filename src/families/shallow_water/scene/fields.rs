@@ -23,21 +23,21 @@ impl Default for Fields {
     }
 }
 
-/// The lowest and the highest value on the scale of colours of each field, of all pictures of the run. What is left out
-/// follows from the first of several numbered pictures, or fits the only one.
+/// The lowest and the highest value on the colour scale of each field, for all pictures of the run. A range that is left out follows
+/// from the first of several numbered pictures, or from the only picture.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FieldRanges {
-    /// Of the depth, in mean depths.
+    /// The range of the depth, in mean depths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<[f64; 2]>,
-    /// Of the potential vorticity.
+    /// The range of the potential vorticity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub potential_vorticity: Option<[f64; 2]>,
-    /// Of the vorticity.
+    /// The range of the vorticity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vorticity: Option<[f64; 2]>,
-    /// Of the speed of the flow.
+    /// The range of the speed of the flow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<[f64; 2]>,
 }
@@ -77,7 +77,7 @@ pub enum FieldQuantity {
 }
 
 impl FieldQuantity {
-    /// What the names of its files begin with.
+    /// The stem of the names of its files.
     #[must_use]
     pub fn stem(self) -> &'static str {
         match self {

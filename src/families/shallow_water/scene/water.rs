@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Rotating shallow water on particles and a periodic mesh: Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 ///
-/// The mean depth is 1; depth is measured in mass a mesh node.
+/// The mean depth is 1; depth is measured as mass per mesh node.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShallowWaterInteraction {
@@ -22,7 +22,7 @@ pub struct ShallowWaterInteraction {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wave_speed: f64,
     /// Coriolis parameter f₀, of du/dt = f₀v, dv/dt = -f₀u: positive in the northern hemisphere. The equations as Cotter and
-    /// Reich print them turn the other way, which is a negative value here. Zero leaves the rotation out.
+    /// Reich print them turn the other way, which is a negative value here. Zero switches the rotation off.
     #[serde(default)]
     pub rotation: f64,
     /// The smoothing of the depth that drives the particles.
@@ -46,7 +46,7 @@ fn cubic() -> u32 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Smoothing {
-    /// Length Λ; zero leaves the smoothing out.
+    /// Length Λ; zero switches the smoothing off.
     #[schemars(range(min = 0.0))]
     pub length: f64,
     /// How often it is applied.
@@ -68,12 +68,12 @@ impl Default for Smoothing {
 pub enum SmoothingSolver {
     /// By fast Fourier transform, to rounding (default). Mesh edges are powers of two.
     Fft {
-        /// What stands for the Laplacian.
+        /// The approximation of the Laplacian.
         #[serde(default)]
         symbol: LaplacianSymbol,
     },
-    /// By a Chebyshev polynomial of the five-point Laplacian, started from zero and so positive at any length. For any
-    /// mesh. The rougher its tolerance, the cheaper; `fft` was cheaper still on all meshes that it takes.
+    /// By a Chebyshev polynomial of the five-point Laplacian, started from zero and therefore positive at any length. Works on any
+    /// mesh. The looser its tolerance, the cheaper it is; `fft` was cheaper still on all meshes that it accepts.
     Chebyshev {
         /// Bound on the relative error of every Fourier mode of (1 - Λ²∇²)⁻¹.
         #[serde(default = "millionth")]
@@ -92,7 +92,7 @@ fn millionth() -> f64 {
     1e-6
 }
 
-/// What stands for the Laplacian in Fourier space.
+/// The approximation of the Laplacian in Fourier space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum LaplacianSymbol {
@@ -106,8 +106,7 @@ pub enum LaplacianSymbol {
 /// A heat bath on every mesh node, coupled to the depth there: equation (26) of Cotter and Reich,
 /// doi:10.1209/epl/i2003-00621-8.
 ///
-/// It acts on the mesh, through which the water flows, and so slows a uniform flow down too: it is not Galilean
-/// invariant.
+/// It acts on the mesh, through which the water flows, so it also slows a uniform flow down: it is not Galilean invariant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum MeshBath {
@@ -119,7 +118,7 @@ pub enum MeshBath {
         /// The scheme of the bath step.
         #[serde(default)]
         scheme: BathScheme,
-        /// Where the rate comes from.
+        /// The definition of the rate.
         #[serde(default)]
         rate: BathRate,
     },
@@ -127,7 +126,7 @@ pub enum MeshBath {
     White {},
 }
 
-/// Where the rate of a mesh bath comes from.
+/// The definition of the rate of a mesh bath.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BathRate {
@@ -143,7 +142,7 @@ pub enum BathRate {
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SurfaceFeature {
     /// Two opposed fronts along x, amplitude·tanh(sin(η)/width) with η = y + meander·(sin 3x - sin 2x), where x and y
-    /// run from 0 to 2π over the box. In balance a pair of jets, which is unstable.
+    /// run from 0 to 2π over the box. In geostrophic balance it is a pair of jets, which is unstable.
     Front {
         /// Depth on the higher side.
         amplitude: f64,
@@ -154,8 +153,8 @@ pub enum SurfaceFeature {
         #[serde(default)]
         meander: f64,
     },
-    /// A hill (a hollow where negative), Gaussian near its centre: amplitude·exp(-Σ(1 - cos κ(x - x₀))/(κ·radius)²)
-    /// with κ = 2π over the edge of the box. In balance a vortex.
+    /// A hill (a hollow if the amplitude is negative), Gaussian near its centre: amplitude·exp(-Σ(1 - cos κ(x - x₀))/(κ·radius)²)
+    /// with κ = 2π over the edge of the box. In geostrophic balance it is a vortex.
     Bump {
         /// Centre.
         center: [f64; 2],

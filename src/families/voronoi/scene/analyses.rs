@@ -16,8 +16,8 @@ pub struct Neighbours {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShearWave {
-    /// Steps between two samples: long against the time in which friction relaxes a single cell, short against the
-    /// decay of the wave.
+    /// Steps between two samples: long compared with the time in which friction relaxes a single cell, short compared with the decay of
+    /// the wave.
     #[schemars(range(min = 1))]
     pub every: u64,
 }

@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 /// Dissipative particles that are the cells of a Voronoi tessellation of a periodic plane: Flekkøy, Coveney and De
 /// Fabritiis, doi:10.1103/PhysRevE.62.2140. The only interaction of a scene.
 ///
-/// Cells push each other by their pressures, rub at their faces with the viscosity of the fluid, and are kicked by the
-/// noise that goes with it. Without `energy` every cell is at the temperature of the scene.
+/// Cells push each other with their pressures. At their faces act the friction that follows from the viscosity of the fluid, and the noise
+/// that belongs to it. Without `energy` every cell is at the temperature of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VoronoiInteraction {
@@ -23,14 +23,14 @@ pub struct VoronoiInteraction {
     #[serde(default)]
     pub form: VoronoiForm,
     /// Viscosity η of the law of friction between faces; left out, 1, unless `shear_viscosity` is given. The shear
-    /// viscosity of the network of cells is 1.22 to 1.25 η, with half of density times self-diffusion on top, and what
-    /// pressure adds where cells hold many molecules. Zero leaves friction and noise out.
+    /// viscosity of the network of cells is 1.22 to 1.25 η. Half of density times self-diffusion adds to it, and so does pressure where
+    /// cells hold many molecules. Zero switches friction and noise off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub viscosity: Option<f64>,
-    /// The shear viscosity of the network of cells that is wanted, in place of `viscosity`, which is then this over
-    /// 1.235. What cells carry by moving about, half of density times self-diffusion, and what their pressure adds come on
-    /// top of it: measure it with `output.viscosity` or `output.shear_wave`.
+    /// The desired shear viscosity of the network of cells, in place of `viscosity`, which is then this divided by 1.235. Transport by the
+    /// motion of cells, half of density times self-diffusion, and their pressure add to it: measure the sum with `output.viscosity` or
+    /// `output.shear_wave`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub shear_viscosity: Option<f64>,
@@ -41,16 +41,16 @@ pub struct VoronoiInteraction {
     /// The equation of state.
     #[serde(default)]
     pub equation_of_state: EquationOfState,
-    /// Internal energies that cells keep account of: heat conduction, viscous heating and random heat flux, with the
-    /// total energy constant to the last bit. Left out, cells are at the temperature of the scene.
+    /// Internal energies of cells: heat conduction, viscous heating and random heat flux, with the total energy constant to the last bit.
+    /// Left out, cells are at the temperature of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<CellEnergy>,
     /// The masses of cells at the start; `mass` of the particles is their mean.
     #[serde(default)]
     pub initial_masses: InitialMasses,
     /// The largest part of a cell's mass, of its internal energy, by conduction and with mass each, and of its volume by the
-    /// turning face of close cells, that crosses one face in one step: a finite step could take more than there is. The
-    /// run counts how often this acted.
+    /// turning face of close cells, that crosses one face in one step: in a finite step more could cross than there is. The
+    /// run counts how often the limit acted.
     #[serde(default = "tenth")]
     #[schemars(range(max = 0.5), extend("exclusiveMinimum" = 0))]
     pub exchange_limit: f64,
@@ -66,11 +66,10 @@ pub enum VoronoiForm {
     /// Cells of constant mass pushed by the gradient of their free energy (default): exactly canonical.
     #[default]
     Gradient,
-    /// Cells exchange mass as their faces turn, at the rate that the geometry asks for and with the logarithmic mean
-    /// density.
+    /// Cells exchange mass as their faces turn, at the rate that follows from the geometry and with the logarithmic mean density.
     Consistent,
-    /// The same as printed: half the rate of mass exchange, and the arithmetic mean density. Runs hot unless the Reynolds
-    /// number of a cell and its number of molecules are small.
+    /// The same as printed: half the rate of mass exchange, and the arithmetic mean density. The temperature is too high unless
+    /// the Reynolds number of a cell and its number of molecules are small.
     Paper,
 }
 
@@ -83,16 +82,16 @@ pub enum EquationOfState {
     IdealGas,
 }
 
-/// Cells that keep account of their internal energy.
+/// Internal energies of cells.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellEnergy {
-    /// Heat conductivity, in units of k: `conductivity (l/r)(T_l - T_k)` flows through a face. Zero leaves
-    /// conduction and the random heat flux out.
+    /// Heat conductivity, in units of k: `conductivity (l/r)(T_l - T_k)` flows through a face. Zero switches
+    /// conduction and the random heat flux off.
     #[serde(default = "one")]
     #[schemars(range(min = 0.0))]
     pub conductivity: f64,
-    /// Regions that start hotter or colder than the temperature of the scene; of several around a cell the last counts.
+    /// Regions that start hotter or colder than the temperature of the scene; where they overlap the last one counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 256))]
     pub initial_temperatures: Vec<TemperatureRegion>,
@@ -129,10 +128,10 @@ pub enum InitialMasses {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FrictionSolver {
-    /// The most iterations of a step: each is recorded ahead, and skipped on the device once the tolerance is reached.
+    /// The most iterations of a step: all are recorded in advance, and skipped on the device once the tolerance is reached.
     #[schemars(range(min = 1, max = 1000))]
     pub iterations: u32,
-    /// Residual relative to the right-hand side at which to stop. Momentum is conserved to the last bit whatever it is.
+    /// The residual, relative to the right-hand side, at which to stop. Momentum is conserved to the last bit whatever it is.
     #[schemars(range(max = 0.1), extend("exclusiveMinimum" = 0))]
     pub tolerance: f64,
 }
@@ -322,7 +321,7 @@ pub fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
     })
 }
 
-/// Refuses what has no meaning without Voronoi cells.
+/// Refuses what has a meaning for Voronoi cells only.
 pub(crate) fn check_absence(scene: &Scene, problems: &mut Problems) {
     let only = "a scene with a `voronoi` interaction only";
     let mut refuse = |path: &str, found: &str| problems.push(Problem::new(path, found, only));
