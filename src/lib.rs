@@ -10,7 +10,8 @@
 //!
 //! ```
 //! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-//! use mesoscope::plan::{Hardware, Options, plan};
+//! use mesoscope::plan::{Hardware, Options};
+//! use mesoscope::run::plan;
 //! use mesoscope::{engine::Engine, families::Model, measure, scene};
 //!
 //! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
@@ -35,6 +36,7 @@
 //!
 //! A program that may come to run on the software adapter begins with [`gpu::prepare_environment`].
 
+mod document;
 pub mod engine;
 pub mod families;
 pub mod gpu;

@@ -110,6 +110,89 @@ pub struct State {
     pub images: Vec<[i32; 3]>,
 }
 
+/// An array that some states have and others not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Array {
+    /// [`State::predicted`].
+    Predicted,
+    /// [`State::masses`].
+    Masses,
+    /// [`State::energies`].
+    Energies,
+    /// [`State::node_masses`].
+    NodeMasses,
+    /// [`State::node_bath`].
+    NodeBath,
+    /// [`State::pair_baths`].
+    PairBaths,
+    /// [`State::anchors`].
+    Anchors,
+    /// [`State::position_baths`].
+    PositionBaths,
+    /// [`State::bond_baths`].
+    BondBaths,
+    /// [`State::holds`].
+    Holds,
+    /// [`State::tethers`].
+    Tethers,
+    /// [`State::images`].
+    Images,
+}
+
+impl Array {
+    /// All of them, in the order of a checkpoint.
+    pub const ALL: [Self; 12] = [
+        Self::Predicted,
+        Self::Masses,
+        Self::Energies,
+        Self::NodeMasses,
+        Self::NodeBath,
+        Self::PairBaths,
+        Self::Anchors,
+        Self::PositionBaths,
+        Self::BondBaths,
+        Self::Holds,
+        Self::Tethers,
+        Self::Images,
+    ];
+
+    /// The name, also in a checkpoint.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Predicted => "predicted",
+            Self::Masses => "masses",
+            Self::Energies => "energies",
+            Self::NodeMasses => "node_masses",
+            Self::NodeBath => "node_bath",
+            Self::PairBaths => "pair_baths",
+            Self::Anchors => "anchors",
+            Self::PositionBaths => "position_baths",
+            Self::BondBaths => "bond_baths",
+            Self::Holds => "holds",
+            Self::Tethers => "tethers",
+            Self::Images => "images",
+        }
+    }
+
+    /// Words of an element.
+    #[must_use]
+    pub const fn width(self) -> usize {
+        match self {
+            Self::Masses | Self::Energies | Self::NodeMasses | Self::NodeBath | Self::BondBaths => 1,
+            Self::Predicted | Self::Anchors | Self::PositionBaths | Self::Tethers | Self::Images => 3,
+            Self::PairBaths => size_of::<PairBath>() / 4,
+            Self::Holds => size_of::<Hold>() / 4,
+        }
+    }
+
+    /// Whether it has an element for every particle, if any.
+    #[must_use]
+    pub const fn is_of_particles(self) -> bool {
+        !matches!(self, Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths)
+    }
+}
+
 /// How often something crosses the ends of the box on its way, which is shorter than half of it, from one fraction to
 /// another.
 ///
@@ -159,82 +242,77 @@ pub struct Hold {
 }
 
 impl State {
-    /// What some states have and others not, by name: arrays of words.
+    /// The words of an array.
     #[must_use]
-    pub fn arrays(&self) -> [(&'static str, &[u32]); 12] {
-        [
-            ("predicted", bytemuck::cast_slice(&self.predicted)),
-            ("masses", &self.masses),
-            ("energies", bytemuck::cast_slice(&self.energies)),
-            ("node_masses", &self.node_masses),
-            ("node_bath", &self.node_bath),
-            ("pair_baths", bytemuck::cast_slice(&self.pair_baths)),
-            ("anchors", bytemuck::cast_slice(&self.anchors)),
-            ("position_baths", bytemuck::cast_slice(&self.position_baths)),
-            ("bond_baths", &self.bond_baths),
-            ("holds", bytemuck::cast_slice(&self.holds)),
-            ("tethers", bytemuck::cast_slice(&self.tethers)),
-            ("images", bytemuck::cast_slice(&self.images)),
-        ]
+    pub fn words(&self, array: Array) -> &[u32] {
+        match array {
+            Array::Predicted => bytemuck::cast_slice(&self.predicted),
+            Array::Masses => &self.masses,
+            Array::Energies => bytemuck::cast_slice(&self.energies),
+            Array::NodeMasses => &self.node_masses,
+            Array::NodeBath => &self.node_bath,
+            Array::PairBaths => bytemuck::cast_slice(&self.pair_baths),
+            Array::Anchors => bytemuck::cast_slice(&self.anchors),
+            Array::PositionBaths => bytemuck::cast_slice(&self.position_baths),
+            Array::BondBaths => &self.bond_baths,
+            Array::Holds => bytemuck::cast_slice(&self.holds),
+            Array::Tethers => bytemuck::cast_slice(&self.tethers),
+            Array::Images => bytemuck::cast_slice(&self.images),
+        }
     }
 
-    /// Sets one of [`Self::arrays`].
+    /// Number of elements of an array.
+    #[must_use]
+    pub fn length(&self, array: Array) -> usize {
+        self.words(array).len() / array.width()
+    }
+
+    /// Sets an array.
     ///
     /// ```
-    /// use mesoscope::state::State;
+    /// use mesoscope::state::{Array, State};
     ///
     /// let mut state = State { masses: vec![3, 5], ..State::default() };
     /// let mut copy = State::default();
-    /// for (name, words) in state.arrays() {
-    ///     copy.set_array(name, words)?;
+    /// for array in Array::ALL {
+    ///     copy.set_words(array, state.words(array))?;
     /// }
     /// assert_eq!(copy, state);
-    /// assert!(state.set_array("colours", &[1, 2]).is_err());
+    /// assert!(state.set_words(Array::Tethers, &[1, 2]).is_err());
     /// # Ok::<(), String>(())
     /// ```
     ///
     /// # Errors
-    /// What is wrong with it: an unknown name, or words that are no whole number of its elements.
-    pub fn set_array(&mut self, name: &str, words: &[u32]) -> Result<(), String> {
-        fn elements<T: bytemuck::Pod>(name: &str, words: &[u32]) -> Result<Vec<T>, String> {
+    /// Words that are no whole number of its elements.
+    pub fn set_words(&mut self, array: Array, words: &[u32]) -> Result<(), String> {
+        fn elements<T: bytemuck::Pod>(array: Array, words: &[u32]) -> Result<Vec<T>, String> {
             match bytemuck::try_cast_slice(words) {
                 Ok(elements) => Ok(elements.to_vec()),
-                Err(_) => Err(format!("its `{name}` are cut off")),
+                Err(_) => Err(format!("its `{}` are cut off", array.name())),
             }
         }
-        match name {
-            "predicted" => self.predicted = elements(name, words)?,
-            "masses" => self.masses = words.to_vec(),
-            "energies" => self.energies = elements(name, words)?,
-            "node_masses" => self.node_masses = words.to_vec(),
-            "node_bath" => self.node_bath = words.to_vec(),
-            "pair_baths" => self.pair_baths = elements(name, words)?,
-            "anchors" => self.anchors = elements(name, words)?,
-            "position_baths" => self.position_baths = elements(name, words)?,
-            "bond_baths" => self.bond_baths = words.to_vec(),
-            "holds" => self.holds = elements(name, words)?,
-            "tethers" => self.tethers = elements(name, words)?,
-            "images" => self.images = elements(name, words)?,
-            _ => return Err(format!("it holds an unknown array `{}`", name.escape_debug())),
+        match array {
+            Array::Predicted => self.predicted = elements(array, words)?,
+            Array::Masses => self.masses = words.to_vec(),
+            Array::Energies => self.energies = elements(array, words)?,
+            Array::NodeMasses => self.node_masses = words.to_vec(),
+            Array::NodeBath => self.node_bath = words.to_vec(),
+            Array::PairBaths => self.pair_baths = elements(array, words)?,
+            Array::Anchors => self.anchors = elements(array, words)?,
+            Array::PositionBaths => self.position_baths = elements(array, words)?,
+            Array::BondBaths => self.bond_baths = words.to_vec(),
+            Array::Holds => self.holds = elements(array, words)?,
+            Array::Tethers => self.tethers = elements(array, words)?,
+            Array::Images => self.images = elements(array, words)?,
         }
         Ok(())
     }
 
     /// The first array that has neither no element nor one for each particle, where it should.
     #[must_use]
-    pub fn misshapen(&self) -> Option<&'static str> {
-        let count = self.len();
-        let lengths = [
-            ("predicted", self.predicted.len()),
-            ("masses", self.masses.len()),
-            ("energies", self.energies.len()),
-            ("anchors", self.anchors.len()),
-            ("position_baths", self.position_baths.len()),
-            ("holds", self.holds.len()),
-            ("tethers", self.tethers.len()),
-            ("images", self.images.len()),
-        ];
-        lengths.into_iter().find(|(_, length)| *length != 0 && *length != count).map(|(name, _)| name)
+    pub fn misshapen(&self) -> Option<Array> {
+        let wrong = |array: &Array| ![0, self.len()].contains(&self.length(*array));
+        Array::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)
     }
 
     /// How often a particle has gone round the box along every axis, as far as that is known.

@@ -11,7 +11,8 @@ use clap::Parser;
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -113,7 +114,7 @@ fn planned(text: &str, variant: &Variant) -> Result<(Scene, Plan), Failure> {
     let scene = scene::parse(variant.name, text, &variant.changes)?;
     let model = Model::new(&scene);
     let hardware = Hardware::default();
-    let plan = plan::plan(&model, 0, &scene.output, hardware, variant.options);
+    let plan = run::plan(&model, 0, &scene.output, hardware, variant.options);
     Ok((scene, plan))
 }
 
@@ -121,7 +122,7 @@ fn planned(text: &str, variant: &Variant) -> Result<(Scene, Plan), Failure> {
 fn run<'a>(gpu: &'a Gpu, scene: &Scene, options: Options, warm: u64) -> Result<Run<'a>, Failure> {
     let model = Model::new(scene);
     let hardware = Hardware::from(gpu);
-    let plan = plan::plan(&model, 0, &scene.output, hardware, options);
+    let plan = run::plan(&model, 0, &scene.output, hardware, options);
     let state: State = mesoscope::families::initial_state(scene, &model);
     let mut engine = Engine::new(gpu, plan, &state)?;
     engine.advance(warm, 50)?;

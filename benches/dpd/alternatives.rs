@@ -3,7 +3,8 @@
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{self, Options, Traversal};
+use mesoscope::plan::{Options, Traversal};
+use mesoscope::run;
 use mesoscope::scene;
 use mesoscope::state::State;
 
@@ -68,7 +69,7 @@ impl Alternative {
         let scene = scene::load("dpd-fluid", &changes)?;
         let species = (0..self.species).cycle().take(fluid.particles()).map(Into::into).collect();
         let state = State { species, ..fluid.state.clone() };
-        let plan = plan::plan(&Model::new(&scene), 0, &scene.output, gpu.into(), (self.options)());
+        let plan = run::plan(&Model::new(&scene), 0, &scene.output, gpu.into(), (self.options)());
         Run::new(Engine::new(gpu, plan, &state)?, fluid.particles())
     }
 }

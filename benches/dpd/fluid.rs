@@ -3,7 +3,8 @@
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -32,7 +33,7 @@ pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Scene, Failu
 }
 
 pub fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
-    plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, Options::default())
+    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, Options::default())
 }
 
 /// Particles in equilibrium: all runs of this size begin with them, those of LAMMPS too.

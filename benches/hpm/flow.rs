@@ -6,7 +6,8 @@ use mesoscope::engine::Engine;
 use mesoscope::families::{Model, ShallowWater};
 use mesoscope::gpu::Gpu;
 use mesoscope::measure::{Observables, observables_of};
-use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -89,7 +90,7 @@ const NEVER: u64 = 1_000_000_000;
 /// The plan for a size, with changes of the scene.
 pub fn plan_of(size: Size, changes: &[&str], hardware: Hardware, options: Options) -> Result<Plan, Failure> {
     let scene = scene(size, NEVER, changes)?;
-    Ok(plan::plan(&Model::new(&scene), 0, &scene.output, hardware, options))
+    Ok(run::plan(&Model::new(&scene), 0, &scene.output, hardware, options))
 }
 
 /// Where a run begins.
@@ -136,7 +137,7 @@ impl Flow {
     /// What is measured at step 0 and after so many steps.
     pub fn observed(&self, gpu: &Gpu, steps: u64) -> Result<[Observables; 2], Failure> {
         let scene = scene(self.size, steps, &[])?;
-        let plan = plan::plan(&self.model, 0, &scene.output, gpu.into(), Options::default());
+        let plan = run::plan(&self.model, 0, &scene.output, gpu.into(), Options::default());
         let mut engine = Engine::new(gpu, plan, &self.state)?;
         engine.advance(steps, steps)?;
         let samples = engine.finish()?;

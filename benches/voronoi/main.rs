@@ -12,7 +12,8 @@ use clap::Parser;
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::tessellation::Tessellation;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
@@ -93,7 +94,7 @@ fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
 }
 
 fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
-    plan::plan(&Model::new(scene), 0, &scene.output, hardware, Options::default())
+    run::plan(&Model::new(scene), 0, &scene.output, hardware, Options::default())
 }
 
 /// The plan of a scene with nothing in a step but the tessellation.

@@ -13,10 +13,11 @@ pub(crate) use readback::read as read_back;
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
+use std::mem::offset_of;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Failure, FailureKind, Hardware, Layout, Misfit, Paths, Plan, TIDYING};
+use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
 use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
@@ -78,7 +79,8 @@ enum Phase {
 /// ```
 /// use mesoscope::engine::Engine;
 /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-/// # use mesoscope::plan::{Hardware, Options, plan};
+/// # use mesoscope::plan::{Hardware, Options};
+/// # use mesoscope::run::plan;
 /// # use mesoscope::{families::Model, scene};
 /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
 /// # let scene = scene::load("dpd-fluid", &small)?;
@@ -372,17 +374,26 @@ impl<'a> Engine<'a> {
         self.record_sample(&mut recording);
         self.record_report(&mut recording);
         self.submit(recording.finish())?;
-        let Some(buffer) = self.plan.reported else {
+        let Some((buffer, layout)) = self.plan.reported.clone() else {
             let mut state = self.download()?;
             state.predicted.clear();
             return Ok(state);
         };
-        let layout = Layout::Particles { dimension: self.plan.units.dimension, predicted: false };
         let words = self.words(buffer)?;
         let state = layout.unpack(self.step, &[&words], self.plan.particles as usize);
         let mut state = state.map_err(|reason| EngineError::State { reason })?;
         self.complete_images(&mut state)?;
         Ok(state)
+    }
+
+    /// Exchanges that a limit has cut since the upload.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device failed.
+    pub fn limited_exchanges(&mut self) -> Result<u64, EngineError> {
+        let control = self.words("control")?;
+        let word = |offset: usize| u64::from(control.get(offset / size_of::<u32>()).copied().unwrap_or(0));
+        Ok(word(offset_of!(Control, limited_high)) << 32 | word(offset_of!(Control, limited)))
     }
 
     /// The words of a buffer or texture of the plan, as they are once the device is done.

@@ -43,7 +43,8 @@ impl Engine<'_> {
     /// ```
     /// # use mesoscope::engine::Engine;
     /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-    /// # use mesoscope::plan::{Hardware, Options, plan};
+    /// # use mesoscope::plan::{Hardware, Options};
+    /// # use mesoscope::run::plan;
     /// # use mesoscope::{families::Model, scene};
     /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
     /// # let scene = scene::load("dpd-fluid", &small)?;

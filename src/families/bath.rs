@@ -1,6 +1,6 @@
 //! Heat baths with exponential memory: the family of schemes of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
-use crate::scene::{Bath, BathScheme};
+use crate::document::{Bath, BathScheme};
 
 /// One step of a bath variable s that is coupled to a function h of the positions,
 ///

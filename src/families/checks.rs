@@ -1,7 +1,7 @@
 //! What can be checked only in a scene without any other mistake: whether its time step can be stable, and its start.
 
 use super::{Model, initial_state};
-use crate::scene::{Problems, Scene, SceneError};
+use crate::document::{Problems, Scene, SceneError};
 use crate::state::State;
 
 /// Particles up to which a start is tried where a scene is checked; a start of more is looked at when a run makes it.

@@ -18,10 +18,12 @@ pub mod reference;
 mod registry;
 pub mod shallow_water;
 mod start;
+mod tally;
 mod units;
 pub mod voronoi;
 mod warnings;
 
+pub use crate::document::NETWORK_VISCOSITY;
 pub use bath::BathStep;
 pub(crate) use checks::check;
 pub use checks::check_start;
@@ -43,12 +45,13 @@ pub(crate) use registry::{check_interactions, complete};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::initial_state;
-pub use voronoi::model::{NETWORK_VISCOSITY, Voronoi};
+pub(crate) use tally::{Counted, Tally};
+pub use voronoi::model::Voronoi;
 pub use warnings::warnings;
 
+use crate::document::{FieldQuantity, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::numbers::grouped;
-use crate::plan::{Hardware, Options, Plan};
-use crate::scene::{FieldQuantity, Output, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use pictures::{CellValues, EnergyChart, MeshPictures};
@@ -57,6 +60,8 @@ use std::ops::Range;
 /// Closed loops of tracers that move with the flow.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MaterialLoops {
+    /// Number of all tracers, on closed loops or not.
+    pub tracers: u64,
     /// Coriolis parameter.
     pub rotation: f64,
     /// Neighbours on a loop that are further apart than this have lost each other.
@@ -123,8 +128,8 @@ pub(crate) trait Physics {
     /// Refuses a time step that is certainly unstable.
     fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
 
-    /// The plan of a run.
-    fn plan(&self, model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan;
+    /// The plan of steps and reports, with what is measured.
+    fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan;
 
     /// The particles of a model, with their number.
     fn particles_in_words(&self, count: u64) -> String {
@@ -154,9 +159,9 @@ pub(crate) trait Physics {
         None
     }
 
-    /// Whether the device counts exchanges and iterations from the upload of a state on.
-    fn counts_exchanges(&self) -> bool {
-        false
+    /// What the device counts from the upload of a state on, if anything.
+    fn tally(&self) -> Option<&dyn Tally> {
+        None
     }
 
     /// Loops that move with the flow, if the family has them.
@@ -164,9 +169,9 @@ pub(crate) trait Physics {
         None
     }
 
-    /// Viscosity of the law of friction, if it has one.
-    fn viscosity(&self) -> Option<f64> {
-        None
+    /// Shear viscosities that follow from the parameters, by their names in a result.
+    fn known_viscosities(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
     }
 
     /// Nodes of a mesh.

@@ -4,8 +4,9 @@ use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PictureKind,
     PositionBath, ShallowWater, Voronoi,
 };
-use crate::plan::Plan;
-use crate::scene::{Distribution, Generator, Integrator, Scene, Warning};
+use crate::document::{Distribution, Generator, Integrator, Scene, Warning};
+use crate::noise;
+use crate::plan::{Plan, Quanta, StateLayout};
 use crate::state::Units;
 
 /// A species of particles.
@@ -92,10 +93,7 @@ impl Model {
     /// impulses up on its own, and listed pairs persist.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
-        match &self.family {
-            Family::Particles(particles) => particles.are_coupled,
-            Family::ShallowWater(_) | Family::Voronoi(_) => false,
-        }
+        self.particles().is_some_and(|particles| particles.are_coupled)
     }
 
     /// Temperature kT of the bath of pairs.
@@ -153,6 +151,18 @@ impl Model {
     #[must_use]
     pub fn particle_count(&self) -> u64 {
         self.species.iter().fold(0, |sum, species| sum.saturating_add(species.count))
+    }
+
+    /// A plan of it that does nothing yet; its noise is of the stream.
+    pub(crate) fn empty_plan(&self, cells: [u32; 3], layout: impl StateLayout, quanta: Quanta, stream: u32) -> Plan {
+        Plan {
+            particles: self.particle_count(),
+            cells,
+            seed_key: noise::seed_key(self.seed, stream),
+            time_step: self.time_step,
+            suggested_step: (0.25 * self.time_step).min(self.pair_step()),
+            ..Plan::new(self.units, layout, quanta)
+        }
     }
 
     /// The physics of its family.

@@ -1,7 +1,7 @@
 //! What pictures of a state show, as data.
 
 use super::Field;
-use crate::scene::FieldQuantity;
+use crate::document::FieldQuantity;
 
 /// What pictures of a state are of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

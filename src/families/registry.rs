@@ -1,7 +1,7 @@
 //! All families of models.
 
 use super::{Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
-use crate::scene::{Integrator, Interaction, Problem, Problems, Scene, SnapshotColor, SpeciesNames};
+use crate::document::{Integrator, Interaction, Problem, Problems, Scene, SnapshotColor, SpeciesNames};
 
 /// A family, with what a model of it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +46,7 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
         let path = format!("interactions[{index}]");
         match interaction {
             Interaction::ColouredNoise(noise) => {
-                particles::scene::coloured_noise::check(scene, noise, &path, problems);
+                particles::checks::coloured_noise::check(scene, noise, &path, problems);
             }
             // Of a second one all has been said.
             Interaction::ShallowWater(_) if Some(index) != first_water => {}
@@ -55,26 +55,26 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
                 problems.push(Problem::new(&path, "found together with another interaction", accepted));
             }
             Interaction::ShallowWater(water) => {
-                shallow_water::scene::checks::check(scene, water, &path, problems);
+                shallow_water::checks::check(scene, water, &path, problems);
             }
-            Interaction::Dpd(dpd) => particles::scene::checks::check_pairs(species, dpd, &path, problems),
-            Interaction::Voronoi(voronoi) => voronoi::scene::check(scene, voronoi, &path, problems),
+            Interaction::Dpd(dpd) => particles::checks::check_pairs(species, dpd, &path, problems),
+            Interaction::Voronoi(voronoi) => voronoi::checks::check(scene, voronoi, &path, problems),
             Interaction::HarmonicChain(chain) => {
-                particles::scene::harmonic_chain::check(scene, chain, &path, problems);
+                particles::checks::harmonic_chain::check(scene, chain, &path, problems);
             }
             _ => {}
         }
-        particles::scene::checks::check_interaction(scene, species, interaction, &path, problems);
+        particles::checks::check_interaction(scene, species, interaction, &path, problems);
     }
-    particles::scene::checks::check_scene(scene, problems);
+    particles::checks::check_scene(scene, problems);
     if first_water.is_none() {
-        shallow_water::scene::checks::check_absence(scene, problems);
+        shallow_water::checks::check_absence(scene, problems);
     }
-    if voronoi::scene::voronoi(scene).is_none() {
-        voronoi::scene::check_absence(scene, problems);
+    if crate::document::voronoi(scene).is_none() {
+        voronoi::checks::check_absence(scene, problems);
     }
-    if particles::scene::harmonic_chain::harmonic_chain(scene).is_none() {
-        particles::scene::harmonic_chain::check_absence(scene, problems);
+    if particles::checks::harmonic_chain::harmonic_chain(scene).is_none() {
+        particles::checks::harmonic_chain::check_absence(scene, problems);
     }
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
     let cells = of_type(|interaction| matches!(interaction, Interaction::Voronoi(_)));
     if integrator && water {
         scene.integrator = Integrator::Gyro {};
-    } else if integrator && particles::scene::checks::is_coupled(scene) {
+    } else if integrator && particles::checks::is_coupled(scene) {
         scene.integrator = Integrator::CotterReich {};
     }
     if colour && cells {

@@ -1,9 +1,9 @@
 //! Where the particles of a scene start, and how fast.
 
 use super::particles::chains;
+use crate::document::{Generator, ParticleGroup, Placement, Scene, Velocities};
 use crate::families::Model;
 use crate::noise::{self, stream};
-use crate::scene::{Generator, ParticleGroup, Placement, Scene, Velocities};
 use crate::state::{State, crossings};
 use std::ops::Range;
 

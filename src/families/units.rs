@@ -2,7 +2,7 @@
 
 use super::particles::model::forces;
 use super::{ChainTrios, PairForce, Species};
-use crate::scene::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
+use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
 /// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.

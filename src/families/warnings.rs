@@ -1,7 +1,7 @@
 //! What is allowed but deserves a second look.
 
 use super::Model;
-use crate::scene::{Scene, Velocities, Warning};
+use crate::document::{Scene, Velocities, Warning};
 
 /// Warnings about a scene that [`crate::scene::load`] accepted.
 ///

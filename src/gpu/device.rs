@@ -118,7 +118,8 @@ impl Gpu {
     ///
     /// use mesoscope::engine::Engine;
     /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-    /// # use mesoscope::plan::{Hardware, Options, plan};
+    /// # use mesoscope::plan::{Hardware, Options};
+    /// # use mesoscope::run::plan;
     /// # use mesoscope::{families::Model, scene};
     ///
     /// let seen = Arc::new(Mutex::new(0));

@@ -10,7 +10,8 @@ use crate::plan::Plan;
 /// ```
 /// use mesoscope::engine::Engine;
 /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
-/// use mesoscope::plan::{Hardware, Options, plan};
+/// use mesoscope::plan::{Hardware, Options};
+/// use mesoscope::run::plan;
 /// use mesoscope::{measure::observables_of, families::Model, scene};
 ///
 /// let small = ["space.box=[3,3,3]", r#"output={"energies":{"every":10}}"#].map(str::to_owned);

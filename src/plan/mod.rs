@@ -1,11 +1,11 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
-pub(crate) mod analyses;
+mod compared;
 mod failure;
 mod grid;
-pub(crate) mod layout;
-pub(crate) mod pair_histogram;
+mod layout;
 pub(crate) mod paths;
+mod physics;
 mod precision;
 pub(crate) mod prefix_sum;
 pub(crate) mod recording;
@@ -13,51 +13,26 @@ pub(crate) mod serial_memory;
 mod table;
 mod texture;
 
+pub use compared::Compared;
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
-pub(crate) use layout::LARGEST_MASS;
-pub use layout::{Bins, Layout, Listed, Misfit};
+pub use layout::{Layout, Length, Misfit, StateLayout};
+pub(crate) use layout::{Places, content};
 pub use paths::Paths;
+pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};
 pub use precision::check_precision;
-pub use table::Table;
+pub use table::{Table, Words};
 pub use texture::Texture;
 
 use std::collections::BTreeSet;
 
-use crate::families::Model;
-use crate::noise::{self, Generator};
-use crate::scene::{AnalysisId, Distribution, Output};
+use crate::document::{AnalysisId, Distribution};
+use crate::noise::Generator;
 use crate::shaders::noise::Deviate;
 use crate::shaders::{self, Choices, Entry};
 use crate::state::Units;
 
-/// Makes the plan of a model.
-///
-/// ```
-/// use mesoscope::families::Model;
-/// use mesoscope::plan::{Hardware, Options, plan};
-///
-/// // No device is needed to see what a run would do, nor to check its shaders.
-/// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-/// let model = Model::new(&scene);
-/// let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
-/// assert_eq!((plan.particles, plan.cells), (24_000, [20, 20, 20]));
-/// assert!(plan.samplers[0].due(40) && !plan.samplers[0].due(41));
-/// for kernel in plan.sort.iter().chain(&plan.advance).map(|&index| &plan.kernels[index]) {
-///     mesoscope::gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-    let mut plan = model.physics().plan(model, equilibration, output, hardware, options);
-    if options.suits_serial_memory(hardware) {
-        plan.suit_serial_memory();
-    }
-    plan
-}
-
-/// Folds a number of workgroups into two dimensions of at most 65 535 each; a few of them may have nothing to do.
+/// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
 pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
     const LIMIT: u32 = 65_535;
     if workgroups <= LIMIT {
@@ -364,9 +339,10 @@ pub struct Plan {
     /// The most storage buffers that one kernel binds, before any of them is kept in a texture; at least eight, which every adapter
     /// allows.
     pub storage_buffers: u32,
-    /// The buffer in which a report leaves the particles by id, if it is not the one that holds the state.
-    pub reported: Option<&'static str>,
-    /// Arithmetic operations per particle and step, estimated from the density.
+    /// The buffer in which a report leaves the particles by number and how they lie there, if it is not the one that holds
+    /// the state.
+    pub reported: Option<(&'static str, Layout)>,
+    /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
 }
 
@@ -405,7 +381,8 @@ impl Kernel {
     ///
     /// ```
     /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::plan::{Hardware, Options};
+    /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
@@ -442,8 +419,8 @@ impl Sampler {
     /// Number of samples before a step.
     ///
     /// ```
-    /// # use mesoscope::plan::{Hardware, Options, plan};
-    /// # use mesoscope::{families::Model, scene};
+    /// # use mesoscope::plan::{Hardware, Options};
+    /// # use mesoscope::{families::Model, run::plan, scene};
     /// let scene = scene::load("dpd-fluid", &[r#"output={"energies":{"every":20}}"#.to_owned()])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
     /// assert_eq!([0, 1, 20, 21].map(|step| plan.samplers[0].samples_before(step)), [0, 1, 1, 2]);
@@ -464,18 +441,18 @@ impl Sampler {
 }
 
 impl Plan {
-    /// A plan of a model that does nothing yet, with the random numbers of a stream.
-    pub(crate) fn new(model: &Model, cells: [u32; 3], layout: Layout, quanta: Quanta, stream: u32) -> Self {
+    /// A plan of no particles that does nothing yet.
+    pub(crate) fn new(units: Units, layout: impl StateLayout, quanta: Quanta) -> Self {
         Self {
-            particles: model.particle_count(),
-            units: model.units,
-            cells,
-            layout,
+            particles: 0,
+            units,
+            cells: [1; 3],
+            layout: Layout::new(layout),
             quanta,
-            seed_key: noise::seed_key(model.seed, stream),
-            time_step: model.time_step,
+            seed_key: [0; 2],
+            time_step: 0.0,
             force_unit: 0.0,
-            suggested_step: (0.25 * model.time_step).min(model.pair_step()),
+            suggested_step: 0.0,
             kernels: Vec::new(),
             constants: Vec::new(),
             buffers: Vec::new(),
@@ -518,7 +495,8 @@ impl Plan {
     }
 
     /// Adds a buffer of a table that grows with the number of particles.
-    pub(crate) fn add_long_table(&mut self, name: &'static str, purpose: &'static str, table: Table) {
+    pub(crate) fn add_long_table(&mut self, name: &'static str, purpose: &'static str, words: impl Words) {
+        let table = Table::new(words);
         self.add_buffer_with(name, purpose, table.length(), Contents::Table(table));
     }
 
@@ -536,7 +514,8 @@ impl Plan {
     ///
     /// ```
     /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::plan::{Hardware, Options};
+    /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &["particles.0.number_density=6".to_owned()])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
@@ -556,7 +535,8 @@ impl Plan {
     ///
     /// ```
     /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::plan::{Hardware, Options};
+    /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
@@ -603,8 +583,9 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::{Hardware, Options, folded, plan};
+    use super::{Hardware, Options, folded};
     use crate::families::Model;
+    use crate::run::plan;
     use crate::scene;
 
     #[test]

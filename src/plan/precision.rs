@@ -1,13 +1,14 @@
 //! Whether single precision can hold the numbers that follow from a scene.
 
 use super::{Contents, Plan};
-use crate::scene::{Scene, SceneError};
+use crate::document::{Scene, SceneError};
 use serde_json::Value;
 
 /// Refuses a plan of a scene if a constant or coefficient of its kernels is too large or too small for single precision.
 ///
 /// ```
-/// use mesoscope::plan::{Hardware, Options, check_precision, plan};
+/// use mesoscope::plan::{Hardware, Options, check_precision};
+/// use mesoscope::run::plan;
 /// use mesoscope::{families::Model, scene};
 ///
 /// let heavy = ["particles.0.mass=1e60"].map(str::to_owned);

@@ -3,15 +3,15 @@
 //! From a buffer, software adapters load a vector word by word for each lane; from a texture they load whole texels. So arrays that
 //! kernels often load lane by lane are kept in textures.
 
-use super::{Buffer, Kernel, Layout, Plan, Texture};
-use crate::shaders::{Choice, Entry, arrays, core, grid, pairs};
+use super::{Buffer, Kernel, Plan, Texture};
+use crate::shaders::{Choice, Entry, core, grid};
 
 /// Iterations of all loops together that an invocation gets on average: software adapters leave loops after 65 535 of them.
 pub(crate) const TURNS: u64 = 1 << 14;
 
-/// A buffer that may be kept in a texture instead.
-#[derive(Clone, Copy)]
-struct Candidate {
+/// A buffer that may be held in a texture instead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Candidate {
     name: &'static str,
     /// Words of a texel.
     words: u32,
@@ -20,19 +20,21 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// What a kernel reaches by the name: the buffer, or another in its place.
+    /// A buffer that every kernel comes to by functions, so that it may be in a texture of so many words a texel.
+    pub fn new(name: &'static str, words: u32, texture: impl Into<Choice>) -> Self {
+        Self { name, words, texture: texture.into() }
+    }
+
+    /// What a kernel comes to by the name: the buffer, or another in its place.
     fn bound(&self, kernel: &Kernel) -> &'static str {
         let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == self.name);
         renamed.map_or(self.name, |(_, buffer)| buffer)
     }
 }
 
-fn candidate(name: &'static str, words: u32, texture: impl Into<Choice>) -> Candidate {
-    Candidate { name, words, texture: texture.into() }
-}
-
-/// Kernels that mainly move particles or shares of nodes load and store words in pairs; where arithmetic dominates, separating the
-/// pairs costs more than it saves. For particles this matters only where they are too many for textures.
+/// Kernels that move particles or shares of nodes about and do little else load and store words in pairs; where arithmetic is
+/// what costs, taking the pairs apart costs more than it saves. Of the particles this matters where they are too many for
+/// textures.
 const MOVES_WORDS: [Entry; 8] = [
     Entry::VisitMeshCells,
     Entry::VisitMeshStrips,
@@ -45,14 +47,13 @@ const MOVES_WORDS: [Entry; 8] = [
 ];
 
 impl Plan {
-    /// Adapts kernels and buffers to lanes that run one after the other.
-    pub(crate) fn suit_serial_memory(&mut self) {
-        let candidates = self.candidates();
-        for array in &candidates {
+    /// Suits kernels and buffers to lanes that are taken one after the other.
+    pub(crate) fn suit_serial_memory(&mut self, candidates: &[Candidate]) {
+        for array in candidates {
             self.hold_in_texture(array);
         }
         for kernel in &mut self.kernels {
-            for array in &candidates {
+            for array in candidates {
                 let name = array.bound(kernel);
                 if self.textures.iter().any(|texture| texture.name == name) {
                     kernel.choices.choose(array.texture);
@@ -72,38 +73,7 @@ impl Plan {
         self.add_texture("clock", "step and key of its random words, for kernels to read", 4, 1);
     }
 
-    /// Arrays that every kernel of this plan accesses through functions, so that they may be in textures.
-    fn candidates(&self) -> Vec<Candidate> {
-        let waves =
-            [candidate("waves", 2, arrays::Waves::Texture), candidate("waves_next", 2, arrays::WavesNext::Texture)];
-        if let Layout::Water { .. } = self.layout {
-            // Only Fourier transforms do.
-            let transforms = self.kernels.iter().any(|kernel| kernel.entry == Entry::FourierTurn);
-            return if transforms { waves.to_vec() } else { Vec::new() };
-        }
-        let mut candidates = vec![
-            candidate("cells", 1, arrays::Cells::Texture),
-            candidate("ranks", 1, arrays::Ranks::Texture),
-            candidate("coefficients", 4, arrays::Coefficients::Texture),
-        ];
-        // Where the hits of a split step share the buffer of the particles, it stays one.
-        if !self.kernels.iter().any(|kernel| kernel.choices.has(pairs::Hits::Keep)) {
-            candidates.push(candidate("particles", 4, arrays::Particles::Texture));
-        }
-        // Where neighbours are found by lists, or as Voronoi cells.
-        if matches!(self.layout, Layout::Coupled { .. } | Layout::Cells { .. }) {
-            candidates.extend([
-                candidate("sorted", 4, arrays::Sorted::Texture),
-                candidate("neighbours", 1, arrays::Neighbours::Texture),
-                candidate("neighbours_next", 1, arrays::NeighboursNext::Texture),
-                candidate("memories", 2, arrays::Memories::Texture),
-                candidate("memories_next", 2, arrays::MemoriesNext::Texture),
-            ]);
-        }
-        candidates
-    }
-
-    /// Keeps a buffer in a texture, if there is such a buffer and it fits.
+    /// Holds a buffer in a texture, if there is such a buffer and it fits.
     fn hold_in_texture(&mut self, array: &Candidate) {
         let Some(place) = self.buffers.iter().position(|buffer| buffer.name == array.name) else { return };
         let texels = self.buffers[place].bytes.div_ceil(4 * u64::from(array.words));

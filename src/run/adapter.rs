@@ -1,6 +1,7 @@
 //! The adapter of a run, and the plan for it.
 
 use super::RunError;
+use super::plan::plan;
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::plan::{self, Hardware, Options, Plan};
@@ -14,7 +15,7 @@ pub(super) fn open_adapter(
     options: Options,
 ) -> Result<(Gpu, Plan), RunError> {
     let open = |hardware| {
-        let plan = plan::plan(model, scene.time.equilibration, &scene.output, hardware, options);
+        let plan = plan(model, scene.time.equilibration, &scene.output, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
         let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
@@ -53,5 +54,5 @@ pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunErro
 
 /// The plan of a scene on an adapter.
 pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
-    plan::plan(model, scene.time.equilibration, &scene.output, gpu.into(), options)
+    plan(model, scene.time.equilibration, &scene.output, gpu.into(), options)
 }

@@ -3,12 +3,12 @@
 use super::analyses::Analyses;
 use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
-use super::exchange_tally::{self, ExchangeTally};
 use super::kept_sums::{self, KeptSums};
 use super::pace::Pace;
 use super::pictures::{Pictures, mesh_depth};
 use super::schedule::Schedule;
 use super::sections::Sections;
+use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
 use crate::engine::{Engine, Sample};
@@ -44,7 +44,7 @@ pub(super) struct Run<'a> {
     schedule: Schedule,
     pub energies: EnergyRecorder,
     analyses: Analyses,
-    tally: ExchangeTally,
+    carried: Carried,
     pub kept_sums: KeptSums,
     trajectory: Option<TrajectoryWriter>,
     pictures: Pictures<'a>,
@@ -71,8 +71,7 @@ impl<'a> Run<'a> {
         // What is wrong with the checkpoint is found before a file is touched.
         let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
         analyses.continue_windows(engine, &sections)?;
-        let tally =
-            if model.physics().counts_exchanges() { ExchangeTally::new(&sections)? } else { ExchangeTally::default() };
+        let carried = Carried::new(model, &sections)?;
         let kept_sums = KeptSums::new(model, &start.state, &sections)?;
         let schedule = Schedule::new(scene, model, analyses.state_intervals());
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
@@ -105,7 +104,7 @@ impl<'a> Run<'a> {
             schedule,
             energies,
             analyses,
-            tally,
+            carried,
             kept_sums,
             trajectory,
             pictures,
@@ -219,9 +218,7 @@ impl<'a> Run<'a> {
         sections.extend(self.analyses.sections_of_states());
         sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
         sections.extend(self.pictures.sections());
-        if self.model.physics().counts_exchanges() {
-            sections.push((exchange_tally::SECTION.to_owned(), self.tally.section(engine)?));
-        }
+        sections.extend(self.carried.section(self.model, engine)?);
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
@@ -240,7 +237,7 @@ impl<'a> Run<'a> {
             if sample.sampler == 0 {
                 self.kept_sums.compare(sample);
                 let mut observables = observables_of(sample, plan, self.model);
-                self.tally.complete(&mut observables);
+                self.carried.complete(self.model, &mut observables);
                 self.energies.add(&observables)?;
             } else {
                 self.analyses.add(sample);

@@ -39,18 +39,19 @@ mod colour_ranges;
 mod conservation;
 mod energies;
 mod error;
-mod exchange_tally;
 mod execution;
 mod interrupt;
 mod kept_sums;
 mod pace;
 mod pictures;
 mod pilot;
+mod plan;
 mod schedule;
 mod sections;
 mod settling;
 mod simulation;
 mod sizes;
+mod tally;
 mod task;
 
 pub use adapter::adapter_for;
@@ -62,6 +63,7 @@ pub use interrupt::Interrupt;
 pub(crate) use pictures::save;
 pub use pictures::{lettering, redraw};
 pub use pilot::{ExpectedTime, expected_time};
+pub use plan::plan;
 pub use simulation::Simulation;
 pub use sizes::Sizes;
 

@@ -5,6 +5,7 @@ use super::execution::{NOTICES, Outcome, Run};
 use super::interrupt::Interrupt;
 use super::pace::Pace;
 use super::pictures;
+use super::plan::plan;
 use super::task::Task;
 use super::{Event, RunError};
 use crate::engine::{Engine, EngineError};
@@ -12,7 +13,7 @@ use crate::families::{self, Instability, Model};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
-use crate::plan::{self, Hardware, Options, Plan};
+use crate::plan::{Hardware, Options, Plan};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -84,7 +85,7 @@ impl Simulation {
         let model = Model::new(&scene);
         // What a state has to have is the same on every adapter.
         let (hardware, options) = (Hardware::default(), Options::default());
-        let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
+        let plan = plan(&model, scene.time.equilibration, &scene.output, hardware, options);
         if let Some(problem) = plan.misfit(&checkpoint.state, &model) {
             return Err(CheckpointError::Malformed { path, problem }.into());
         }

@@ -1,9 +1,9 @@
 //! How large the files of a run will be, before it begins.
 
 use super::analyses::{AskedAnalysis, asked_analyses};
-use crate::families::{Bonds, Model, PictureKind};
+use crate::families::{Model, PictureKind};
 use crate::output::bytes_per_particle;
-use crate::plan::{Layout, Plan};
+use crate::plan::Plan;
 use crate::plot::snapshot_size;
 use crate::scene::Scene;
 
@@ -38,7 +38,8 @@ impl Sizes {
     /// ```
     /// use mesoscope::families::Model;
     /// use mesoscope::run::Sizes;
-    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::plan::{Hardware, Options};
+    /// use mesoscope::run::plan;
     ///
     /// let sizes = |set: &str| {
     ///     let scene = mesoscope::scene::load("dpd-fluid", &[set.to_owned()])?;
@@ -86,7 +87,7 @@ impl Sizes {
             tables: sum(&|asked| asked.numbers.saturating_mul(NUMBER)),
             checkpoint: [times(output.energies.every).saturating_mul(ROW_KEPT), sum(&|asked| asked.kept_bytes)]
                 .into_iter()
-                .fold(checkpoint(model, plan), u64::saturating_add),
+                .fold(checkpoint(plan), u64::saturating_add),
             trajectory,
             pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots)),
             numbered: picture.saturating_mul(numbered),
@@ -102,34 +103,15 @@ impl Sizes {
     }
 }
 
-/// Bytes of a checkpoint: the state of every particle, what else a layout keeps, open windows, and the scene.
-fn checkpoint(model: &Model, plan: &Plan) -> u64 {
+/// Bytes of a checkpoint: the state, open windows, and the scene.
+fn checkpoint(plan: &Plan) -> u64 {
     const SCENE: u64 = 4096;
-    // Position, momentum and species.
-    let mut particle = 28;
-    let mut beside = SCENE;
-    match plan.layout {
-        Layout::Particles { predicted, .. } => particle += if predicted { 12 } else { 0 },
-        Layout::Cells { energies } => particle += if energies { 8 } else { 4 },
-        Layout::Water { bath_nodes, .. } => {
-            particle += 4;
-            beside += 8 * bath_nodes as u64;
-        }
-        Layout::Coupled { predicted, listed, position_baths, holds, tethers, .. } => {
-            let words = [(predicted, 12), (position_baths, 12), (holds, 24), (tethers, 12)];
-            particle += words.iter().filter(|(has, _)| *has).map(|(_, bytes)| bytes).sum::<u64>();
-            if let Some(listed) = listed.filter(|listed| listed.memory) {
-                // Where it was when it was listed, and its pairs: the capacity of the list is half as many again and twelve.
-                particle += 12 + 20 * ((listed.capacity as u64).saturating_sub(12) * 2 / 3);
-            }
-            beside += 4 * model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, Bonds::count);
-        }
-    }
-    if plan.paths.are_followed() {
-        particle += 12;
-    }
-    for window in plan.samplers.iter().filter_map(|sampler| sampler.window) {
-        beside += plan.buffers.iter().find(|buffer| buffer.name == window.buffer).map_or(0, |buffer| buffer.bytes);
-    }
-    particle.saturating_mul(plan.particles).saturating_add(beside)
+    /// Position, momentum and species.
+    const PARTICLE: u64 = 28;
+    let arrays = plan.arrays(plan.particles as usize).into_iter();
+    let arrays = arrays.map(|(array, length)| (4 * array.width() as u64).saturating_mul(length.expected() as u64));
+    let windows = plan.samplers.iter().filter_map(|sampler| sampler.window);
+    let windows = windows
+        .map(|window| plan.buffers.iter().find(|buffer| buffer.name == window.buffer).map_or(0, |buffer| buffer.bytes));
+    arrays.chain(windows).fold(PARTICLE.saturating_mul(plan.particles).saturating_add(SCENE), u64::saturating_add)
 }

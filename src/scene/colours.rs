@@ -1,8 +1,6 @@
 //! What pictures show by colour: ranges that have a length, of quantities that have a scale.
 
-use super::error::Problem;
-use super::problems::Problems;
-use super::{Scene, SnapshotColor};
+use super::{Problem, Problems, Scene, SnapshotColor};
 
 /// Finds ranges of colours that cannot be shown.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {

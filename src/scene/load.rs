@@ -10,12 +10,11 @@ use serde_json::Value;
 
 use crate::families;
 
-use super::error::{Problem, SceneError, Warning};
-use super::nearest::nearest;
 use super::path::related;
-use super::problems::Problems;
 use super::shape::Substitute;
-use super::{Scene, builtin, overrides, semantics, shape, shorten, text};
+use super::{
+    Problem, Problems, Scene, SceneError, Warning, builtin, nearest, overrides, semantics, shape, shorten, text,
+};
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
 /// `overrides` (`path.to.key=value`, in order) and checks the result.

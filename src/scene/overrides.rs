@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::error::Problem;
+use super::Problem;
 
 /// The form of an override, for messages.
 const FORM: &str = "path.to.key=value, as in time.step=0.02";

@@ -5,18 +5,18 @@ use std::fmt;
 
 /// A place in a JSON document, as a chain towards the root.
 #[derive(Clone, Copy)]
-pub(super) enum Path<'a> {
+pub(crate) enum Path<'a> {
     Root,
     Key { parent: &'a Path<'a>, key: &'a str },
     Index { parent: &'a Path<'a>, index: usize },
 }
 
 impl<'a> Path<'a> {
-    pub(super) fn key(&'a self, key: &'a str) -> Path<'a> {
+    pub(crate) fn key(&'a self, key: &'a str) -> Path<'a> {
         Path::Key { parent: self, key }
     }
 
-    pub(super) fn index(&'a self, index: usize) -> Path<'a> {
+    pub(crate) fn index(&'a self, index: usize) -> Path<'a> {
         Path::Index { parent: self, index }
     }
 }
@@ -47,7 +47,7 @@ fn shortened(key: &str) -> Cow<'_, str> {
 }
 
 /// Whether one of two places contains the other.
-pub(super) fn related(a: &str, b: &str) -> bool {
+pub(crate) fn related(a: &str, b: &str) -> bool {
     let (outer, inner) = if a.len() <= b.len() { (a, b) } else { (b, a) };
     outer == TOP_LEVEL || inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }

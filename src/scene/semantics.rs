@@ -1,11 +1,11 @@
 //! What a schema cannot say: counts, species, lengths and durations that have to fit each other.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use super::error::{Problem, named};
-use super::nearest::nearest;
-use super::problems::Problems;
-use super::{CorrelatedQuantity, CountedQuantity, Interaction, ParticleGroup, Placement, Scene, Velocities};
+use super::{
+    CorrelatedQuantity, CountedQuantity, Interaction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
+    Velocities,
+};
 use crate::families;
 
 /// Bytes of device memory that a fluid without lists and analyses needs for each particle, as an upper bound.
@@ -19,42 +19,6 @@ const MOST_SPECIES: usize = 256;
 
 /// Bonds and angles are numbered by 32-bit words too.
 const MOST_RUNS: u64 = u32::MAX as u64;
-
-/// The species of a scene by name.
-pub(crate) struct SpeciesNames<'a> {
-    known: HashSet<&'a str>,
-    /// In order of first appearance.
-    names: Vec<&'a str>,
-}
-
-impl<'a> SpeciesNames<'a> {
-    fn of(scene: &'a Scene) -> Self {
-        let mut known = HashSet::new();
-        let all = scene.particles.iter().map(|group| group.species.as_str());
-        let names = all.filter(|name| known.insert(*name)).collect();
-        Self { known, names }
-    }
-
-    /// A name has to be that of the species of some group.
-    pub fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
-        if self.known.contains(name) {
-            return true;
-        }
-        if problems.is_full() {
-            problems.push(Problem::unread());
-            return false;
-        }
-        // One without a name is a mistake of its own.
-        let names = || self.names.iter().copied().filter(|name| !name.is_empty());
-        let accepted = match names().next() {
-            None => "a species of some particle group, and there is none".to_owned(),
-            Some(_) => format!("a species of some particle group: {}", named(names())),
-        };
-        let problem = Problem::new(path, format!("found \"{name}\""), accepted);
-        problems.push(problem.suggest(nearest(name, names())));
-        false
-    }
-}
 
 /// All problems of a scene that satisfies the schema, by arithmetic: no time and no memory that grow with what it asks for.
 pub(super) fn check(scene: &Scene) -> Problems {
@@ -171,7 +135,7 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
 }
 
 fn check_number_of_species(species: &SpeciesNames<'_>, problems: &mut Problems) {
-    let count = species.names.len();
+    let count = species.count();
     if count > MOST_SPECIES {
         let accepted =
             format!("at most {MOST_SPECIES} species, since a particle has eight bits for the number of its own");

@@ -7,10 +7,8 @@ use std::collections::HashMap;
 
 use serde_json::{Map, Value};
 
-use super::error::Problem;
-use super::nearest::nearest;
 use super::path::Path;
-use super::problems::Problems;
+use super::{Problem, Problems, nearest};
 
 /// Substitutes for numbers that are refused, and for lists of a wrong length: two choices that are far apart, so that a message that
 /// both give does not depend on the substitute.

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use super::error::Warning;
+use super::Warning;
 
 /// Analyses with windows, and the fewest samples that the schema accepts in one of them.
 const WINDOWED: [(&str, u64); 3] = [("diffusion", 2), ("viscosity", 8), ("autocorrelations", 2)];

@@ -6,9 +6,8 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-use super::error::{Problem, SceneError};
 use super::path::Path;
-use super::problems::Problems;
+use super::{Problem, Problems, SceneError};
 
 /// The value of a JSON text, and a problem for every duplicate key.
 pub(super) fn parse(name: &str, text: &str) -> Result<(Value, Problems), SceneError> {

@@ -4,7 +4,8 @@ use super::Finding;
 use crate::engine::{Engine, EngineError};
 use crate::families::{self, Model};
 use crate::gpu::Gpu;
-use crate::plan::{Hardware, Options, plan};
+use crate::plan::{Hardware, Options};
+use crate::run::plan;
 use crate::scene::{self, Scene};
 use crate::state::State;
 

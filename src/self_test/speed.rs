@@ -6,7 +6,8 @@ use super::Finding;
 use crate::engine::{Engine, EngineError};
 use crate::families::{self, Model};
 use crate::gpu::Gpu;
-use crate::plan::{Hardware, Options, plan};
+use crate::plan::{Hardware, Options};
+use crate::run::plan;
 use crate::scene;
 
 /// How long to measure.

@@ -12,7 +12,7 @@ use crate::families::Model;
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, OutputError, RunDirectory, Summary, files as run_files, of_one_run};
-use crate::plan::{self, Hardware, Options};
+use crate::plan::{Hardware, Options};
 use crate::run::{self, Event, Interrupt, Outcome, Progress, RunError, Simulation};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -208,7 +208,7 @@ impl SweepRun {
             return Ok((Gpu::open(choice, crate::gpu::Requirements::default())?, 0.0));
         };
         let gpu = run::adapter_for(scene, choice)?;
-        let plan = plan::plan(
+        let plan = run::plan(
             &Model::new(scene),
             scene.time.equilibration,
             &scene.output,

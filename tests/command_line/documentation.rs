@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use mesoscope::families::Model;
-use mesoscope::plan::{Hardware, Options, plan};
+use mesoscope::plan::{Hardware, Options};
+use mesoscope::run::plan;
 use mesoscope::scene;
 use mesoscope::sweep::Sweep;
 use serde_json::Value;

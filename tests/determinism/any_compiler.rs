@@ -3,8 +3,11 @@
 
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
+use mesoscope::families::shallow_water::WaterLayout;
+use mesoscope::families::voronoi::CellLayout;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{self, Hardware, Layout, Options, Traversal};
+use mesoscope::plan::{Hardware, Options, Traversal};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -112,8 +115,8 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
     let options = Options { listed: case.listed, ..options };
     let (model, mut state) = start(&case.scene);
     let hardware = Hardware::from(gpu);
-    let plan = plan::plan(&model, case.scene.time.equilibration, &case.scene.output, hardware, options);
-    let mesh = matches!(plan.layout, Layout::Water { .. });
+    let plan = run::plan(&model, case.scene.time.equilibration, &case.scene.output, hardware, options);
+    let mesh = plan.layout.of::<WaterLayout>().is_some();
     if !mesh {
         // A momentum that is not zero, so that its loss would show as well as its gain.
         state.momenta[0][0] += 123_457;
@@ -134,7 +137,7 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
     }
     if !mesh {
         assert_ne!(engine.state().unwrap().momenta, state.momenta, "{}: nothing moves", case.name);
-        let first = if matches!(engine.plan().layout, Layout::Cells { .. }) { 1 } else { 2 };
+        let first = if engine.plan().layout.of::<CellLayout>().is_some() { 1 } else { 2 };
         let momentum = &expected[..if first == 1 { 2 } else { 3 }];
         for sample in engine.finish().unwrap().iter().filter(|sample| sample.sampler == 0) {
             let found = &sample.sums[first..first + momentum.len()];
@@ -218,7 +221,7 @@ fn a_plain_compiler_changes_nothing_and_a_contracting_one_does() {
         let case = &fluids()[3];
         let model = Model::new(&case.scene);
         let (_, state) = start(&case.scene);
-        let plan = plan::plan(&model, 0, &case.scene.output, Hardware::from(gpu), Options::default());
+        let plan = run::plan(&model, 0, &case.scene.output, Hardware::from(gpu), Options::default());
         let mut engine = Engine::new(gpu, plan, &state).unwrap();
         engine.advance(20, 20).unwrap();
         engine.state().unwrap()

@@ -2,8 +2,9 @@
 
 use mesoscope::engine::EngineError;
 use mesoscope::families::Model;
+use mesoscope::families::particles::CoupledLayout;
 use mesoscope::output::{Id, checkpoint};
-use mesoscope::plan::{Layout, Options};
+use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
 use rand::SeedableRng as _;
 
@@ -133,11 +134,8 @@ fn a_full_list_is_told_and_not_cut() {
     let (model, state) = start(&scene);
     let mut options = Options::default();
     let capacity = |options| {
-        let plan = mesoscope::plan::plan(&model, 0, &scene.output, mesoscope::plan::Hardware::default(), options);
-        match plan.layout {
-            Layout::Coupled { listed: Some(listed), .. } => listed.capacity,
-            other => panic!("{other:?}"),
-        }
+        let plan = mesoscope::run::plan(&model, 0, &scene.output, mesoscope::plan::Hardware::default(), options);
+        plan.layout.of::<CoupledLayout>().unwrap().list.unwrap().capacity
     };
     let mut capacities = vec![capacity(options)];
     loop {

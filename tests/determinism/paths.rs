@@ -5,7 +5,8 @@ use std::path::Path;
 
 use mesoscope::families::Model;
 use mesoscope::output::files;
-use mesoscope::plan::{self, Hardware, Options, Storage, Traversal};
+use mesoscope::plan::{Hardware, Options, Storage, Traversal};
+use mesoscope::run;
 use mesoscope::run::Simulation;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -157,7 +158,7 @@ fn only_a_trajectory_pays_for_images() {
         let mut without = scene.clone();
         without.output.trajectory = None;
         for options in options {
-            let plan = |scene: &Scene| plan::plan(&Model::new(scene), 0, &scene.output, Hardware::default(), options);
+            let plan = |scene: &Scene| run::plan(&Model::new(scene), 0, &scene.output, Hardware::default(), options);
             let [with, without] = [plan(&scene), plan(&without)];
             assert_eq!(with.kernels[..without.kernels.len()], without.kernels[..], "{name}");
             let extra = with.kernels.len() - without.kernels.len();
@@ -171,7 +172,7 @@ fn only_a_trajectory_pays_for_images() {
     let every = |edge: u32| {
         let edge = format!("space.box=[{edge},{edge},{edge}]");
         let scene = fluid(&[edge.as_str(), TRAJECTORY]);
-        plan::plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default()).paths.every
+        run::plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default()).paths.every
     };
     assert_eq!([2, 4, 5, 20].map(every), [1, 1, 2, 9]);
 }

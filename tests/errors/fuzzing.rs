@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use mesoscope::families::Model;
 use mesoscope::plan::{self, Hardware, Options};
+use mesoscope::run;
 use mesoscope::run::Sizes;
 use mesoscope::scene::{self, SceneError};
 use rand::rngs::StdRng;
@@ -39,7 +40,7 @@ fn answer(text: &str) -> Answer {
     assert!(mesoscope::families::warnings(&scene).iter().all(|warning| !warning.message.is_empty()));
     let hardware = Hardware { subgroup_size: Some(8), serial_memory: true };
     for hardware in [Hardware::default(), hardware] {
-        let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+        let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
         assert!(plan.bytes() >= plan.largest_buffer());
         // Whatever it says, it must not overflow.
         let _ = Sizes::of(&scene, &model, &plan);

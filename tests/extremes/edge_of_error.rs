@@ -4,7 +4,8 @@ use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::measure::observables_of;
-use mesoscope::plan::{self, Hardware, Options};
+use mesoscope::plan::{Hardware, Options};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::self_test::{self, Verdict};
 use mesoscope::state::State;
@@ -69,7 +70,7 @@ fn cases() -> Vec<Case> {
 }
 
 fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Engine<'a> {
-    let plan = plan::plan(&Model::new(scene), 0, &scene.output, Hardware::from(gpu), Options::default());
+    let plan = run::plan(&Model::new(scene), 0, &scene.output, Hardware::from(gpu), Options::default());
     Engine::new(gpu, plan, state).unwrap()
 }
 

@@ -5,6 +5,7 @@ use mesoscope::families::reference::Reference;
 use mesoscope::families::{Instability, Model};
 use mesoscope::measure::Observables;
 use mesoscope::plan::{self, Options, Traversal};
+use mesoscope::run;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 
@@ -611,7 +612,7 @@ fn copies(scene: &Scene, state: &State) -> u64 {
 }
 
 fn planned(scene: &Scene, options: Options) -> plan::Plan {
-    plan::plan(&Model::new(scene), 0, &scene.output, hardware(), options)
+    run::plan(&Model::new(scene), 0, &scene.output, hardware(), options)
 }
 
 #[test]

@@ -9,8 +9,11 @@ use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
+use mesoscope::families::particles::CoupledLayout;
+use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{GpuError, LinkedShader, validate};
-use mesoscope::plan::{self, Hardware, Kernel, Layout, Options, Plan, Storage, Texture, Traversal};
+use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
+use mesoscope::run;
 use mesoscope::scene::Scene;
 use mesoscope::shaders::{Choices, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
@@ -36,7 +39,7 @@ const SAMPLERS: &[&str] = &[
 ];
 
 fn plan_of(scene: &Scene, options: Options) -> Plan {
-    plan::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
+    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
 }
 
 /// Plans of a scene for either kind of memory.
@@ -681,27 +684,22 @@ fn host_structs_lie_as_in_the_shaders() {
     let mut tables = 0;
     for (scene, plan) in plans() {
         // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
-        let stride = match plan.layout {
-            Layout::Water { .. } => 24,
-            Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => 32,
-        };
+        let water = plan.layout.of::<WaterLayout>();
+        let stride = if water.is_some() { 24 } else { 32 };
         let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
         let texels = |name: &str| {
             let texture = plan.textures.iter().find(|texture| texture.name == name)?;
             Some((texture.words, u64::from(texture.size[0]) * u64::from(texture.size[1])))
         };
-        if !matches!(plan.layout, Layout::Water { bins: Some(_), .. }) {
-            let particles = match plan.layout {
-                Layout::Water { carriers, .. } => carriers as u64,
-                Layout::Particles { .. } | Layout::Coupled { .. } | Layout::Cells { .. } => plan.particles,
-            };
-            match (plan.layout, texels("particles")) {
+        if water.is_none_or(|layout| layout.bins.is_none()) {
+            let particles = water.map_or(plan.particles, |layout| layout.carriers as u64);
+            match (water, texels("particles")) {
                 (_, None) => {
                     let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
                     assert_eq!(bytes("particles"), Some(expected), "{scene}");
                 }
                 // Of shallow water the motion, beside which there are the masses; else particles as they are in a buffer.
-                (Layout::Water { .. }, Some((words, held))) => {
+                (Some(_), Some((words, held))) => {
                     assert!(words == 4 && held >= particles, "{scene}");
                     assert!(texels("particle_masses").is_some_and(|(words, held)| words == 2 && held >= particles));
                 }
@@ -738,7 +736,7 @@ fn host_structs_lie_as_in_the_shaders() {
             if shader.bindings.iter().any(|binding| binding.name == "coefficients") {
                 tables += 1;
                 // Coupled scenes add a row for the species by themselves.
-                let entries = 2 * if matches!(plan.layout, Layout::Coupled { .. }) { 3 } else { 2 };
+                let entries = 2 * if plan.layout.of::<CoupledLayout>().is_some() { 3 } else { 2 };
                 match texels("coefficients") {
                     None => assert_eq!(bytes("coefficients"), Some(16 * entries)),
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),

@@ -21,7 +21,8 @@ use mesoscope::families::Model;
 use mesoscope::families::reference::{Reference, ShallowWaterReference};
 use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
-use mesoscope::plan::{self, Hardware, Options, Traversal};
+use mesoscope::plan::{Hardware, Options, Traversal};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
@@ -81,7 +82,7 @@ pub fn start(scene: &Scene) -> (Model, State) {
 /// An engine for a scene, with options.
 pub fn engine(scene: &Scene, state: &State, options: Options) -> Engine<'static> {
     let model = Model::new(scene);
-    let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware(), options);
+    let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware(), options);
     Engine::new(gpu(), plan, state).expect("an engine")
 }
 

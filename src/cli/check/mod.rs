@@ -9,7 +9,7 @@ use mesoscope::engine::EngineError;
 use mesoscope::families::{self, Model};
 use mesoscope::gpu::GpuError;
 use mesoscope::numbers::{bytes, grouped};
-use mesoscope::plan::{self, Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{Integrator, Scene};
@@ -58,7 +58,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         opened => opened,
     };
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
-    let plan = plan::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+    let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
     if let Some(kernel) = &arguments.shader {
         return print(&kernels::shader(&plan, kernel)?);
     }

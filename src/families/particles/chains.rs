@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::document::{Chain, Generator, ParticleGroup};
 use crate::families::Model;
 use crate::families::start::lattice_sites;
 use crate::noise::{self, stream};
-use crate::scene::{Chain, Generator, ParticleGroup};
 use crate::state::State;
 
 /// Appends the positions of a group of chains.

@@ -1,8 +1,8 @@
 //! What becomes of energy and momentum of particles that are not conserved.
 
+use crate::document::NoiseProcess;
 use crate::families::conservation::INTEGRATED;
 use crate::families::{BathStep, Model};
-use crate::scene::NoiseProcess;
 
 /// What changes the total energy.
 pub(super) fn fate_of_energy(model: &Model) -> String {

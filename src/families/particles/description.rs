@@ -1,16 +1,16 @@
 //! What `check` says of particles.
 
+use super::CoupledLayout;
 use crate::families::Model;
 use crate::numbers::six_digits;
-use crate::plan::{Layout, Plan};
+use crate::plan::Plan;
 
 /// The list of neighbours and what its pairs take.
 pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
-    let (Layout::Coupled { listed: Some(listed), .. }, Some(force)) = (plan.layout, model.pair_force()) else {
-        return None;
-    };
-    let noun = if listed.capacity == 1 { "pair" } else { "pairs" };
-    let each = if listed.memory {
+    let list = plan.layout.of::<CoupledLayout>()?.list?;
+    let force = model.pair_force()?;
+    let noun = if list.capacity == 1 { "pair" } else { "pairs" };
+    let each = if list.memory {
         "12 bytes a pair (neighbour 4, memory 8), twice while the list is rebuilt"
     } else {
         "4 bytes a pair"
@@ -20,7 +20,7 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
         six_digits(force.cutoff + force.skin),
         six_digits(force.cutoff),
         six_digits(force.skin),
-        listed.capacity
+        list.capacity
     );
     Some(("list", text))
 }

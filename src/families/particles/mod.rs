@@ -1,24 +1,27 @@
 //! Particles with forces between them: dissipative particle dynamics, couplings with baths, bonds and chains.
 
 pub(crate) mod chains;
+pub(crate) mod checks;
 mod conservation;
 mod description;
+mod layout;
 pub(crate) mod model;
 mod observables;
 pub(crate) mod plan;
 pub mod reference;
-pub(crate) mod scene;
 pub(crate) mod stability;
 mod start;
 mod warnings;
+
+pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Model, Observables, PairForce, Physics,
     PositionBath, Species, units,
 };
-use crate::plan::{Hardware, Options, Plan};
-use crate::scene::{BondPotential, Interaction, Output, Problems, Scene, Warning};
+use crate::document::{BondPotential, Interaction, Problems, Scene, Warning};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use model::topology;
 use reference::{CouplingsReference, Reference};
@@ -85,7 +88,7 @@ impl Particles {
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
             chains,
-            are_coupled: scene::checks::is_coupled(scene),
+            are_coupled: checks::is_coupled(scene),
         }
     }
 }
@@ -140,11 +143,11 @@ impl Physics for Particles {
         }
     }
 
-    fn plan(&self, model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+    fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
         if self.are_coupled || options.listed {
-            self::plan::couplings::plan(model, equilibration, output, options)
+            self::plan::couplings::plan(model, measured, options)
         } else {
-            self::plan::pair::plan(model, equilibration, output, hardware, options)
+            self::plan::pair::plan(model, measured, hardware, options)
         }
     }
 

@@ -6,8 +6,10 @@
 //! left out here, springs, baths and neighbours that attract, only makes that larger: a part of it at 4 is certainly
 //! unstable, and refused.
 
+use crate::document::{
+    Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning,
+};
 use crate::families::{Alike, BathStep, Bond, BondKind, Bonds, Model};
-use crate::scene::{Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning};
 use std::f64::consts::PI;
 
 /// B + W beyond which nothing is stable.

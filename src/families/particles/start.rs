@@ -1,9 +1,9 @@
 //! How particles start, once their places and momenta are known: at rest together, and with variables of baths.
 
+use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
 use crate::noise::{self, stream};
-use crate::scene::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::state::State;
 use std::collections::HashSet;
 

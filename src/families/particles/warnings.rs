@@ -1,9 +1,9 @@
 //! What is allowed of particles but deserves a second look.
 
 use super::stability;
+use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Warning, brief};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, Particles, Species};
-use crate::scene::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Warning, brief};
 
 /// All warnings about a scene.
 pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {

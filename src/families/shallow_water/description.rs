@@ -1,10 +1,11 @@
 //! What `check` says of shallow water.
 
+use super::WaterLayout;
 use super::plan::smoothing::iterations;
+use crate::document::{BathRate, BathScheme, Interaction, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
 use crate::families::ShallowWater;
 use crate::numbers::{grouped, six_digits};
-use crate::plan::{Layout, Plan};
-use crate::scene::{BathRate, BathScheme, Interaction, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
+use crate::plan::Plan;
 
 /// The particles, with their number.
 pub(super) fn particles(water: &ShallowWater, count: u64) -> String {
@@ -37,9 +38,9 @@ pub(super) fn mesh(water: &ShallowWater, scene: &Scene, plan: &Plan, nodes: &str
         let length = if length < 1e-3 { format!("{length:.3e}") } else { format!("{length:.4}") };
         format!("{solver}, length {length} ({:.2} × {:.2} cells), power {power}", cells[0], cells[1])
     };
-    let storage = match plan.layout {
-        Layout::Water { bins: Some(bins), .. } => format!("a bin of {} particles for every cell", bins.capacity),
-        _ => "sorted by cell in every step".to_owned(),
+    let storage = match plan.layout.of::<WaterLayout>().and_then(|layout| layout.bins) {
+        Some(bins) => format!("a bin of {} particles for every cell", bins.capacity),
+        None => "sorted by cell in every step".to_owned(),
     };
     let mut rows = vec![
         ("mesh", format!("{nodes} nodes, splines of order {order}, {per_node:.1} particles a node")),

@@ -2,9 +2,9 @@
 
 use super::circulation::largest_gap;
 use super::flow::MeshFlow;
+use crate::document::FieldQuantity;
 use crate::families::pictures::{MeshPictures, ShownField};
 use crate::families::{Field, Model, ShallowWater};
-use crate::scene::FieldQuantity;
 use crate::state::State;
 
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.

@@ -1,18 +1,20 @@
 //! Rotating shallow water by the Hamiltonian particle-mesh method.
 
+pub(crate) mod checks;
 pub mod circulation;
 mod description;
 mod fields;
 pub mod flow;
+mod layout;
 pub(crate) mod model;
 mod observables;
 mod plan;
 pub mod reference;
-pub(crate) mod scene;
 mod start;
 pub mod surface;
 mod warnings;
 
+pub use layout::{Bins, WaterLayout};
 pub use plan::smoothing;
 
 use super::pictures::{EnergyChart, MeshPictures};
@@ -21,9 +23,9 @@ use super::{
     Column, KeptQuantity, KeptSum, MaterialLoops, Model, Observables, Physics, PictureKind, ShallowWater, Species,
     conservation,
 };
+use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::numbers::{grouped, with_error};
-use crate::plan::{Hardware, Options, Plan};
-use crate::scene::{FieldQuantity, Integrator, Output, ParticleGroup, Scene, Velocities, Warning, brief};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use reference::ShallowWaterReference;
 use std::ops::Range;
@@ -68,8 +70,8 @@ impl Physics for ShallowWater {
         start::complete(self, state, model, thermal);
     }
 
-    fn plan(&self, model: &Model, _: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
-        self::plan::plan(model, self, output, hardware, options)
+    fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
+        self::plan::plan(model, self, measured, hardware, options)
     }
 
     fn particles_in_words(&self, count: u64) -> String {
@@ -88,7 +90,8 @@ impl Physics for ShallowWater {
         let first = self.carriers as usize;
         let place = |range: Range<usize>| range.start - first..range.end - first;
         let loops = self.closed_loops().map(|(name, range)| (name.to_owned(), place(range))).collect();
-        Some(MaterialLoops { rotation: self.rotation, spacing: self.spacing(model.units.lengths), loops })
+        let tracers = model.particle_count() - self.carriers;
+        Some(MaterialLoops { tracers, rotation: self.rotation, spacing: self.spacing(model.units.lengths), loops })
     }
 
     fn energy_chart(&self, model: &Model) -> EnergyChart {

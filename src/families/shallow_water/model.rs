@@ -1,11 +1,11 @@
 //! Rotating shallow water by the Hamiltonian particle-mesh method, doi:10.1209/epl/i2003-00621-8.
 
-use crate::families::BathStep;
-use crate::families::shallow_water::surface::Surface;
-use crate::plan::LARGEST_MASS;
-use crate::scene::{
+use super::layout::LARGEST_MASS;
+use crate::document::{
     BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature,
 };
+use crate::families::BathStep;
+use crate::families::shallow_water::surface::Surface;
 use std::f64::consts::PI;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! How shallow water starts: masses from the depth, velocities in balance or thermal, variables of the bath.
 
+use crate::document::{Generator, ParticleGroup, Velocities};
 use crate::families::{Model, ShallowWater, start};
 use crate::noise::{self, stream};
-use crate::scene::{Generator, ParticleGroup, Velocities};
 use crate::state::State;
 use std::ops::Range;
 

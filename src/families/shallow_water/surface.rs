@@ -1,6 +1,6 @@
 //! The surface of shallow water at the start: features of the smoothed depth, and the depth that smooths to them.
 
-use crate::scene::SurfaceFeature;
+use crate::document::SurfaceFeature;
 use std::f64::consts::TAU;
 
 /// A periodic surface 1 + Σ features over a box.

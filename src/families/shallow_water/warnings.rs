@@ -1,8 +1,8 @@
 //! What is allowed of shallow water but deserves a second look.
 
+use crate::document::{Interaction, ParticleGroup, Placement, Scene, Velocities, Warning, brief};
 use crate::families::warnings::warn;
 use crate::families::{Model, ShallowWater};
-use crate::scene::{Interaction, ParticleGroup, Placement, Scene, Velocities, Warning, brief};
 use std::f64::consts::PI;
 
 /// All warnings about a scene.

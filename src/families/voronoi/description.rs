@@ -1,8 +1,8 @@
 //! What `check` says of Voronoi cells.
 
+use crate::document::{Integrator, VoronoiForm};
 use crate::families::{Model, NETWORK_VISCOSITY, Voronoi};
 use crate::numbers::six_digits;
-use crate::scene::{Integrator, VoronoiForm};
 
 /// The fluid that they are of.
 pub(super) fn fluid(cells: &Voronoi, model: &Model) -> Vec<(&'static str, String)> {

@@ -1,22 +1,27 @@
 //! Voronoi DPD: particles that are the cells of a tessellation.
 
+pub(crate) mod checks;
 mod description;
+mod layout;
 pub(crate) mod model;
 mod observables;
 mod pictures;
 mod plan;
 pub mod reference;
-pub(crate) mod scene;
 mod start;
+mod tally;
 mod warnings;
+
+pub use layout::CellLayout;
 
 use super::pictures::{CellValues, EnergyChart};
 use super::reference::Stepper;
 use super::{
-    Column, KeptQuantity, KeptSum, Model, Observables, Physics, PictureKind, Species, Voronoi, conservation, units,
+    Column, KeptQuantity, KeptSum, Model, NETWORK_VISCOSITY, Observables, Physics, PictureKind, Species, Tally,
+    Voronoi, conservation, units,
 };
-use crate::plan::{Hardware, Options, Plan};
-use crate::scene::{InitialMasses, Output, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
+use crate::document::{InitialMasses, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use reference::VoronoiReference;
@@ -66,8 +71,8 @@ impl Physics for Voronoi {
         start::check_masses(scene, self, &state.masses, problems);
     }
 
-    fn plan(&self, model: &Model, equilibration: u64, output: &Output, _: Hardware, options: Options) -> Plan {
-        self::plan::plan(model, self, equilibration, output, options)
+    fn plan(&self, model: &Model, measured: &Measured, _: Hardware, options: Options) -> PhysicsPlan {
+        self::plan::plan(model, self, measured, options)
     }
 
     fn description(&self, _: &Scene, model: &Model, _: &Plan, cells: &str) -> Vec<(&'static str, String)> {
@@ -76,12 +81,15 @@ impl Physics for Voronoi {
         rows
     }
 
-    fn viscosity(&self) -> Option<f64> {
-        Some(self.viscosity)
+    fn known_viscosities(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("viscosity_of_friction", self.viscosity),
+            ("viscosity_of_the_network", NETWORK_VISCOSITY * self.viscosity),
+        ]
     }
 
-    fn counts_exchanges(&self) -> bool {
-        true
+    fn tally(&self) -> Option<&dyn Tally> {
+        Some(self)
     }
 
     fn energy_chart(&self, _: &Model) -> EnergyChart {

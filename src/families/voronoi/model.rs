@@ -2,12 +2,8 @@
 //!
 //! Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 
-use crate::families::Species;
-use crate::scene::{FrictionSolver, InitialMasses, Scene, VoronoiForm, VoronoiInteraction};
-
-/// Shear viscosity of a network of cells over the viscosity η of their friction: the middle of what is measured, 1.22 to
-/// 1.25. What cells carry by moving about, half of density times self-diffusion, comes on top.
-pub const NETWORK_VISCOSITY: f64 = 1.235;
+use crate::document::{FrictionSolver, InitialMasses, Integrator, Scene, VoronoiForm, VoronoiInteraction};
+use crate::families::{Model, Species};
 
 /// Voronoi DPD.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +60,12 @@ impl Voronoi {
     #[must_use]
     pub fn has_limits(&self, temperature: f64) -> bool {
         self.exchanges_mass() || self.keeps_energy() || temperature > 0.0
+    }
+
+    /// Whether the velocities after friction are solved for.
+    #[must_use]
+    pub(crate) fn solves(&self, model: &Model) -> bool {
+        self.viscosity > 0.0 && model.integrator != Integrator::Euler {}
     }
 
     /// Whether cells keep account of their internal energy; else all are at the temperature of the scene.

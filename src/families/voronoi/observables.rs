@@ -1,9 +1,9 @@
 //! From the integer sums of a report to observables of Voronoi cells.
 
+use crate::document::Integrator;
 use crate::families::column::column;
 use crate::families::{CellObservables, Column, Model, Observables, Voronoi, column};
 use crate::plan::Plan;
-use crate::scene::Integrator;
 
 /// The residual of the solver of the friction is counted in these.
 const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;

@@ -1,8 +1,8 @@
 //! What colours of pictures of Voronoi cells show.
 
+use crate::document::SnapshotColor;
 use crate::families::pictures::{CellValues, ValueScale};
 use crate::families::{Model, Voronoi};
-use crate::scene::SnapshotColor;
 use crate::state::State;
 use crate::tessellation::Tessellation;
 

@@ -1,10 +1,11 @@
 //! How Voronoi cells start: masses, momenta and energies, once their places are known.
 
-use super::scene::{LIGHTEST, voronoi};
+use super::checks::LIGHTEST;
+use crate::document::voronoi;
+use crate::document::{Generator, InitialMasses, Interaction, Problem, Problems, Scene, Velocities};
 use crate::families::start::bring_to_rest;
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
-use crate::scene::{Generator, InitialMasses, Interaction, Problem, Problems, Scene, Velocities};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use std::f64::consts::TAU;

@@ -1,9 +1,9 @@
 //! What is allowed of Voronoi cells but deserves a second look.
 
-use super::scene::{shear_waves, voronoi};
+use crate::document::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
+use crate::document::{shear_waves, voronoi};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{Model, Voronoi};
-use crate::scene::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
 
 /// All warnings about a scene.
 pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Warning> {

@@ -4,7 +4,7 @@ use super::{CHECKSUM, Checkpoint, CheckpointError, Fnv, HEADER, MAGIC, VERSION};
 use crate::families::Model;
 use crate::output::{Extent, Id, OutputError};
 use crate::scene::{self, Scene};
-use crate::state::State;
+use crate::state::{Array, State};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -153,11 +153,14 @@ impl Payload<'_> {
             if known.contains(&name) {
                 return Err(self.malformed(format!("it holds `{}` twice", name.escape_debug())));
             }
-            state.set_array(&name, &words).map_err(|problem| self.malformed(problem))?;
+            let array = Array::ALL.into_iter().find(|array| array.name() == name);
+            let array =
+                array.ok_or_else(|| self.malformed(format!("it holds an unknown array `{}`", name.escape_debug())))?;
+            state.set_words(array, &words).map_err(|problem| self.malformed(problem))?;
             known.push(name);
         }
-        if let Some(name) = state.misshapen() {
-            return Err(self.malformed(format!("some particles have `{name}` and others none")));
+        if let Some(array) = state.misshapen() {
+            return Err(self.malformed(format!("some particles have `{}` and others none", array.name())));
         }
         let mut files = Vec::new();
         for _ in 0..self.number()? {

@@ -1,16 +1,19 @@
 //! Normalised autocorrelations of velocities and forces, and the curves fitted to them.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, windows_missing,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
+    found, windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::correlation::{Coefficient, WindowedAverage};
 use crate::measure::fit::FittedDecay;
 use crate::numbers::with_error;
-use crate::plan::analyses::correlation_quantum;
+use crate::plan::{Need, Plan, Window};
 use crate::plot::{Chart, autocorrelation_chart};
-use crate::scene::{self, CorrelatedQuantity, DecayFit, Scene};
+use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output, Scene};
+use crate::shaders::analyses::Sampled;
+use crate::shaders::{Choices, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -18,19 +21,60 @@ use serde_json::{Map, Value, json};
 pub(super) struct Autocorrelation(pub CorrelatedQuantity);
 
 impl Autocorrelation {
-    fn of<'a>(&self, scene: &'a Scene) -> Option<&'a scene::Autocorrelation> {
-        scene.output.autocorrelations.iter().find(|asked| asked.quantity == self.0)
+    fn of<'a>(&self, output: &'a Output) -> Option<&'a scene::Autocorrelation> {
+        output.autocorrelations.iter().find(|asked| asked.quantity == self.0)
     }
 }
 
 impl Descriptor for Autocorrelation {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
-        let asked = self.of(scene)?;
+        let asked = self.of(&scene.output)?;
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
     }
 
+    fn needs(&self) -> &'static [Need] {
+        match self.0 {
+            CorrelatedQuantity::Velocity => &[Need::Particles, Need::Momenta],
+            CorrelatedQuantity::Force => &[Need::Particles, Need::Forces],
+        }
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = self.of(planner.output) else { return };
+        let unit = match self.0 {
+            CorrelatedQuantity::Velocity => planner.model.units.momentum,
+            CorrelatedQuantity::Force => planner.plan.force_unit,
+        };
+        let quantum = quantum(planner.plan, self.0);
+        let (choices, before, [origins, sums, samples]) = match self.0 {
+            CorrelatedQuantity::Velocity => {
+                let (velocities, before) = planner.velocities(asked.frame);
+                (velocities, before, ["velocity_origins", "velocity_products", "velocity_product_samples"])
+            }
+            CorrelatedQuantity::Force => {
+                let names = ["force_origins", "force_products", "force_product_samples"];
+                (Choices::new().with(Sampled::Force), Vec::new(), names)
+            }
+        };
+        let bytes = 16 * planner.plan.particles;
+        planner.plan.add_buffer(origins, "each particle's vector when the window began", bytes);
+        planner.add_sums(&SumSampler {
+            id: AnalysisId::Autocorrelation(self.0),
+            entry: Entry::CorrelateVectors,
+            choices,
+            constants: vec![("WINDOW", asked.window as f64), ("PRODUCT", unit * unit / quantum)],
+            renamed: vec![("origins", origins)],
+            before,
+            sums,
+            samples,
+            quantities: 1,
+            every: asked.every,
+            window: Some(Window { buffer: origins, samples: asked.window.max(1) }),
+        });
+    }
+
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Correlation::new(setting, self.of(setting.scene)?))))
+        Some(Gathering::Samples(Box::new(Correlation::new(setting, self.of(&setting.scene.output)?))))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -39,6 +83,20 @@ impl Descriptor for Autocorrelation {
         let fitted = (formula(&drawn.result["fit"]), fit);
         autocorrelation_chart(drawn.title(), self.0.name(), (&lags, &values, &errors), (&fitted.0, &fitted.1))
     }
+}
+
+/// The value of one unit of the sums.
+fn quantum(plan: &Plan, quantity: CorrelatedQuantity) -> f64 {
+    match quantity {
+        CorrelatedQuantity::Velocity => plan.quanta.velocity_squared,
+        CorrelatedQuantity::Force => plan.force_unit.powi(2) * force_product_quantum(plan.particles),
+    }
+}
+
+/// The value of one unit in which products of forces are summed, over the square of the unit of forces: sums of all
+/// particles have room for forces that give each sixteen times its natural momentum in a step.
+fn force_product_quantum(particles: u64) -> f64 {
+    ((particles.max(1) as f64).log2().ceil() - 6.0).max(0.0).exp2()
 }
 
 /// Means over particles of products with the beginning of the window, sample by sample.
@@ -56,7 +114,7 @@ impl Correlation {
             asked: asked.clone(),
             particles: setting.plan.particles as f64,
             interval: asked.every as f64 * setting.model.time_step,
-            scale: correlation_quantum(setting.plan, asked.quantity),
+            scale: quantum(setting.plan, asked.quantity),
             products: Vec::new(),
         }
     }

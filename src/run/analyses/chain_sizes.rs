@@ -1,14 +1,16 @@
 //! Sizes of chains: mean squared distance of the ends and radius of gyration.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes, mean,
-    printed_mean,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, SumSampler,
+    bytes, mean, printed_mean,
 };
 use crate::engine::Sample;
 use crate::families::{ChainGroup, Model};
 use crate::measure::statistics::estimate;
+use crate::plan::{Need, Words};
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
-use crate::scene::Scene;
+use crate::scene::{AnalysisId, Scene};
+use crate::shaders::{Choices, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 
@@ -21,6 +23,31 @@ pub(super) struct ChainSizes;
 impl Descriptor for ChainSizes {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.chain_sizes.as_ref()?.every))
+    }
+
+    fn needs(&self) -> &'static [Need] {
+        &[Need::Particles]
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = &planner.output.chain_sizes else { return };
+        let groups = planner.model.chain_groups();
+        let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
+        planner.plan.add_long_table("chain_starts", "where each chain begins", ChainTable(groups.to_vec()));
+        let constants = vec![("CHAINS", chains as f64), ("CHAIN_LENGTH", 1.0 / planner.plan.quanta.length_squared)];
+        planner.add_sums(&SumSampler {
+            id: AnalysisId::ChainSizes,
+            entry: Entry::MeasureChains,
+            choices: Choices::new(),
+            constants,
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "chain_sums",
+            samples: "chain_samples",
+            quantities: 2 * groups.len(),
+            every: asked.every,
+            window: None,
+        });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
@@ -40,6 +67,24 @@ impl Descriptor for ChainSizes {
             })
         };
         result.as_array().into_iter().flatten().flat_map(sizes).flatten().collect()
+    }
+}
+
+/// The first particle of each chain, its length and the number of its group.
+#[derive(Debug, Clone, PartialEq)]
+struct ChainTable(Vec<ChainGroup>);
+
+impl Words for ChainTable {
+    fn count(&self) -> u64 {
+        4 * self.0.iter().map(|group| u64::from(group.chains)).sum::<u64>()
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let of_group = |(number, group): (u32, &ChainGroup)| {
+            let group = *group;
+            (0..group.chains).flat_map(move |chain| [group.first + chain * group.beads, group.beads, number, 0])
+        };
+        (0..).zip(&self.0).flat_map(of_group).collect()
     }
 }
 

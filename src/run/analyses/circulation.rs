@@ -1,15 +1,24 @@
 //! The circulations of material loops over a run.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, bytes};
 use crate::engine::Sample;
 use crate::families::{MaterialLoops, Model};
 use crate::measure::circulation::{circulation, largest_gap};
+use crate::plan::recording::SAMPLE_ROWS;
+use crate::plan::{Kernel, Sampler, SamplerId};
 use crate::plot::{Chart, circulation_chart};
-use crate::scene::Scene;
+use crate::scene::{AnalysisId, Scene};
+use crate::shaders::{Choices, Entry};
 use crate::state::Units;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
+
+/// The buffer of tracers at reports.
+const SAMPLES: &str = "tracer_samples";
+
+/// Bytes of tracers kept on the device between two readbacks.
+const TRACER_BYTES: u64 = 1 << 24;
 
 /// Names in the result.
 const INITIAL: &str = "initial";
@@ -25,6 +34,32 @@ impl Descriptor for Circulation {
         let every = scene.output.energies.every;
         let rows = scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
         (loops > 0).then(|| Sampling { every, numbers: rows.saturating_mul(loops + 2), ..Sampling::default() })
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let tracers = planner.model.physics().material_loops(planner.model).map_or(0, |found| found.tracers);
+        if tracers == 0 {
+            return;
+        }
+        let plan = &mut *planner.plan;
+        let record = plan.add_kernel(
+            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1).renamed(vec![("samples", SAMPLES)]),
+        );
+        let row = 8 * (1 + 2 * tracers);
+        // Two rows at the least: one is taken, and room is left for the next.
+        let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
+        plan.add_buffer(SAMPLES, "tracers at reports, waiting to be read", 8 + capacity * row);
+        plan.samplers.push(Sampler {
+            id: SamplerId::Analysis(AnalysisId::Circulation),
+            first: 0,
+            every: planner.output.energies.every,
+            kernels: vec![record],
+            samples: SAMPLES,
+            quantities: 2 * tracers as usize,
+            capacity,
+            needs_report: true,
+            window: None,
+        });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {

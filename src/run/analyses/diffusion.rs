@@ -1,17 +1,22 @@
 //! Mean squared displacement and velocity autocorrelation, and the diffusion coefficients they give.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, printed,
-    windows_missing,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
+    found, printed, windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
 use crate::measure::diffusion::{diffusion_from_displacement, diffusion_from_velocity};
+use crate::plan::{Need, Window};
 use crate::plot::{Chart, diffusion_chart};
-use crate::scene::{self, Scene};
+use crate::scene::{self, AnalysisId, Scene};
+use crate::shaders::{Choices, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
+
+/// The buffer of what is known of each particle.
+const TRACKERS: &str = "trackers";
 
 /// Names of the coefficients in the result.
 const EINSTEIN: &str = "diffusion_einstein";
@@ -24,6 +29,35 @@ impl Descriptor for Diffusion {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         let asked = scene.output.diffusion.as_ref()?;
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
+    }
+
+    fn needs(&self) -> &'static [Need] {
+        &[Need::Particles]
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = &planner.output.diffusion else { return };
+        let unit = planner.model.units.momentum;
+        let plan = &mut *planner.plan;
+        plan.add_buffer(TRACKERS, "each particle's way since the window began", 64 * plan.particles);
+        let constants = vec![
+            ("WINDOW", asked.window as f64),
+            ("DISPLACEMENT", 1.0 / plan.quanta.length_squared),
+            ("VELOCITY", unit * unit / plan.quanta.velocity_squared),
+        ];
+        planner.add_sums(&SumSampler {
+            id: AnalysisId::Diffusion,
+            entry: Entry::TrackParticles,
+            choices: Choices::new(),
+            constants,
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "diffusion_sums",
+            samples: "diffusion_samples",
+            quantities: 2,
+            every: asked.every,
+            window: Some(Window { buffer: TRACKERS, samples: asked.window.max(1) }),
+        });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {

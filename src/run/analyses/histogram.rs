@@ -1,15 +1,30 @@
 //! Histograms of velocities, speeds and accelerations.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes};
+use super::histogram_range::range;
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
+};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
 use crate::numbers::grouped;
-use crate::plan::analyses::{HISTOGRAM_EXTRA, HISTOGRAM_FARTHEST, HISTOGRAM_MOMENTS, histogram_range, moment_quantum};
+use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
+use crate::plan::{Need, Sampler, SamplerId};
 use crate::plot::{Chart, histogram_chart};
-use crate::scene::{self, CountedQuantity, Scene};
+use crate::scene::{self, AnalysisId, CountedQuantity, Output, Scene};
+use crate::shaders::analyses::{Counted, Sampled};
+use crate::shaders::{Choices, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
+
+/// Workgroups that count into one histogram: more of them write more often to the same entries.
+const GROUPS: u64 = 1024;
+/// Entries of a histogram beside its bins: values below, values above, particles far beyond.
+const EXTRA: usize = 3;
+/// Sums of powers after the counts.
+const MOMENTS: usize = 5;
+/// Particles further out than this, in ranges, do not enter the sums of powers.
+const FARTHEST: f64 = 8.0;
 
 /// Columns of the densities to compare with.
 const MAXWELL: &str = "maxwell";
@@ -19,25 +34,116 @@ const GAUSSIAN: &str = "gaussian";
 pub(super) struct Histogram(pub CountedQuantity);
 
 impl Histogram {
-    fn of<'a>(&self, scene: &'a Scene) -> Option<&'a scene::Histogram> {
-        scene.output.histograms.iter().find(|asked| asked.quantity == self.0)
+    fn of<'a>(&self, output: &'a Output) -> Option<&'a scene::Histogram> {
+        output.histograms.iter().find(|asked| asked.quantity == self.0)
     }
 }
 
 impl Descriptor for Histogram {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
-        let asked = self.of(scene)?;
+        let asked = self.of(&scene.output)?;
         let detail = Some(format!("{} bins", grouped(asked.bins.into())));
         Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
     }
 
+    fn needs(&self) -> &'static [Need] {
+        match self.0 {
+            CountedQuantity::Velocity | CountedQuantity::Speed => &[Need::Particles, Need::Momenta],
+            CountedQuantity::Acceleration => &[Need::Particles, Need::Forces],
+        }
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = self.of(planner.output) else { return };
+        let (counts, samples, unit, choices, before) = match self.0 {
+            CountedQuantity::Velocity | CountedQuantity::Speed => {
+                let (velocities, before) = planner.velocities(asked.frame);
+                let [counts, samples] = if self.0 == CountedQuantity::Velocity {
+                    ["velocity_counts", "velocity_count_samples"]
+                } else {
+                    ["speed_counts", "speed_count_samples"]
+                };
+                (counts, samples, planner.model.units.momentum, velocities, before)
+            }
+            CountedQuantity::Acceleration => {
+                let choices = Choices::new().with(Sampled::Acceleration);
+                ("acceleration_counts", "acceleration_count_samples", planner.plan.force_unit, choices, Vec::new())
+            }
+        };
+        let groups = planner.groups().min(GROUPS);
+        let (constants, counted) = counting(asked, planner, unit, groups);
+        let choices = choices.with(counted);
+        let id = AnalysisId::Histogram(self.0);
+        let renamed = [("histogram", counts)];
+        let kernel = planner.kernel_of_particles(id.name(), Entry::CountHistogram, &choices, groups, &renamed);
+        let Some(kernel) = kernel else { return };
+        let plan = &mut *planner.plan;
+        let count = plan.add_kernel(kernel.with(constants));
+        let entries = u64::from(asked.bins) + (EXTRA + MOMENTS) as u64;
+        let record = record_histogram(entries).renamed(vec![("histogram", counts), ("samples", samples)]);
+        let record = plan.add_kernel(record);
+        // About a mebibyte.
+        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
+        plan.add_buffer(counts, "counts of each bin and sums of powers", 8 * entries);
+        plan.add_buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
+        plan.samplers.push(Sampler {
+            id: SamplerId::Analysis(id),
+            first: planner.equilibration,
+            every: asked.every,
+            kernels: [&before[..], &[count, record]].concat(),
+            samples,
+            quantities: entries as usize,
+            capacity,
+            needs_report: true,
+            window: None,
+        });
+    }
+
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Counts::new(setting, self.of(setting.scene)?))))
+        Some(Gathering::Samples(Box::new(Counts::new(setting, self.of(&setting.scene.output)?))))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         density_chart(drawn.title(), drawn.table)
     }
+}
+
+/// Constants of the kernel that counts values of such a unit in so many workgroups, and what of a vector it counts.
+fn counting(
+    asked: &scene::Histogram,
+    planner: &Planner<'_>,
+    unit: f64,
+    groups: u64,
+) -> (Vec<(&'static str, f64)>, Counted) {
+    let magnitude = asked.quantity == CountedQuantity::Speed;
+    let range = range(planner.model, asked);
+    let bins = f64::from(asked.bins);
+    let mut constants = vec![
+        ("BINS", bins),
+        ("COUNTS", bins + EXTRA as f64),
+        // From minus to plus the range there are twice as many half bins as from zero.
+        ("HALF_BINS", if magnitude { 2.0 } else { 1.0 } * bins * unit / range),
+        ("HALF_BELOW", if magnitude { 0.0 } else { bins }),
+        ("FRACTION", unit / range),
+        ("MOMENT", 1.0 / moment_quantum(planner.plan.particles)),
+        ("GROUPS", groups as f64),
+    ];
+    if magnitude {
+        return (constants, Counted::Magnitude);
+    }
+    let axes = match asked.axis {
+        Some(axis) => [axis as usize, axis as usize + 1],
+        None => [0, planner.model.units.dimension],
+    };
+    constants.extend([("FIRST_AXIS", axes[0] as f64), ("END_AXIS", axes[1] as f64)]);
+    (constants, Counted::Components)
+}
+
+/// The value of one unit of the powers that are summed, in powers of the range.
+pub(super) fn moment_quantum(particles: u64) -> f64 {
+    let largest = FARTHEST.powi(4).log2();
+    let values = (3.0 * particles.max(1) as f64).log2().ceil();
+    (-(62.0 - largest - values).min(40.0)).exp2()
 }
 
 /// A histogram from its table: centres of bins, densities, counts, and the density to compare with.
@@ -76,12 +182,12 @@ struct Counts {
     /// Particles so far beyond the range that they are not in the powers.
     far: f64,
     /// Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over particles, x and the magnitude r in units of the range.
-    powers: [f64; HISTOGRAM_MOMENTS],
+    powers: [f64; MOMENTS],
 }
 
 impl Counts {
     fn new(setting: &Setting<'_>, asked: &scene::Histogram) -> Self {
-        let range = histogram_range(setting.model, asked);
+        let range = range(setting.model, asked);
         let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
         Self {
             asked: asked.clone(),
@@ -91,7 +197,7 @@ impl Counts {
             samples: 0.0,
             histogram: histogram::Histogram::new([low, range], asked.bins as usize),
             far: 0.0,
-            powers: [0.0; HISTOGRAM_MOMENTS],
+            powers: [0.0; MOMENTS],
         }
     }
 
@@ -125,11 +231,11 @@ impl Counts {
 impl OfSamples for Counts {
     fn add(&mut self, sample: &Sample) {
         let bins = self.histogram.counts.len();
-        if sample.sums.len() != bins + HISTOGRAM_EXTRA + HISTOGRAM_MOMENTS {
+        if sample.sums.len() != bins + EXTRA + MOMENTS {
             return;
         }
         let (counts, rest) = sample.sums.split_at(bins);
-        let (extra, powers) = rest.split_at(HISTOGRAM_EXTRA);
+        let (extra, powers) = rest.split_at(EXTRA);
         let quantum = moment_quantum(self.particles as u64);
         self.samples += 1.0;
         self.histogram.counts.iter_mut().zip(counts).for_each(|(count, found)| *count += *found as f64);
@@ -150,7 +256,7 @@ impl Analysis for Counts {
     }
 
     fn numbers_after(&self, _: u64) -> u64 {
-        (4 + HISTOGRAM_MOMENTS + self.histogram.counts.len()) as u64
+        (4 + MOMENTS + self.histogram.counts.len()) as u64
     }
 
     fn restore(&mut self, numbers: &[f64], _: u64) {
@@ -192,7 +298,7 @@ impl Analysis for Counts {
         }
         if self.far > 0.0 {
             warnings.push(format!(
-                "{} times a particle was further than {HISTOGRAM_FARTHEST} times the range of the {name} histogram, and is \
+                "{} times a particle was further than {FARTHEST} times the range of the {name} histogram, and is \
                  not in its moments",
                 self.far
             ));
@@ -222,5 +328,20 @@ impl Analysis for Counts {
             Ok(Value::Object(result))
         };
         Conclusion { warnings, ..Conclusion::new(table, result) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_powers_fit_64_bits_however_many_particles() {
+        for particles in [1, 1000, u64::from(u32::MAX)] {
+            let largest = 3.0 * particles as f64 * FARTHEST.powi(4) / moment_quantum(particles);
+            assert!(largest <= 2_f64.powi(62), "{particles}: {largest}");
+            // And a fourth power at a sixth of the range is still many units.
+            assert!(6_f64.powi(-4) / moment_quantum(particles) > 10.0, "{particles}");
+        }
     }
 }

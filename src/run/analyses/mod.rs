@@ -1,7 +1,7 @@
 //! Analyses: what a run measures besides the observables, and what it says of them.
 //!
-//! Each has an id, [`AnalysisId`], and a file here with its [`Descriptor`]: how samples are gathered, its tables and their
-//! columns, charts, what `check` says of it before a run and what a run prints at its end.
+//! Each has an id, [`AnalysisId`], and a file here with its [`Descriptor`]: its sampler in the plan, how samples are gathered, its
+//! tables and their columns, charts, what `check` says of it before a run and what a run prints at its end.
 
 mod autocorrelation;
 mod chain;
@@ -9,10 +9,16 @@ mod chain_sizes;
 mod circulation;
 mod diffusion;
 mod histogram;
+mod histogram_range;
 mod neighbours;
+mod pair_histogram;
+mod planner;
 mod radial_distribution;
 mod shear_wave;
 mod viscosity;
+
+pub(super) use planner::Planner;
+use planner::SumSampler;
 
 use super::RunError;
 use super::sections::{Sections, bytes, samples};
@@ -22,9 +28,9 @@ use crate::measure::correlation::WindowedAverage;
 use crate::numbers::{grouped, with_error};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, Summary, write_table};
-use crate::plan::{Plan, Sampler, SamplerId};
+use crate::plan::{Need, Plan, Sampler, SamplerId};
 use crate::plot::{Chart, Found, Mean};
-use crate::scene::{AnalysisId, AnalysisTable, Scene};
+use crate::scene::{AnalysisId, AnalysisTable, Output, Scene};
 use crate::state::State;
 use crate::table::Table;
 use serde_json::{Map, Value};
@@ -50,6 +56,16 @@ trait Descriptor {
     /// How a scene asks for it; none if it does not.
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling>;
 
+    /// What a report has to leave for its sampler.
+    fn needs(&self) -> &'static [Need] {
+        &[]
+    }
+
+    /// Adds its sampler to a plan, if it has one and a scene asks for it.
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let _ = planner;
+    }
+
     /// Begins to gather what is asked for.
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering>;
 
@@ -66,6 +82,21 @@ trait Descriptor {
     fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
         let _ = (scene, model);
         0
+    }
+}
+
+/// What reports have to leave for the analyses that a scene asks for.
+pub(super) fn needs(output: &Output) -> Vec<Need> {
+    output.analyses().into_iter().flat_map(|id| descriptor(id).needs()).copied().collect()
+}
+
+/// Adds the samplers of the analyses that a scene asks for, in its order, and then of those that come with the model.
+pub(super) fn add_samplers(planner: &mut Planner<'_>) {
+    let mut ids = planner.output.analyses();
+    let others = AnalysisId::ALL.into_iter().filter(|id| !ids.contains(id)).collect::<Vec<_>>();
+    ids.extend(others);
+    for id in ids {
+        descriptor(id).add_sampler(planner);
     }
 }
 
@@ -475,7 +506,8 @@ fn window_name(id: AnalysisId) -> String {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::plan::{Hardware, Options, plan};
+    use crate::plan::{Hardware, Options};
+    use crate::run::plan;
     use std::path::Path;
 
     /// The analyses after `step` steps that left these sections.
@@ -583,7 +615,7 @@ mod tests {
 
         let counted = scene(r#"{"histograms": [{"quantity": "velocity", "every": 1, "bins": 2, "range": 4}]}"#);
         // Two particles of two components: one value below, one in the first bin, two in the second; then the powers.
-        let unit = 1.0 / crate::plan::analyses::moment_quantum(2);
+        let unit = 1.0 / histogram::moment_quantum(2);
         let powers = [0.5, 1.5, 0.75, 1.5, 1.0].map(|power: f64| (power * unit) as i64);
         let conclusion = gathered(&counted, &[&[&[1, 2, 1, 0, 0][..], &powers].concat()]);
         let densities: Vec<f64> = conclusion.tables[0].rows.iter().map(|row| row[1]).collect();

@@ -1,4 +1,4 @@
-//! Numbers of neighbours of Voronoi cells.
+//! Numbers of neighbours of the cells of a tessellation.
 
 use super::{
     Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfStates, Sampling, Setting, bytes, printed_mean,
@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 const MEAN: &str = "mean";
 const VARIANCE: &str = "variance";
 
-/// Numbers of neighbours of Voronoi cells.
+/// Numbers of neighbours of cells.
 pub(super) struct Neighbours;
 
 impl Descriptor for Neighbours {

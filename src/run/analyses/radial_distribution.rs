@@ -1,9 +1,12 @@
 //! The radial distribution function.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Sampling, Setting, bytes};
+use super::pair_histogram::PairHistogram;
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
+};
 use crate::engine::Sample;
 use crate::families::Model;
-use crate::plan::Sampler;
+use crate::plan::{Need, Sampler};
 use crate::plot::{Chart, radial_distribution_chart};
 use crate::scene::{self, Scene};
 use crate::table::Table;
@@ -22,6 +25,17 @@ pub(super) struct RadialDistribution;
 impl Descriptor for RadialDistribution {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.radial_distribution.as_ref()?.every))
+    }
+
+    fn needs(&self) -> &'static [Need] {
+        &[Need::Order]
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let (Some(asked), Some(ordered)) = (&planner.output.radial_distribution, planner.ordered) else { return };
+        let (units, options) = (&planner.model.units, planner.options);
+        let histogram = PairHistogram { units, grid: &ordered.grid, options, asked };
+        histogram.add(planner.plan, ordered, planner.equilibration);
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {

@@ -1,7 +1,7 @@
-//! The decay of a shear wave of Voronoi cells.
+//! The decay of the shear wave that particles start with.
 
 use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfStates, Sampling, Setting, bytes, found, printed};
-use crate::families::{Model, NETWORK_VISCOSITY};
+use crate::families::Model;
 use crate::measure::shear_wave::WaveDecay;
 use crate::numbers::with_error;
 use crate::plot::{Chart, shear_wave_chart};
@@ -50,8 +50,8 @@ struct Decay {
     wave_number: f64,
     density: f64,
     time_step: f64,
-    /// Viscosity of the friction at faces.
-    viscosity: Option<f64>,
+    /// Viscosities to compare with, by name.
+    known: Vec<(&'static str, f64)>,
     /// Steps and amplitudes.
     samples: Vec<[f64; 2]>,
 }
@@ -105,7 +105,7 @@ impl Decay {
             wave_number: TAU * f64::from(periods) / model.units.lengths[1],
             density: mass(model) / model.units.volume(),
             time_step: model.time_step,
-            viscosity: model.physics().viscosity(),
+            known: model.physics().known_viscosities(),
             samples: Vec::new(),
         }
     }
@@ -124,7 +124,7 @@ impl Decay {
         WaveDecay::of(&amplitudes, self.times()[0])
     }
 
-    /// Viscosities from the rate νk² of the decay, and that of the network of cells alone for comparison.
+    /// Viscosities from the rate νk² of the decay, and what is known beforehand for comparison.
     fn result(&self, decay: &WaveDecay) -> Value {
         let (wave_number, density) = (self.wave_number, self.density);
         let scaled = |factor: f64| {
@@ -139,9 +139,8 @@ impl Decay {
             KINEMATIC_VISCOSITY: scaled(wave_number.powi(-2)),
             SHEAR_VISCOSITY: scaled(density * wave_number.powi(-2)),
         });
-        if let Some(viscosity) = self.viscosity {
-            result["viscosity_of_friction"] = json!(viscosity);
-            result["viscosity_of_the_network"] = json!(NETWORK_VISCOSITY * viscosity);
+        for (name, viscosity) in &self.known {
+            result[*name] = json!(viscosity);
         }
         result
     }
@@ -162,8 +161,9 @@ pub(super) mod tests {
     use super::super::Analyses;
     use super::super::Sections;
     use super::*;
-    use crate::families::initial_state;
-    use crate::plan::{Hardware, Options, plan};
+    use crate::families::{NETWORK_VISCOSITY, initial_state};
+    use crate::plan::{Hardware, Options};
+    use crate::run::plan;
     use std::path::Path;
 
     pub(in super::super) fn scene() -> Scene {

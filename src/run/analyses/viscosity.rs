@@ -1,11 +1,16 @@
 //! The decay of transverse momentum waves and the viscosity it gives.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Sampling, Setting, bytes, found, printed};
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
+    found, printed,
+};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
+use crate::plan::Need;
 use crate::plot::{Chart, Found, viscosity_chart};
-use crate::scene::{self, Scene};
+use crate::scene::{self, AnalysisId, Scene};
+use crate::shaders::{Choices, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -21,6 +26,28 @@ pub(super) struct Viscosity;
 impl Descriptor for Viscosity {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.viscosity.as_ref()?.every))
+    }
+
+    fn needs(&self) -> &'static [Need] {
+        &[Need::Particles]
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = &planner.output.viscosity else { return };
+        let dimension = planner.model.units.dimension;
+        planner.add_sums(&SumSampler {
+            id: AnalysisId::Viscosity,
+            entry: Entry::SumTransverseModes,
+            choices: Choices::new(),
+            constants: Vec::new(),
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: "mode_sums",
+            samples: "mode_samples",
+            quantities: 2 * dimension * (dimension - 1),
+            every: asked.every,
+            window: None,
+        });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {

@@ -1,7 +1,7 @@
 //! Stiffness of chains.
 
 use super::topology::Runs;
-use crate::scene::{AnglesInteraction, Scene};
+use crate::document::{AnglesInteraction, Scene};
 
 /// All angles of a scene, with V = k(1 + cos θ).
 #[derive(Debug, Clone, PartialEq, Default)]

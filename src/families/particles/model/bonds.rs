@@ -1,8 +1,8 @@
 //! Bonds between particles: a potential, and a heat bath coupled to the length.
 
 use super::topology::{Alike, Runs};
+use crate::document::{BondPotential, BondsInteraction, Scene};
 use crate::families::BathStep;
-use crate::scene::{BondPotential, BondsInteraction, Scene};
 
 /// All bonds of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]

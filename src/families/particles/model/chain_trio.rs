@@ -1,9 +1,9 @@
 //! Harmonic chains side by side in one scene: of beads, of clusters with friction and noise, of clusters without.
 
 use super::{BondKind, Bonds, HarmonicChain, SpringChain};
+use crate::document::{BondPotential, Generator, HarmonicChainInteraction, Scene};
 use crate::families::{BathStep, Species};
 use crate::noise::{self, stream};
-use crate::scene::{BondPotential, Generator, HarmonicChainInteraction, Scene};
 use crate::state::{State, Units};
 
 /// Which chain of a trio.

@@ -6,9 +6,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::document::{ColouredNoiseInteraction, NoiseProcess};
 use crate::families::Model;
 use crate::noise::{self, stream};
-use crate::scene::{ColouredNoiseInteraction, NoiseProcess};
 use crate::state::Hold;
 
 /// A random force on every particle that is constant for random times.

@@ -1,8 +1,8 @@
 //! Pair forces of dissipative particle dynamics, doi:10.1063/1.474784.
 
+use crate::document::{Bath, DpdInteraction};
 use crate::families::BathStep;
 use crate::families::Species;
-use crate::scene::{Bath, DpdInteraction};
 
 /// Soft repulsion, friction and noise between all pairs of species.
 #[derive(Debug, Clone, PartialEq)]

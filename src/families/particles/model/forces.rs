@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use super::PairForce;
-use crate::families::Species;
-use crate::scene::{
+use crate::document::{
     AnglesInteraction, BondPotential, BondsInteraction, Chain, Interaction, ParticleGroup, Placement, Scene,
 };
+use crate::families::Species;
 
 /// Part of an edge of the box to which integer positions resolve, and some more: springs as long as they should be are off by it.
 const RESOLUTION: f64 = 1.0 / (1 << 28) as f64;

@@ -1,8 +1,8 @@
 //! Friction and noise on every particle by itself: Langevin dynamics and the generalised Langevin equation.
 
+use crate::document::{Bath, LangevinInteraction};
 use crate::families::BathStep;
 use crate::families::Species;
-use crate::scene::{Bath, LangevinInteraction};
 
 /// A heat bath on every coordinate of every particle.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
-use crate::scene::Scene;
+use crate::document::Scene;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Runs of `LENGTH` particles in a row, in order: bonds and angles.

@@ -1,16 +1,17 @@
 //! The plan of a scene whose particles interact in pairs.
 
-use super::analyses::{self, Reported};
 use super::law::law;
-use super::layout::PARTICLE;
-use super::pair_histogram::PairHistogram;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::serial_memory::TURNS;
 use super::species::Species;
-use super::{Grid, Hardware, Kernel, Layout, Options, Plan, Quanta, Texture, Traversal, deviate, words};
+use super::{
+    Grid, Hardware, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, Texture,
+    Traversal, deviate, texture_candidates, words,
+};
+use crate::document::Integrator;
+use crate::families::particles::ParticleLayout;
 use crate::families::{Model, PairForce};
 use crate::noise;
-use crate::scene::{Integrator, Output, RadialDistribution};
 use crate::shaders::{Choices, Entry, arrays, core, grid, pairs, space};
 use crate::state::Units;
 
@@ -23,7 +24,7 @@ const OBSERVABLES: u64 = 9;
 const SCAN_AT_END_CELLS: u64 = 1 << 11;
 
 /// Makes the plan of a model.
-pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force().unwrap_or(&free);
@@ -36,13 +37,13 @@ pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
     };
     let mut builder = Builder {
         model,
+        measured,
         force,
         grid,
         particles,
         traversal,
         options,
         species: Species::of(model),
-        equilibration,
         texels: false,
         scans_at_end: traversal == Traversal::Clusters
             && options.suits_serial_memory(hardware)
@@ -54,17 +55,23 @@ pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, hardware:
     builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
-    builder.integration(output);
-    builder.analyses(output);
-    builder.paths(output);
+    builder.integration();
     builder.buffers();
-    builder.plan
+    let groups = particles.div_ceil(builder.workgroup_size());
+    PhysicsPlan {
+        reported: Some(builder.reported()),
+        ordered: Some(builder.ordered()),
+        texture_candidates: texture_candidates(&builder.plan),
+        followers: vec![Kernel::new("follow", Entry::FollowParticles, builder.choices(), groups)],
+        stride: force.cutoff / model.units.shortest_length(),
+        plan: builder.plan,
+    }
 }
 
 fn empty_plan(model: &Model, grid: &Grid) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    let layout = Layout::Particles { dimension: model.units.dimension, predicted };
-    Plan::new(model, grid.cells, layout, quanta(model), noise::stream::PAIR)
+    let layout = ParticleLayout { dimension: model.units.dimension, predicted };
+    model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
 }
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
@@ -108,13 +115,13 @@ enum Masks {
 
 struct Builder<'a> {
     model: &'a Model,
+    measured: &'a Measured,
     force: &'a PairForce,
     grid: Grid,
     particles: u64,
     traversal: Traversal,
     options: Options,
     species: Species,
-    equilibration: u64,
     /// Whether sorted particles are texels.
     texels: bool,
     /// Whether a step ends with the prefix sum over cells for the next one.
@@ -190,7 +197,7 @@ impl Builder<'_> {
 
     /// Whether particles carry predicted momenta.
     fn predicted(&self) -> bool {
-        matches!(self.plan.layout, Layout::Particles { predicted: true, .. })
+        self.plan.layout.of::<ParticleLayout>().is_some_and(|layout| layout.predicted)
     }
 
     /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity (where all have one mass,
@@ -229,16 +236,6 @@ impl Builder<'_> {
             self.scan = std::mem::replace(&mut self.plan.sort, scatter);
             self.plan.prepare.extend(&self.scan);
         }
-    }
-
-    /// Follows the particles, where a trajectory asks.
-    fn paths(&mut self, output: &Output) {
-        if output.trajectory.is_none() {
-            return;
-        }
-        let groups = self.particles.div_ceil(self.workgroup_size());
-        let kernel = Kernel::new("follow", Entry::FollowParticles, self.choices(), groups);
-        self.plan.follow([kernel], self.force.cutoff / self.model.units.shortest_length());
     }
 
     /// What ends a step.
@@ -328,15 +325,15 @@ impl Builder<'_> {
         self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
     }
 
-    fn integration(&mut self, output: &Output) {
-        let forces = Choices::new().with_any(self.forces(output));
+    fn integration(&mut self) {
+        let forces = Choices::new().with_any(self.forces());
         let groups = if self.splits() {
-            let momenta = self.momenta(output);
+            let momenta = self.momenta();
             self.split_step(&forces.with_any(momenta))
         } else {
             self.leapfrog_step(&forces)
         };
-        self.plan.sample_observables(output.energies.every, OBSERVABLES, u64::from(groups));
+        self.plan.sample_observables(self.measured.every, OBSERVABLES, u64::from(groups));
         self.plan.operations_per_particle = self.operations();
     }
 
@@ -408,36 +405,35 @@ impl Builder<'_> {
         12.0 * candidates + pair * pairs + MOTION
     }
 
-    fn analyses(&mut self, output: &Output) {
-        if let Some(asked) = &output.radial_distribution {
-            self.radial_distribution(asked);
-        }
-        let reported = Reported {
-            model: self.model,
-            equilibration: self.equilibration,
-            workgroup: self.workgroup_size(),
+    /// The particles of a report.
+    fn reported(&self) -> Reported {
+        Reported {
             choices: space_of(&self.model.units, self.predicted()).and(&self.species.choices()),
             particles: "particles",
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some("reported_momenta"),
             forces: "reported_forces",
-            force_unit: self.plan.force_unit,
-        };
-        analyses::add(&mut self.plan, &reported, output);
+        }
     }
 
-    /// Keeps the momenta of a split step's report, where an analysis asks.
-    fn momenta(&mut self, output: &Output) -> Option<pairs::ReportedMomentum> {
-        if !analyses::needs_velocities(output) {
+    /// The particles by cell, as every step orders them.
+    fn ordered(&self) -> Ordered {
+        // Where a report moves the particles on, distances are counted there too.
+        Ordered { choices: self.choices(), kernels: Vec::new(), grid: self.grid, needs_report: self.splits() }
+    }
+
+    /// Keeps the momenta of a split step's report, where an analysis needs them.
+    fn momenta(&mut self) -> Option<pairs::ReportedMomentum> {
+        if !self.measured.needs(Need::Momenta) {
             return None;
         }
         self.plan.add_buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
         Some(pairs::ReportedMomentum::Kept)
     }
 
-    /// Keeps the forces of a report, where an analysis asks.
-    fn forces(&mut self, output: &Output) -> Option<pairs::ReportedForce> {
-        if !analyses::needs_forces(output) {
+    /// Keeps the forces of a report, where an analysis needs them.
+    fn forces(&mut self) -> Option<pairs::ReportedForce> {
+        if !self.measured.needs(Need::Forces) {
             return None;
         }
         // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
@@ -445,15 +441,6 @@ impl Builder<'_> {
         self.plan.force_unit = self.model.units.momentum / time;
         self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
         Some(pairs::ReportedForce::Kept)
-    }
-
-    fn radial_distribution(&mut self, asked: &RadialDistribution) {
-        let histogram = PairHistogram { units: &self.model.units, grid: &self.grid, options: self.options, asked };
-        // Where a report moves the particles on, distances are counted there too.
-        let needs_report = self.splits();
-        let first = self.equilibration;
-        let choices = self.choices();
-        histogram.add(&mut self.plan, &choices, Vec::new(), first, needs_report);
     }
 
     fn buffers(&mut self) {

@@ -12,10 +12,10 @@ mod splitting;
 pub use couplings::CouplingsReference;
 pub use splitting::Relaxation;
 
+use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::Observables;
 use crate::families::reference::{Unstable, narrow};
-use crate::scene::Integrator;
 use crate::state::State;
 use pairs::Pair;
 

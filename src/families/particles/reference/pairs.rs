@@ -1,9 +1,9 @@
 //! Which particles interact, and the numbers of a pair that every integrator needs.
 
 use super::potential::Potential;
+use crate::document::Distribution;
 use crate::families::Model;
 use crate::noise;
-use crate::scene::Distribution;
 use crate::state::Units;
 
 /// Two particles within range of each other.

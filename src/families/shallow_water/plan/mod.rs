@@ -6,6 +6,6 @@ mod steps;
 pub(crate) use steps::plan;
 
 use crate::plan::{
-    Bins, Buffer, Contents, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture,
-    Traversal, prefix_sum, recording, words,
+    Buffer, Contents, Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal,
+    prefix_sum, words,
 };

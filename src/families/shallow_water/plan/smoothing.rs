@@ -4,11 +4,12 @@
 
 use std::f64::consts::TAU;
 
-use super::{Buffer, Contents, Kernel, Options};
+use super::{Buffer, Contents, Kernel, Options, Plan};
+use crate::document::{LaplacianSymbol, SmoothingSolver};
 use crate::families::{ShallowWater, chebyshev_iterations};
-use crate::scene::{LaplacianSymbol, SmoothingSolver};
+use crate::plan::serial_memory::Candidate;
 use crate::shaders::smoothing::{Lines, Load, Radix, Source, Store, Twist};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Choices, Entry, arrays};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
@@ -66,6 +67,18 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
     match water.smoothing.solver {
         SmoothingSolver::Fft { .. } => Fourier { water, lengths, workgroup, constants }.plan(),
         SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, workgroup, &constants),
+    }
+}
+
+/// Buffers of a plan that may be held in textures: those of Fourier transforms.
+pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Candidate> {
+    if plan.kernels.iter().any(|kernel| kernel.entry == Entry::FourierTurn) {
+        vec![
+            Candidate::new("waves", 2, arrays::Waves::Texture),
+            Candidate::new("waves_next", 2, arrays::WavesNext::Texture),
+        ]
+    } else {
+        Vec::new()
     }
 }
 

@@ -4,14 +4,12 @@
 //! smoothed, the bath takes its step; then every cell moves its particles by the slope of the surface.
 
 use super::prefix_sum::PrefixSum;
-use super::recording::SAMPLE_ROWS;
-use super::smoothing::smoothing;
-use super::{
-    Bins, Hardware, Kernel, Layout, Options, Plan, Quanta, Sampler, SamplerId, Storage, Texture, Traversal, words,
-};
+use super::smoothing::{self, smoothing};
+use super::{Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, words};
+use crate::document::Integrator;
+use crate::families::shallow_water::{Bins, WaterLayout};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
-use crate::scene::{AnalysisId, Integrator, Output};
 use crate::shaders::noise::Deviate;
 use crate::shaders::{Choices, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -19,8 +17,6 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
 /// mass on the nodes.
 const OBSERVABLES: u64 = 6;
-/// Bytes of tracers kept on the device between two readbacks.
-const TRACER_BYTES: u64 = 1 << 24;
 /// Bytes of a particle or tracer.
 const WATER: u64 = 24;
 /// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
@@ -36,7 +32,13 @@ const STRIP: u64 = 4;
 const FEWEST_NODES: u64 = 1 << 12;
 
 /// Makes the plan of a model of shallow water.
-pub(crate) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub(crate) fn plan(
+    model: &Model,
+    water: &ShallowWater,
+    measured: &Measured,
+    hardware: Hardware,
+    options: Options,
+) -> PhysicsPlan {
     let eights = takes_eights(water, hardware, options);
     let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
     let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);
@@ -45,10 +47,16 @@ pub(crate) fn plan(model: &Model, water: &ShallowWater, output: &Output, hardwar
     builder.constants();
     builder.ordering();
     builder.depth();
-    builder.motion(output);
-    builder.paths(output);
+    builder.motion(measured);
     builder.buffers();
-    builder.plan
+    PhysicsPlan {
+        reported: None,
+        ordered: None,
+        texture_candidates: smoothing::texture_candidates(&builder.plan),
+        followers: builder.followers(),
+        stride: builder.stride,
+        plan: builder.plan,
+    }
 }
 
 /// Whether the lanes of a subgroup take eight cells side by side, row after row of a strip, share what they load and store for
@@ -97,7 +105,7 @@ fn places(model: &Model, water: &ShallowWater, storage: Storage) -> u64 {
 
 fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage, texels: bool) -> Plan {
     let bath_nodes = if water.bath.is_some() { water.nodes() as usize } else { 0 };
-    let layout = Layout::Water {
+    let layout = WaterLayout {
         carriers: water.carriers as usize,
         tracers: (model.particle_count() - water.carriers) as usize,
         bath_nodes,
@@ -117,7 +125,7 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage, texels: boo
     };
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let cells = [water.mesh[0], water.mesh[1], 1];
-    let plan = Plan::new(model, cells, layout, quanta(model, water), noise::stream::MESH);
+    let plan = model.empty_plan(cells, layout, quanta(model, water), noise::stream::MESH);
     Plan {
         suggested_step: water.advisable_step(&model.integrator, lengths, model.time_step).min(plan.suggested_step),
         ..plan
@@ -346,7 +354,7 @@ impl Builder<'_> {
         self.plan.before_report.push(bath);
     }
 
-    fn motion(&mut self, output: &Output) {
+    fn motion(&mut self, measured: &Measured) {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
         let push = Choices::new().with(match self.storage {
             Storage::Sorted => water::Moving::Sorted,
@@ -368,9 +376,9 @@ impl Builder<'_> {
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        self.plan.sample_observables(output.energies.every, OBSERVABLES, groups);
+        self.plan.sample_observables(measured.every, OBSERVABLES, groups);
         if self.tracers() > 0 {
-            self.drifting(output);
+            self.drifting();
         }
         let width = f64::from(self.water.spline_order + 1);
         let per_cell = self.water.nodes() as f64 / self.water.carriers.max(1) as f64;
@@ -378,7 +386,7 @@ impl Builder<'_> {
         self.plan.operations_per_particle = 4.0 * width * width + 70.0 + per_cell * (8.0 * width.powi(3) + 150.0);
     }
 
-    fn drifting(&mut self, output: &Output) {
+    fn drifting(&mut self) {
         let tracers = self.tracers();
         let none = Choices::new();
         let push = self.kernel("push_tracers", Entry::PushTracers, &none, tracers);
@@ -389,33 +397,11 @@ impl Builder<'_> {
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        let record = self.plan.add_kernel(
-            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1)
-                .renamed(vec![("samples", "tracer_samples")]),
-        );
-        let row = 8 * (1 + 2 * tracers);
-        // Two rows at the least: one is taken, and room is left for the next.
-        let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
         self.plan.add_buffer("tracers", "particles without mass", WATER * tracers);
-        self.plan.add_buffer("tracer_samples", "tracers at reports, waiting to be read", 8 + capacity * row);
-        self.plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(AnalysisId::Circulation),
-            first: 0,
-            every: output.energies.every,
-            kernels: vec![record],
-            samples: "tracer_samples",
-            quantities: 2 * tracers as usize,
-            capacity,
-            needs_report: true,
-            window: None,
-        });
     }
 
-    /// Follows the particles, where a trajectory asks.
-    fn paths(&mut self, output: &Output) {
-        if output.trajectory.is_none() {
-            return;
-        }
+    /// Kernels that follow particles and tracers.
+    fn followers(&self) -> Vec<Kernel> {
         let groups = |things: u64| things.div_ceil(self.options.workgroup());
         let (entry, followed) = match self.storage {
             Storage::Sorted => (Entry::FollowWater, self.water.carriers),
@@ -428,7 +414,7 @@ impl Builder<'_> {
             let count = vec![("PARTICLES", self.tracers() as f64)];
             kernels.push(follow.with(count).renamed(vec![("particles", "tracers")]));
         }
-        self.plan.follow(kernels, self.stride);
+        kernels
     }
 
     /// A buffer of so many particles, or two textures: of their motion, and of their masses and numbers.

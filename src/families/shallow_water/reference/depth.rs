@@ -1,8 +1,8 @@
 //! The depth on the mesh: mass spread over the nodes, and its smoothing.
 
 use super::splines::Spline;
+use crate::document::{LaplacianSymbol, SmoothingSolver};
 use crate::families::ShallowWater;
-use crate::scene::{LaplacianSymbol, SmoothingSolver};
 use crate::state::State;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};

@@ -3,8 +3,8 @@
 //! The rotation is `dV/dt = f₀ (V_y, -V_x)`, to the right of the motion where f₀ is positive.
 
 use super::depth::mesh_splines;
+use crate::document::Integrator;
 use crate::families::{Model, ShallowWater};
-use crate::scene::Integrator;
 
 /// Half a kick at a position, dt/2 times the force -c₀² Σ (h - 1 + s)ₖₗ ∇ψₖₗ of equation (25), by a surface on the
 /// nodes; rounded half to even.

@@ -9,6 +9,9 @@ use crate::shaders::{Choices, Entry, voronoi};
 const LANES: u64 = 64;
 /// Cells whose equations one workgroup solves as fast as many.
 const FEW: u64 = 2048;
+/// The buffer of what the solver has come to.
+pub(in crate::families::voronoi) const SOLVER: &str = "solver";
+
 /// Bytes of what the solver has come to, before the sums of workgroups.
 const HEADER: u64 = 48;
 
@@ -63,7 +66,7 @@ impl Builder<'_> {
             self.plan.add_table("demands", "workgroups of an iteration of the solver", bytes);
             self.plan.add_buffer("images", "what friction makes of preconditioned residuals", 8 * self.particles);
         }
-        self.plan.add_buffer("solver", "how far the solver of the friction has come", HEADER + 16 * groups);
+        self.plan.add_buffer(SOLVER, "how far the solver of the friction has come", HEADER + 16 * groups);
         self.plan.add_buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
         self.plan.add_buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
         self.plan.add_buffer("searches", "preconditioned residuals", 16 * self.particles);

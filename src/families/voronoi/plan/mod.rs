@@ -11,28 +11,37 @@ mod motion;
 mod report;
 mod tessellation;
 
+pub(super) use friction::SOLVER;
+
+use crate::document::{Integrator, VoronoiForm};
 use crate::families::particles::plan::pair;
+use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::plan::{Grid, Kernel, Layout, Options, Plan, Quanta, words};
-use crate::scene::{Integrator, Output, VoronoiForm};
 use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
-use crate::shaders::{Choices, Entry, grid, space, voronoi};
+use crate::shaders::{Choices, Entry, arrays, grid, space, voronoi};
+use crate::plan::serial_memory::Candidate;
+use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, words};
 
 /// Makes the plan of a model of Voronoi cells.
-pub(crate) fn plan(model: &Model, cells: &Voronoi, equilibration: u64, output: &Output, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, cells: &Voronoi, measured: &Measured, options: Options) -> PhysicsPlan {
     let particles = model.particle_count();
     let grid = grid(model, particles);
-    let layout = Layout::Cells { energies: cells.keeps_energy() };
-    let plan = Plan::new(model, grid.cells, layout, quanta(model), stream::FACE);
-    let mut builder = Builder { model, cells, grid, particles, options, equilibration, plan };
+    let layout = CellLayout { energies: cells.keeps_energy() };
+    let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::FACE);
+    let mut builder = Builder { model, cells, measured, grid, particles, options, plan };
     builder.constants();
     builder.buffers();
-    builder.steps(output);
-    builder.observables(output);
-    builder.analyses(output);
-    builder.paths(output);
-    builder.plan
+    builder.steps();
+    builder.observables();
+    PhysicsPlan {
+        reported: builder.reported(),
+        ordered: None,
+        texture_candidates: texture_candidates(),
+        followers: vec![Kernel::new("follow", Entry::FollowParticles, plane(), builder.groups(particles))],
+        stride: builder.reach() / model.units.shortest_length(),
+        plan: builder.plan,
+    }
 }
 
 /// About one particle a cell: a Voronoi cell then sees about thirty candidates for its neighbours.
@@ -56,13 +65,23 @@ fn plane() -> Choices {
     Choices::new().with(space::Dimension::Two).with(space::Particle::Plain).with(space::MassOfParticle::Own)
 }
 
+/// Buffers that may be held in textures.
+fn texture_candidates() -> Vec<Candidate> {
+    vec![
+        Candidate::new("cells", 1, arrays::Cells::Texture),
+        Candidate::new("ranks", 1, arrays::Ranks::Texture),
+        Candidate::new("particles", 4, arrays::Particles::Texture),
+        Candidate::new("sorted", 4, arrays::Sorted::Texture),
+    ]
+}
+
 struct Builder<'a> {
     model: &'a Model,
     cells: &'a Voronoi,
+    measured: &'a Measured,
     grid: Grid,
     particles: u64,
     options: Options,
-    equilibration: u64,
     plan: Plan,
 }
 
@@ -99,15 +118,6 @@ impl Builder<'_> {
     /// round the box.
     fn reach(&self) -> f64 {
         (8.0 * mean_volume(self.model).sqrt()).min(0.4 * self.model.units.shortest_length())
-    }
-
-    /// Follows the cells, where a trajectory asks.
-    fn paths(&mut self, output: &Output) {
-        if output.trajectory.is_none() {
-            return;
-        }
-        let kernel = Kernel::new("follow", Entry::FollowParticles, plane(), self.groups(self.particles));
-        self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
     }
 
     /// Whether friction acts.

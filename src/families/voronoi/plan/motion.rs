@@ -3,7 +3,6 @@
 use super::Builder;
 use super::exchange::Part;
 use super::tessellation::Occasion;
-use crate::scene::Output;
 use crate::shaders::exchange::{Change, EnergyCheck};
 use crate::shaders::{Choices, Entry, voronoi};
 
@@ -19,7 +18,7 @@ enum Drift {
 
 impl Builder<'_> {
     /// The kernels of a step, and those that go before its report.
-    pub(super) fn steps(&mut self, output: &Output) {
+    pub(super) fn steps(&mut self) {
         self.plan.sort = vec![self.kernel("tick", Entry::BeginPlainStep, &Choices::new(), 1)];
         let geometry = self.geometry();
         if self.is_explicit() {
@@ -30,7 +29,7 @@ impl Builder<'_> {
             self.plan.advance = self.split_step();
         }
         self.plan.finish_report.clone_from(&self.plan.advance);
-        self.report(output);
+        self.report();
         self.plan.operations_per_particle = self.operations();
     }
 

@@ -1,8 +1,7 @@
 //! What is measured of the cells, and the analyses of them by their numbers.
 
 use super::{Builder, plane};
-use crate::plan::analyses;
-use crate::scene::Output;
+use crate::plan::{Need, Reported};
 use crate::shaders::{Choices, Entry, voronoi};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, mass, volume, sides of faces; then free energy,
@@ -15,7 +14,7 @@ const OF_SOLVER: u64 = 2;
 impl Builder<'_> {
     /// Whether the velocities after friction are solved for.
     fn solves(&self) -> bool {
-        self.rubs() && !self.is_explicit()
+        self.cells.solves(self.model)
     }
 
     fn quantities(&self) -> u64 {
@@ -28,7 +27,7 @@ impl Builder<'_> {
     }
 
     /// The kernel that adds up what the cells are like.
-    pub(super) fn report(&mut self, output: &Output) {
+    pub(super) fn report(&mut self) {
         let choices = Choices::new()
             .with_any(match (self.cells.keeps_energy(), self.cells.exchanges_mass()) {
                 (true, _) => Some(voronoi::GasReport::Energy),
@@ -40,7 +39,7 @@ impl Builder<'_> {
                 (false, true) => Some(voronoi::RunReport::Limits),
                 (false, false) => None,
             })
-            .with_if(analysed(output), voronoi::Note::ById);
+            .with_if(self.measured.needs(Need::Particles), voronoi::Note::ById);
         let groups = self.groups(self.particles);
         let observe = self.kernel("observe", Entry::ObserveCells, &choices, groups);
         let quanta = self.plan.quanta;
@@ -55,36 +54,18 @@ impl Builder<'_> {
     }
 
     /// The sampler of the observables.
-    pub(super) fn observables(&mut self, output: &Output) {
+    pub(super) fn observables(&mut self) {
         let quantities = self.quantities();
         let groups = self.groups(self.particles);
-        self.plan.sample_observables(output.energies.every, quantities, groups);
+        self.plan.sample_observables(self.measured.every, quantities, groups);
     }
 
-    /// What a scene asks for about cells by their numbers.
-    pub(super) fn analyses(&mut self, output: &Output) {
-        if !analysed(output) {
-            return;
+    /// The cells of a report, where an analysis needs them.
+    pub(super) fn reported(&mut self) -> Option<Reported> {
+        if !self.measured.needs(Need::Particles) {
+            return None;
         }
         self.plan.add_buffer("reported", "cells of the last report by number", 32 * self.particles);
-        let reported = analyses::Reported {
-            model: self.model,
-            equilibration: self.equilibration,
-            workgroup: self.options.workgroup(),
-            choices: plane(),
-            particles: "reported",
-            momenta: None,
-            forces: "reported_forces",
-            force_unit: 0.0,
-        };
-        analyses::add(&mut self.plan, &reported, output);
+        Some(Reported { choices: plane(), particles: "reported", momenta: None, forces: "reported_forces" })
     }
-}
-
-/// Whether a scene has an analysis of reported particles.
-fn analysed(output: &Output) -> bool {
-    output.diffusion.is_some()
-        || output.viscosity.is_some()
-        || !output.autocorrelations.is_empty()
-        || !output.histograms.is_empty()
 }

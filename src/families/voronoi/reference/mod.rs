@@ -33,11 +33,11 @@ mod heat;
 mod observables;
 mod pressure;
 
+use crate::document::Integrator;
 use crate::families::Observables;
 use crate::families::reference::{MOST_DRIFT, Unstable, whole_fractions};
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
-use crate::scene::Integrator;
 use crate::state::State;
 use crate::tessellation::{self, Tessellation};
 use exchange::{Exchange, Ledger};

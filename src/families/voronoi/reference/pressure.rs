@@ -3,8 +3,8 @@
 
 use super::exchange::Exchange;
 use super::faces::{Cells, Face, dot};
+use crate::document::VoronoiForm;
 use crate::families::Voronoi;
-use crate::scene::VoronoiForm;
 
 /// What crosses a face in a time, and whether the limit cut it.
 ///

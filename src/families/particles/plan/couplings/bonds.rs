@@ -1,11 +1,11 @@
 //! Bonds: potentials and baths along them, and the pairs that they spare the repulsion.
 
 use super::Builder;
+use crate::document::BondPotential;
 use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
-use crate::plan::Table;
-use crate::scene::BondPotential;
 use crate::shaders::{Choices, Entry, baths, bonds, couplings};
+use crate::plan::Words;
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
@@ -55,7 +55,7 @@ impl Builder<'_> {
         for kind in &bonds.kinds {
             words.extend(self.bond_coefficients(kind).map(f32::to_bits));
         }
-        let table = Table::Bonds { head: words, bonds: bonds.clone() };
+        let table = BondTable { head: words, bonds: bonds.clone() };
         self.plan.add_long_table("bonds", "bonds and what they are like", table);
         if bonds.have_memory() {
             self.plan.add_buffer("bond_baths", "bath of each bond", 4 * bonds.count());
@@ -91,7 +91,7 @@ impl Builder<'_> {
         let width = bonds.most_spared().max(1) as u64;
         self.plan.constants.push(("EXCLUSIONS", width as f64));
         let purpose = "partners whose repulsion each particle is spared";
-        let table = Table::Exclusions { bonds: bonds.clone(), particles: self.particles, width };
+        let table = ExclusionTable { bonds: bonds.clone(), particles: self.particles, width };
         self.plan.add_long_table("exclusions", purpose, table);
         Some(couplings::Exclusions::Listed)
     }
@@ -112,4 +112,55 @@ fn bond_choices(bonds: &Bonds) -> Choices {
         .with_any(potential)
         .with_if(bonds.have_friction(), bath)
         .with_if(any(|kind| kind.bath.is_some() && kind.temperature > 0.0), baths::BondNoise::Gaussian)
+}
+
+/// Words about species and kinds, then the ends and the kind of each bond, as `shaders/couplings/bonds.wgsl` reads them.
+#[derive(Debug, Clone, PartialEq)]
+struct BondTable {
+    /// What comes before the bonds.
+    head: Vec<u32>,
+    bonds: Bonds,
+}
+
+impl Words for BondTable {
+    fn count(&self) -> u64 {
+        self.bonds.count().saturating_mul(4).saturating_add(self.head.len() as u64)
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let bonds = self.bonds.iter().flat_map(|bond| [bond.ends[0], bond.ends[1], bond.kind, 0]);
+        self.head.iter().copied().chain(bonds).collect()
+    }
+}
+
+/// Partners that each particle is spared from, in rows of equal length, filled up with the particle itself.
+#[derive(Debug, Clone, PartialEq)]
+struct ExclusionTable {
+    bonds: Bonds,
+    particles: u64,
+    /// Length of a row.
+    width: u64,
+}
+
+impl Words for ExclusionTable {
+    fn count(&self) -> u64 {
+        self.particles.saturating_mul(self.width)
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let (bonds, width) = (&self.bonds, self.width as usize);
+        let mut rows: Vec<u32> = (0..self.particles as u32).flat_map(|id| std::iter::repeat_n(id, width)).collect();
+        for bond in bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion) {
+            let [a, b] = bond.ends;
+            for (end, partner) in [(a, b), (b, a)] {
+                let row = &mut rows[end as usize * width..(end as usize + 1) * width];
+                if !row.contains(&partner)
+                    && let Some(free) = row.iter_mut().find(|entry| **entry == end)
+                {
+                    *free = partner;
+                }
+            }
+        }
+        rows
+    }
 }

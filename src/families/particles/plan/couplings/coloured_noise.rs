@@ -1,8 +1,8 @@
 //! A random force on every particle that is constant for random times.
 
 use super::Builder;
+use crate::document::NoiseProcess;
 use crate::noise::{self, stream};
-use crate::scene::NoiseProcess;
 use crate::shaders::{Choices, baths};
 
 /// Largest time that a constant takes, in half steps: above it every force outlasts any run.

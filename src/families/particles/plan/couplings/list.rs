@@ -1,9 +1,9 @@
 //! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far.
 
 use super::Builder;
+use crate::families::particles::layout::PARTICLE;
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
-use crate::plan::layout::PARTICLE;
 use crate::plan::prefix_sum::PrefixSum;
 use crate::plan::{Options, folded};
 use crate::shaders::{Choices, Entry, core, couplings};

@@ -4,21 +4,25 @@
 //! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
-mod analyses;
 mod angles;
 mod bonds;
 mod coloured_noise;
 mod list;
 mod motion;
 mod pairs;
+mod reported;
 mod tethers;
 
-use super::layout::PARTICLE;
 use super::species::Species;
-use super::{Grid, Kernel, Layout, Listed, Options, Plan, Quanta, deviate, pair, words};
+use super::{
+    Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate, pair,
+    texture_candidates, words,
+};
+use crate::document::Integrator;
+use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
-use crate::scene::{Integrator, Output};
+use crate::plan::Layout;
 use crate::shaders::noise::Deviate;
 use crate::shaders::{Choices, Entry, couplings, grid, space};
 
@@ -28,15 +32,14 @@ const OBSERVABLES: u64 = 9;
 const BATH_OBSERVABLES: u64 = 3;
 
 /// Makes the plan of a model.
-pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, options: Options) -> Plan {
+pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> PhysicsPlan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff + force.skin, particles);
     let plan = empty_plan(model, &grid, options);
     let species = Species::of(model);
-    let mut builder =
-        Builder { model, force, grid, particles, options, species, equilibration, plan, report_groups: 0 };
+    let mut builder = Builder { model, measured, force, grid, particles, options, species, plan, report_groups: 0 };
     builder.constants();
     builder.buffers();
     builder.list();
@@ -45,30 +48,37 @@ pub(crate) fn plan(model: &Model, equilibration: u64, output: &Output, options: 
     builder.angles();
     builder.tethers();
     builder.coloured_noise();
-    builder.motion(output);
-    builder.observables(output);
-    builder.analyses(output);
-    builder.paths(output);
-    builder.plan
+    builder.motion();
+    builder.observables();
+    PhysicsPlan {
+        reported: Some(builder.reported()),
+        ordered: builder.ordered(),
+        texture_candidates: texture_candidates(&builder.plan),
+        followers: vec![Kernel::new("follow", Entry::FollowParticles, builder.choices(), builder.groups(particles))],
+        stride: builder.reach() / model.units.shortest_length(),
+        plan: builder.plan,
+    }
 }
 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    let listed = model
-        .pair_force()
-        .as_ref()
-        .map(|force| Listed { capacity: list::capacity(model, force, options) as usize, memory: force.remembers() });
-    let layout = Layout::Coupled {
-        dimension: model.units.dimension,
-        predicted,
-        listed,
+    let list = model.pair_force().as_ref().map(|force| ListLayout {
+        capacity: list::capacity(model, force, options) as usize,
+        memory: force.remembers(),
+    });
+    let particles = ParticleLayout { dimension: model.units.dimension, predicted };
+    let layout = CoupledLayout {
+        particles,
+        list,
         position_baths: model.position_bath().is_some_and(|bath| bath.memory),
         bond_baths: model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.count() as usize),
         holds: model.coloured_noise().is_some(),
         tethers: model.tether().is_some(),
     };
-    let plan = Plan::new(model, grid.cells, layout, quanta(model), stream::PAIR);
-    Plan { reported: Some("reported"), ..plan }
+    let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
+    // What is reported has no predicted momentum.
+    let reported = Layout::new(ParticleLayout { predicted: false, ..particles });
+    Plan { reported: Some(("reported", reported)), ..plan }
 }
 
 /// Units of the sums: those of pairs, and for the square of a bath that of the stiffest.
@@ -101,12 +111,12 @@ fn baths(model: &Model) -> Vec<BathStep> {
 
 struct Builder<'a> {
     model: &'a Model,
+    measured: &'a Measured,
     force: &'a PairForce,
     grid: Grid,
     particles: u64,
     options: Options,
     species: Species,
-    equilibration: u64,
     plan: Plan,
     /// Rows of partial sums that the kernels of the report fill so far.
     report_groups: u64,
@@ -162,15 +172,6 @@ impl Builder<'_> {
         if self.model.pair_force().is_some() { self.force.cutoff } else { 0.4 * self.model.units.shortest_length() }
     }
 
-    /// Follows the particles, where a trajectory asks.
-    fn paths(&mut self, output: &Output) {
-        if output.trajectory.is_none() {
-            return;
-        }
-        let kernel = Kernel::new("follow", Entry::FollowParticles, self.choices(), self.groups(self.particles));
-        self.plan.follow([kernel], self.reach() / self.model.units.shortest_length());
-    }
-
     /// Inverse masses; none of what is held.
     fn inverse_mass(&self, species: usize) -> f64 {
         let species = &self.model.species[species];
@@ -192,7 +193,7 @@ impl Builder<'_> {
     }
 
     fn predicted(&self) -> bool {
-        matches!(self.plan.layout, Layout::Coupled { predicted: true, .. })
+        self.plan.layout.of::<CoupledLayout>().is_some_and(|layout| layout.particles.predicted)
     }
 
     /// What is chosen for every kernel: the space, the grid in it, the species, and who draws random words.
@@ -257,9 +258,9 @@ impl Builder<'_> {
     }
 
     /// Kernels that take what the report has left, and the sampler of the observables.
-    fn observables(&mut self, output: &Output) {
+    fn observables(&mut self) {
         let quantities = self.quantities();
-        self.plan.sample_observables(output.energies.every, quantities, self.report_groups);
+        self.plan.sample_observables(self.measured.every, quantities, self.report_groups);
         self.plan.finish_report.clone_from(&self.plan.advance);
     }
 }

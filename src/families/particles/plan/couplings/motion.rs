@@ -2,11 +2,10 @@
 
 use super::Builder;
 use crate::noise::{self, stream};
-use crate::scene::Output;
 use crate::shaders::{Choices, Entry, baths, couplings};
 
 impl Builder<'_> {
-    pub(super) fn motion(&mut self, output: &Output) {
+    pub(super) fn motion(&mut self) {
         let groups = self.groups(self.particles);
         self.position_constants();
         let choices = self
@@ -17,7 +16,7 @@ impl Builder<'_> {
         let advance = self.kernel("move", Entry::MoveParticles, &anchored, groups);
         self.plan.advance.push(advance);
         let memory = self.model.position_bath().is_some_and(|bath| bath.memory);
-        let forces = self.reported_forces(output);
+        let forces = self.reported_forces();
         // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
         let optional = [self.species.have_table(), memory, self.model.coloured_noise().is_some(), forces.is_some()];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);

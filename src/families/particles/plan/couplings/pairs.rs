@@ -1,9 +1,9 @@
 //! Pairs from the list: repulsion, friction and noise with or without memory.
 
 use super::Builder;
+use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
 use crate::families::particles::plan::law::law;
-use crate::scene::{Bath, Integrator};
 use crate::shaders::{Choices, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {

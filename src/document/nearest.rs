@@ -22,7 +22,7 @@ const LONGEST: usize = 64;
 const MOST: usize = 512;
 
 /// The candidate most similar to `word`, if any is similar.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     if word.len() > LONGEST {
         return None;
     }

@@ -1,8 +1,11 @@
 //! Checks of scenes with bonds, angles, baths, coloured noise, tethers and fixed particles that a schema cannot express.
 
+pub(crate) mod coloured_noise;
+pub(crate) mod harmonic_chain;
+
 use std::collections::{HashMap, HashSet};
 
-use crate::scene::{
+use crate::document::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
     LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
 };

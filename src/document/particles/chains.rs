@@ -1,6 +1,6 @@
 //! Bonds and angles in a scene.
 
-use crate::scene::Bath;
+use crate::document::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

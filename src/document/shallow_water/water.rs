@@ -1,6 +1,6 @@
 //! Rotating shallow water: what a scene says about it.
 
-use crate::scene::BathScheme;
+use crate::document::BathScheme;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Pair forces in a scene.
 
-use crate::scene::Bath;
+use crate::document::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Checks of coloured noise.
 
-use crate::scene::{ColouredNoiseInteraction, NoiseProcess, Problem, Problems, Scene};
+use crate::document::{ColouredNoiseInteraction, NoiseProcess, Problem, Problems, Scene};
 
 /// The shortest time of a process, in steps: below it there would be too many jumps in a step.
 const LEAST_TIME: f64 = 1.0 / 256.0;

@@ -1,9 +1,7 @@
-//! Scenes of particles: their types and checks.
+//! What a scene says about particles.
 
 mod chains;
-pub(crate) mod checks;
-pub(crate) mod coloured_noise;
-pub(crate) mod harmonic_chain;
+mod harmonic_chain;
 mod pairs;
 mod single;
 

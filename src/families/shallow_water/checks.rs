@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::families::shallow_water::surface::Surface;
-use crate::families::{LARGEST_DEPTH, chebyshev_iterations};
-use crate::scene::{
+use crate::document::{
     Integrator, Placement, Problem, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities,
     brief,
 };
+use crate::families::shallow_water::surface::Surface;
+use crate::families::{LARGEST_DEPTH, chebyshev_iterations};
 
 /// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
 const MOST_ITERATIONS: f64 = 10_000.0;

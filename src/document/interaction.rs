@@ -1,17 +1,8 @@
 //! Interactions: the tagged union of a scene, which names the families.
 
-pub use crate::families::particles::scene::{
-    AnglesInteraction, BondPotential, BondsInteraction, ChainEquilibrium, ChainOutput, ChainPulse,
-    ColouredNoiseInteraction, DpdInteraction, DpdPair, HarmonicChainInteraction, LangevinInteraction, NoiseProcess,
-    SpeciesFriction, TetherInteraction,
-};
-pub use crate::families::shallow_water::scene::{
-    BathRate, FieldQuantity, FieldRanges, Fields, LaplacianSymbol, MeshBath, ShallowWaterInteraction, Smoothing,
-    SmoothingSolver, SurfaceFeature,
-};
-pub use crate::families::voronoi::scene::{
-    CellEnergy, EquationOfState, FrictionSolver, InitialMasses, Neighbours, ShearWave, TemperatureRegion, VoronoiForm,
-    VoronoiInteraction, shear_waves,
+use super::{
+    AnglesInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction, HarmonicChainInteraction,
+    LangevinInteraction, ShallowWaterInteraction, TetherInteraction, VoronoiInteraction,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,5 @@
-//! What a scene says about shallow water, and what such a scene has to fulfil.
+//! What a scene says about shallow water.
 
-pub(crate) mod checks;
 mod fields;
 mod water;
 

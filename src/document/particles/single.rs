@@ -1,6 +1,6 @@
 //! What acts on particles one by one: baths, random forces and springs.
 
-use crate::scene::Bath;
+use crate::document::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! What a run writes.
 
 use super::{
-    Autocorrelation, ChainOutput, ChainSizes, Diffusion, Fields, Histogram, Neighbours, PlotStyle, RadialDistribution,
-    ShearWave, Snapshot, Viscosity,
+    AnalysisId, Autocorrelation, ChainOutput, ChainSizes, Diffusion, Fields, Histogram, Neighbours, PlotStyle,
+    RadialDistribution, ShearWave, Snapshot, Viscosity,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,6 +58,25 @@ pub struct Output {
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<Fields>,
+}
+
+impl Output {
+    /// The analyses that it asks for by keys of their own, and of a list of quantities in the order of the list.
+    pub(crate) fn analyses(&self) -> Vec<AnalysisId> {
+        let keys = [
+            (AnalysisId::RadialDistribution, self.radial_distribution.is_some()),
+            (AnalysisId::Diffusion, self.diffusion.is_some()),
+            (AnalysisId::Viscosity, self.viscosity.is_some()),
+            (AnalysisId::ChainSizes, self.chain_sizes.is_some()),
+            (AnalysisId::Chain, self.chain.is_some()),
+            (AnalysisId::Neighbours, self.neighbours.is_some()),
+            (AnalysisId::ShearWave, self.shear_wave.is_some()),
+        ];
+        let asked = keys.into_iter().filter(|(_, asked)| *asked).map(|(id, _)| id);
+        let correlated = self.autocorrelations.iter().map(|asked| AnalysisId::Autocorrelation(asked.quantity));
+        let counted = self.histograms.iter().map(|asked| AnalysisId::Histogram(asked.quantity));
+        asked.chain(correlated).chain(counted).collect()
+    }
 }
 
 /// The table of energies.

@@ -1,11 +1,11 @@
 //! Pairs counted by distance, for the radial distribution function.
 
-use super::recording::record_histogram;
-use super::serial_memory::TURNS;
-use super::{Grid, Kernel, Options, Plan, Sampler, SamplerId};
+use crate::plan::recording::record_histogram;
+use crate::plan::serial_memory::TURNS;
+use crate::plan::{Grid, Kernel, Options, Ordered, Plan, Sampler, SamplerId};
 use crate::scene::{AnalysisId, RadialDistribution};
+use crate::shaders::Entry;
 use crate::shaders::core::Dispatches;
-use crate::shaders::{Choices, Entry};
 use crate::state::Units;
 
 /// Histograms kept on the device between two readbacks.
@@ -23,8 +23,8 @@ const MOST_DISPATCHES: u64 = 1 << 12;
 /// Enough workgroups to fill an adapter.
 const ENOUGH: u64 = 8192;
 
-/// What the kernel that counts pairs depends on.
-pub(crate) struct PairHistogram<'a> {
+/// What the kernel that counts pairs has to know.
+pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
     pub grid: &'a Grid,
     pub options: Options,
@@ -32,16 +32,16 @@ pub(crate) struct PairHistogram<'a> {
 }
 
 impl PairHistogram<'_> {
-    /// Adds the kernel, which finds the ordered particles by its `choices`, what records its counts, and the sampler. `kernels`
-    /// order the particles, if need be.
-    pub fn add(self, plan: &mut Plan, choices: &Choices, mut kernels: Vec<usize>, first: u64, needs_report: bool) {
+    /// Adds the kernel, what records its counts, and the sampler of a first step.
+    pub fn add(self, plan: &mut Plan, ordered: &Ordered, first: u64) {
+        let mut kernels = ordered.kernels.clone();
         let bins = u64::from(self.asked.bins);
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
         let shares = self.grid.rows() * segments * parts;
         let (dispatches, takes_long) = self.dispatches(plan.particles, spans);
         let dispatches = dispatches.min(shares);
-        let choices = choices.clone().with_if(dispatches > 1, Dispatches::InTurn);
+        let choices = ordered.choices.clone().with_if(dispatches > 1, Dispatches::InTurn);
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
             ("BINS", bins as f64),
@@ -77,7 +77,7 @@ impl PairHistogram<'_> {
             samples: "histogram_samples",
             quantities: self.asked.bins as usize,
             capacity: CAPACITY,
-            needs_report,
+            needs_report: ordered.needs_report,
             window: None,
         });
     }

@@ -1,0 +1,66 @@
+//! The range of a histogram that does not say it.
+
+use crate::families::Model;
+use crate::scene::{CountedQuantity, Histogram};
+use std::f64::consts::PI;
+
+/// The default range in typical magnitudes.
+const RANGE: f64 = 6.0;
+
+/// The largest magnitude that a histogram counts.
+pub(super) fn range(model: &Model, asked: &Histogram) -> f64 {
+    let scale = || match asked.quantity {
+        CountedQuantity::Velocity | CountedQuantity::Speed => velocity_scale(model),
+        CountedQuantity::Acceleration => acceleration_scale(model),
+    };
+    asked.range.unwrap_or_else(|| RANGE * scale())
+}
+
+/// The mass of the lightest species that has particles.
+fn lightest(model: &Model) -> f64 {
+    let present = model.species.iter().filter(|species| species.count > 0);
+    let lightest = present.map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    if lightest.is_finite() { lightest } else { 1.0 }
+}
+
+/// A typical component of the velocity of the lightest species: thermal, or that of the unit of momentum.
+fn velocity_scale(model: &Model) -> f64 {
+    let mass = lightest(model);
+    if model.temperature > 0.0 {
+        (model.temperature / mass).sqrt()
+    } else {
+        model.units.momentum * 2_f64.powi(24) / mass
+    }
+}
+
+/// A typical component of the acceleration, the largest of all species: √(kT/m) √(ω² + min(2Γ/dt, 4/dt²)), where the
+/// repulsion of evenly spread neighbours makes a frequency ω, ω² = Σ aρV(rc)/(d rc m), and their friction a rate
+/// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
+/// of the strongest contact.
+fn acceleration_scale(model: &Model) -> f64 {
+    let Some(force) = model.pair_force() else { return 1.0 };
+    let dimension = model.units.dimension as f64;
+    let (cutoff, exponent) = (force.cutoff, force.weight_exponent);
+    let (sphere, weight) = if model.units.dimension == 2 {
+        (PI * cutoff.powi(2), 2.0 * PI * cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)))
+    } else {
+        let weight = 8.0 * PI * cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0));
+        (4.0 / 3.0 * PI * cutoff.powi(3), weight)
+    };
+    let step = model.time_step;
+    let squares = model.species.iter().enumerate().filter(|(_, species)| species.count > 0).map(|(a, species)| {
+        let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
+            let others = model.species.iter().enumerate();
+            others.map(|(b, other)| coefficient(b) * other.count as f64 / model.units.volume()).sum()
+        };
+        let frequency = sum(&|b| force.repulsion(a, b).abs()) * sphere / (dimension * cutoff * species.mass);
+        let rate = sum(&|b| force.friction(a, b)) * weight / (dimension * species.mass);
+        model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))
+    });
+    let square = squares.fold(0.0, f64::max);
+    if square > 0.0 {
+        return square.sqrt();
+    }
+    let contact = force.largest_repulsion() / lightest(model);
+    if contact > 0.0 { contact } else { 1.0 }
+}

@@ -1,0 +1,153 @@
+//! What descriptors add their samplers to a plan with.
+
+use crate::families::Model;
+use crate::plan::recording::{SAMPLE_ROWS, record_sums};
+use crate::plan::{Kernel, Options, Ordered, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
+use crate::scene::{AnalysisId, Frame, Output};
+use crate::shaders::analyses::{Frame as CentreFrame, Sampled};
+use crate::shaders::{Choices, Entry};
+
+/// A plan of the physics that samplers are added to.
+pub(in crate::run) struct Planner<'a> {
+    /// The plan.
+    pub plan: &'a mut Plan,
+    /// The model.
+    pub model: &'a Model,
+    /// What a scene asks for.
+    pub output: &'a Output,
+    /// The first step sampled.
+    pub equilibration: u64,
+    /// Choices that change how the scene is computed.
+    pub options: Options,
+    /// Particles in order of cells, where an analysis needs them.
+    pub ordered: Option<&'a Ordered>,
+    /// Particles by id, of a family that has analyses of them.
+    reported: Option<&'a Reported>,
+    /// The kernels that find the centre of mass, once there is a need for them.
+    centre: Option<Vec<usize>>,
+}
+
+/// What distinguishes one sampler of sums over particles from another.
+pub(super) struct SumSampler {
+    /// The analysis.
+    pub id: AnalysisId,
+    /// The kernel that leaves a row of sums for every workgroup.
+    pub entry: Entry,
+    /// Its variants, beside those that find the particles.
+    pub choices: Choices,
+    /// Its constants.
+    pub constants: Vec<(&'static str, f64)>,
+    /// Its variables whose buffers have other names.
+    pub renamed: Vec<(&'static str, &'static str)>,
+    /// Kernels that run before it.
+    pub before: Vec<usize>,
+    /// The buffer of the sums of workgroups.
+    pub sums: &'static str,
+    /// The buffer of rows that wait to be read.
+    pub samples: &'static str,
+    /// Number of sums in a row.
+    pub quantities: usize,
+    /// Steps between two samples.
+    pub every: u64,
+    /// What is kept from one sample to the next, if anything.
+    pub window: Option<Window>,
+}
+
+impl<'a> Planner<'a> {
+    /// Begins with a plan of the physics.
+    pub(in crate::run) fn new(
+        model: &'a Model,
+        output: &'a Output,
+        equilibration: u64,
+        options: Options,
+        physics: &'a mut PhysicsPlan,
+    ) -> Self {
+        let PhysicsPlan { plan, reported, ordered, .. } = physics;
+        let (ordered, reported) = (ordered.as_ref(), reported.as_ref());
+        Self { plan, model, output, equilibration, options, ordered, reported, centre: None }
+    }
+
+    /// Workgroups with a lane for every particle.
+    pub(super) fn groups(&self) -> u64 {
+        self.plan.particles.div_ceil(self.options.workgroup()).max(1)
+    }
+
+    /// A kernel that reads the particles by id, if they are reported.
+    pub(super) fn kernel_of_particles(
+        &self,
+        name: &'static str,
+        entry: Entry,
+        choices: &Choices,
+        groups: u64,
+        renamed: &[(&'static str, &'static str)],
+    ) -> Option<Kernel> {
+        let reported = self.reported?;
+        let here = [("particles", reported.particles), ("reported_forces", reported.forces)];
+        let momenta = reported.momenta.map(|buffer| ("reported_momenta", buffer));
+        let all = here.into_iter().chain(momenta).chain(renamed.iter().copied());
+        let renamed = all.filter(|(variable, buffer)| variable != buffer).collect();
+        Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
+    }
+
+    /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
+    pub(super) fn add_sums(&mut self, sampler: &SumSampler) {
+        let groups = self.groups();
+        let rows = vec![("partial_sums", sampler.sums), ("samples", sampler.samples)];
+        let renamed = [&rows[..], &sampler.renamed].concat();
+        let kernel = self.kernel_of_particles(sampler.id.name(), sampler.entry, &sampler.choices, groups, &renamed);
+        let Some(kernel) = kernel else { return };
+        let constants = [&sampler.constants[..], &[("QUANTITIES", sampler.quantities as f64)]].concat();
+        let sums = self.plan.add_kernel(kernel.with(constants));
+        let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
+        let record = self.plan.add_kernel(recorded.renamed(rows));
+        self.plan.add_buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
+        let row = 8 * (1 + sampler.quantities as u64);
+        self.plan.add_buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
+        self.plan.samplers.push(Sampler {
+            id: SamplerId::Analysis(sampler.id),
+            first: self.equilibration,
+            every: sampler.every,
+            kernels: [&sampler.before[..], &[sums, record]].concat(),
+            samples: sampler.samples,
+            quantities: sampler.quantities,
+            capacity: SAMPLE_ROWS,
+            needs_report: true,
+            window: sampler.window,
+        });
+    }
+
+    /// How kernels read velocities in a frame, and the kernels that have to run before.
+    pub(super) fn velocities(&mut self, asked: Option<Frame>) -> (Choices, Vec<usize>) {
+        let apart = self.reported.is_some_and(|reported| reported.momenta.is_some());
+        let velocity = Choices::new().with(if apart { Sampled::Momentum } else { Sampled::Velocity });
+        let natural = if self.model.conserves_momentum() { Frame::Box } else { Frame::CentreOfMass };
+        if asked.unwrap_or(natural) == Frame::Box {
+            return (velocity, Vec::new());
+        }
+        let kernels = self.centre.clone().unwrap_or_else(|| self.find_centre());
+        self.centre = Some(kernels.clone());
+        (velocity.with(CentreFrame::CentreOfMass), kernels)
+    }
+
+    /// Adds the kernels that find the velocity of the centre of mass.
+    fn find_centre(&mut self) -> Vec<usize> {
+        let groups = self.groups();
+        let sums = [("partial_sums", "momentum_sums")];
+        let kernel = self.kernel_of_particles("sum_momenta", Entry::SumMomenta, &Choices::new(), groups, &sums);
+        let Some(kernel) = kernel else { return Vec::new() };
+        let sum = self.plan.add_kernel(kernel.with(vec![("QUANTITIES", 3.0)]));
+        let species = self.model.species.iter();
+        let mass: f64 = species.map(|species| species.mass * species.count as f64).sum();
+        let find = self.plan.add_kernel(
+            Kernel::new("find_centre", Entry::FindCentre, Choices::new(), 1)
+                .with(vec![
+                    ("GROUPS", groups as f64),
+                    ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
+                ])
+                .renamed(sums.to_vec()),
+        );
+        self.plan.add_buffer("momentum_sums", "sums of each workgroup", 24 * groups);
+        self.plan.add_buffer("centre", "velocity of the centre of mass", 16);
+        vec![sum, find]
+    }
+}

@@ -1,0 +1,39 @@
+//! The plan of a run: the physics, completed with the samplers of the analyses, and suited to the memory of the adapter.
+
+use super::analyses::{Planner, add_samplers, needs};
+use crate::families::Model;
+use crate::plan::{Hardware, Measured, Options, Plan};
+use crate::scene::Output;
+
+/// Makes the plan of a model.
+///
+/// ```
+/// use mesoscope::families::Model;
+/// use mesoscope::plan::{Hardware, Options};
+/// use mesoscope::run::plan;
+///
+/// // No device is needed to see what a run would do, nor to check its shaders.
+/// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
+/// let model = Model::new(&scene);
+/// let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+/// assert_eq!((plan.particles, plan.cells), (24_000, [20, 20, 20]));
+/// assert!(plan.samplers[0].due(40) && !plan.samplers[0].due(41));
+/// for kernel in plan.sort.iter().chain(&plan.advance).map(|&index| &plan.kernels[index]) {
+///     mesoscope::gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+    let measured = Measured { every: output.energies.every, needs: needs(output) };
+    let mut physics = model.physics().plan(model, &measured, hardware, options);
+    add_samplers(&mut Planner::new(model, output, equilibration, options, &mut physics));
+    let mut plan = physics.plan;
+    if output.trajectory.is_some() {
+        plan.follow(physics.followers, physics.stride);
+    }
+    if options.suits_serial_memory(hardware) {
+        plan.suit_serial_memory(&physics.texture_candidates);
+    }
+    plan
+}
