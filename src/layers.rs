@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 20] = [
+const LAYERS: [&str; 21] = [
     "printable",
     "numbers",
     "table",
@@ -26,6 +26,7 @@ const LAYERS: [&str; 20] = [
     "run",
     "self_test",
     "sweep",
+    "tradeoff",
 ];
 
 /// Rust files of a directory and those below it.

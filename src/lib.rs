@@ -58,6 +58,7 @@ pub mod state;
 pub mod sweep;
 pub mod table;
 pub mod tessellation;
+pub mod tradeoff;
 
 /// The examples of the documentation compile.
 #[cfg(doctest)]

@@ -18,6 +18,7 @@ mod schema;
 mod sweep;
 mod sweep_report;
 mod table;
+mod tradeoff;
 
 use std::process::ExitCode;
 
@@ -42,6 +43,8 @@ Examples:
   mesoscope run dpd-fluid                     simulate the standard DPD fluid on the best adapter
   mesoscope run my-scene.json --out results   simulate a scene of your own
   mesoscope sweep dpd-fluid --vary seed=1,2   compare variants of a scene
+  mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04
+                                              what accuracy costs, and what to choose
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 
@@ -58,6 +61,7 @@ enum Command {
     Check(check::Arguments),
     Resume(resume::Arguments),
     Sweep(sweep::Arguments),
+    Tradeoff(tradeoff::Arguments),
     Plot(plot::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
@@ -75,6 +79,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::execute(&arguments),
         Command::Resume(arguments) => resume::execute(&arguments),
         Command::Sweep(arguments) => sweep::execute(&arguments),
+        Command::Tradeoff(arguments) => tradeoff::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Schema(arguments) => schema::execute(&arguments),

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use mesoscope::printable;
+use mesoscope::output::files;
 use mesoscope::run::Simulation;
+use mesoscope::{printable, sweep};
 
 use super::{AdapterArgument, Failure, print, report, whole_number};
 
@@ -32,6 +33,12 @@ pub struct Arguments {
 /// Continues the run.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
+    let holds = |name: &str| arguments.directory.join(name).exists();
+    if holds(sweep::files::SUMMARY) && !holds(files::CHECKPOINT) {
+        return Err(Failure::usage(format!(
+            "`{shown}` holds a sweep, not a run: `mesoscope sweep --resume {shown}` finishes it, and a directory in it can be resumed on its own"
+        )));
+    }
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
     if simulation.is_finished() {
         let step = simulation.first_step();

@@ -106,6 +106,14 @@ pub(crate) trait Physics {
         false
     }
 
+    /// Whether the motion is one in a potential, whose energy is constant if it is computed exactly.
+    fn is_conservative(&self, model: &Model) -> bool;
+
+    /// Whether a heat bath keeps what moves at the temperature of the scene.
+    fn has_thermostat(&self, _: &Model) -> bool {
+        false
+    }
+
     /// Warnings about a scene without mistakes.
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;
 

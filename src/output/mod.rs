@@ -30,7 +30,7 @@ pub use extent::Extent;
 pub use id::Id;
 pub(crate) use id::of_one_run;
 pub use lock::DirectoryLock;
-pub use npy::{write_npy, write_npy_to};
+pub use npy::{read_npy, write_npy, write_npy_to};
 pub use summary::Summary;
 pub(crate) use table::quoted;
 pub use table::{read_table, write_table};

@@ -33,6 +33,50 @@ pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), Out
     write_atomically(path, |writer| write_npy_to(writer, shape, values))
 }
 
+/// Reads an array file of float64 in C order, little-endian: shape and values.
+///
+/// ```
+/// use mesoscope::output::{read_npy, write_npy};
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("depth.npy");
+/// write_npy(&path, &[2, 3], &[1.0, 1.1, 1.2, 0.9, 1.0, 1.1])?;
+/// assert_eq!(read_npy(&path)?, (vec![2, 3], vec![1.0, 1.1, 1.2, 0.9, 1.0, 1.1]));
+/// std::fs::write(&path, "no array")?;
+/// assert!(read_npy(&path).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`OutputError::Io`] when the file cannot be read, or is no such array.
+pub fn read_npy(path: &Path) -> Result<(Vec<usize>, Vec<f64>), OutputError> {
+    let bytes = std::fs::read(path).map_err(OutputError::io("read", path))?;
+    parsed(&bytes).ok_or_else(|| {
+        let message = "it is no array of float64 in C order, little-endian, as `numpy.save` writes it";
+        OutputError::io("read", path)(io::Error::new(io::ErrorKind::InvalidData, message))
+    })
+}
+
+fn parsed(bytes: &[u8]) -> Option<(Vec<usize>, Vec<f64>)> {
+    let length = u16::from_le_bytes(bytes.get(8..PREAMBLE)?.try_into().ok()?);
+    let begin = PREAMBLE + usize::from(length);
+    let header = std::str::from_utf8(bytes.get(PREAMBLE..begin)?).ok()?;
+    let described = header.contains("'descr': '<f8'") && header.contains("'fortran_order': False");
+    if !bytes.starts_with(b"\x93NUMPY\x01\x00") || !described {
+        return None;
+    }
+    let shape = header.split_once("'shape': (")?.1.split_once(')')?.0;
+    let lengths = shape.split(',').map(str::trim).filter(|length| !length.is_empty());
+    let shape: Vec<usize> = lengths.map(|length| length.parse().ok()).collect::<Option<_>>()?;
+    let values: Vec<f64> = bytes
+        .get(begin..)?
+        .chunks_exact(8)
+        .filter_map(|word| Some(f64::from_le_bytes(word.try_into().ok()?)))
+        .collect();
+    let held = shape.iter().try_fold(1_usize, |product, length| product.checked_mul(*length))?;
+    (held == values.len()).then_some((shape, values))
+}
+
 /// Writes the content of an array file; see [`write_npy`].
 ///
 /// ```

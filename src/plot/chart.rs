@@ -124,6 +124,8 @@ pub struct Series {
     pub ink: SeriesInk,
     /// Its mean, drawn over the part of the panel that it was taken from.
     pub mean: Option<Mean>,
+    /// A word beside every point, as far as there is space for it; empty for a series without labels.
+    pub labels: Vec<String>,
 }
 
 /// The mean of a series.
@@ -156,6 +158,13 @@ impl Series {
     #[must_use]
     pub fn with_ink(mut self, ink: SeriesInk) -> Self {
         self.ink = ink;
+        self
+    }
+
+    /// The series with a word beside every point.
+    #[must_use]
+    pub fn with_labels(mut self, labels: Vec<String>) -> Self {
+        self.labels = labels;
         self
     }
 
@@ -202,6 +211,8 @@ pub enum SeriesInk {
         /// Number of the pattern of dashes; 0 is a solid line.
         pattern: usize,
     },
+    /// A grey that stands back behind all others.
+    Faint,
 }
 
 /// A horizontal line to compare with.

@@ -143,6 +143,7 @@ impl Layout<'_> {
             self.grid(place);
             self.series(index, place);
             self.axes(index, place);
+            self.point_labels(index, place, corners[index]);
             if let Some(corner) = corners[index] {
                 self.legend_inside(index, corner);
             } else if above {

@@ -96,7 +96,7 @@ impl Layout<'_> {
     }
 
     /// Everything a legend must not cover, as segments.
-    fn obstacles(&self, index: usize, place: &Placed) -> Vec<([f64; 2], [f64; 2])> {
+    pub(super) fn obstacles(&self, index: usize, place: &Placed) -> Vec<([f64; 2], [f64; 2])> {
         let panel = self.prepared[index].panel;
         let mut obstacles = Vec::new();
         for series in &panel.series {

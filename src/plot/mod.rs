@@ -33,6 +33,7 @@ mod cells;
 mod chain_charts;
 mod chart;
 mod chart_axes;
+mod chart_labels;
 mod chart_layout;
 mod chart_legend;
 mod chart_series;

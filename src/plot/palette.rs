@@ -13,6 +13,8 @@ pub(super) struct Inks {
     /// Secondary text.
     pub muted: Colour,
     pub grid: Colour,
+    /// Data that stand back.
+    pub faint: Colour,
     /// Lines of one chart, most distinct first: colours that stay apart for colour-blind readers.
     pub series: [Colour; 7],
     /// The first species of a snapshot; areas bear lighter colours than lines do.
@@ -42,6 +44,7 @@ pub(super) fn inks(theme: Theme) -> Inks {
             ink: rgb(0x001A_1A1A),
             muted: rgb(0x0055_5555),
             grid: rgb(0x00E3_E3E3),
+            faint: rgb(0x00AD_ADAD),
             series: [BLUE, VERMILION, rgb(0x001A_1A1A), GREEN, PURPLE, ORANGE, SKY],
             species,
         },
@@ -50,6 +53,7 @@ pub(super) fn inks(theme: Theme) -> Inks {
             ink: rgb(0x00EC_ECEC),
             muted: rgb(0x00A8_ACB3),
             grid: rgb(0x0034_373D),
+            faint: rgb(0x0069_6E77),
             series: [SKY, ORANGE, rgb(0x00EC_ECEC), GREEN, PURPLE, YELLOW, VERMILION],
             species: [SKY, ORANGE, GREEN, PURPLE, BLUE, VERMILION, YELLOW, GREY],
         },

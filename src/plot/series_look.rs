@@ -46,6 +46,7 @@ pub(super) fn look(number: usize, series: &Series, inks: &Inks, theme: Theme) ->
             Look { colour: line_colour(theme, place), dashes: dashes(pattern), marker: None }
         }
         SeriesInk::Ink { pattern } => Look { colour: inks.ink, dashes: dashes(pattern), marker: None },
+        SeriesInk::Faint => Look { colour: inks.faint, dashes: dashes(0), marker: None },
     }
 }
 

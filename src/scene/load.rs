@@ -218,6 +218,22 @@ impl Reading {
     }
 }
 
+/// The text of a scene with overrides written into it, and nothing else changed.
+///
+/// # Errors
+/// As [`parse`].
+pub(crate) fn with_overrides(name: &str, text: &str, overrides: &[String]) -> Result<String, SceneError> {
+    parse(name, text, overrides)?;
+    let (mut document, mut problems) = text::parse(name, text)?;
+    problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
+    if !problems.is_empty() {
+        return Err(invalid(name, problems));
+    }
+    let text = serde_json::to_string_pretty(&document)
+        .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
+    Ok(text + "\n")
+}
+
 /// A scene that has been changed, checked like one that is read.
 ///
 /// # Errors

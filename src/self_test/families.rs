@@ -183,6 +183,21 @@ fn deviation(start: &State, found: &State, expected: &State) -> (f64, &'static s
     worst
 }
 
+/// How far the state after one step of a scene is from that of the float64 reference: the largest difference, as a part of the largest
+/// change of the step.
+///
+/// # Errors
+/// Why there is no such step, in words.
+pub(crate) fn distance_from_reference(gpu: &Gpu, scene: &Scene) -> Result<f64, String> {
+    let model = Model::new(scene);
+    let start = families::initial_state(scene, &model);
+    let words = |error: EngineError| error.to_string();
+    let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::from(gpu), Options::default());
+    let mut device = Engine::new(gpu, plan.without_reports(), &start).map_err(words)?;
+    device.advance(1, 1).map_err(words)?;
+    Ok(deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?).0)
+}
+
 /// What may never change in a scene, by name.
 fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     let mut sums = Vec::new();

@@ -70,6 +70,17 @@ impl Sweep {
         also: &[String],
     ) -> Result<Self, SweepError> {
         let (name, text) = scene::read(source).map_err(SweepError::Scene)?;
+        Self::of_text(&name, &text, (set, steps), vary, also)
+    }
+
+    /// Varies a scene that was read already; `name` is what messages call it.
+    pub(crate) fn of_text(
+        name: &str,
+        text: &str,
+        (set, steps): (&[String], Option<u64>),
+        vary: &[String],
+        also: &[String],
+    ) -> Result<Self, SweepError> {
         let mut mistakes = Vec::new();
         let mut read = Vec::new();
         for argument in vary {
@@ -108,10 +119,10 @@ impl Sweep {
         }
         let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
             // The reader of scenes says what is wrong in better words.
-            return Err(scene::parse(&name, &text, set).err().map_or_else(unreadable, SweepError::Scene));
+            return Err(scene::parse(name, text, set).err().map_or_else(unreadable, SweepError::Scene));
         };
-        let variants = expand(&name, &text, (set, steps), &read, &further)?;
-        Ok(Self { scene: name, base, set: set.to_vec(), steps, vary: read, also: further, variants })
+        let variants = expand(name, text, (set, steps), &read, &further)?;
+        Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, variants })
     }
 
     /// The sweep of a summary.
@@ -139,7 +150,7 @@ impl Sweep {
     }
 
     /// All keys that distinguish variants, in order.
-    pub(super) fn keys(&self) -> Vec<&str> {
+    pub(crate) fn keys(&self) -> Vec<&str> {
         keys(&self.vary, &self.also)
     }
 }

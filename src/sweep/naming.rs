@@ -11,7 +11,7 @@ const LONGEST: usize = 120;
 
 /// The shortest ends of paths that tell them apart: `friction` for `interactions.0.friction`. An end never begins with
 /// the index of a list.
-pub(super) fn short_keys(keys: &[&str]) -> Vec<String> {
+pub(crate) fn short_keys(keys: &[&str]) -> Vec<String> {
     let end = |key: &str, length: usize| -> String {
         let parts: Vec<&str> = key.split('.').collect();
         let mut first = parts.len().saturating_sub(length);
@@ -69,7 +69,7 @@ pub(super) fn distinct(names: Vec<String>) -> Vec<String> {
 }
 
 /// A value as people write it. An object that only says its type is called by it.
-pub(super) fn readable(value: &Value) -> String {
+pub(crate) fn readable(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
         Value::Array(list) => list.iter().map(readable).collect::<Vec<_>>().join(" × "),

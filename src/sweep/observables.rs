@@ -1,7 +1,7 @@
 //! The numbers that came out of a variant: means of the table of energies and results of the analyses.
 
 use super::variant::VariantSummary;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// A quantity with its standard error, which may be missing.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,13 @@ pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
     let means = variant.means.iter().filter_map(|(name, found)| mean(name, found));
     let results = variant.results.iter().flat_map(|(name, result)| results(name, result));
     means.chain(results).collect()
+}
+
+/// The numbers among the means and results of a run: name, value and standard error.
+pub(crate) fn numbers_of(means: &Map<String, Value>, results: &Map<String, Value>) -> Vec<(String, f64, Option<f64>)> {
+    let means = means.iter().filter_map(|(name, found)| observable(name.clone(), found));
+    let results = results.iter().flat_map(|(name, result)| self::results(name, result));
+    means.chain(results).map(|found| (found.name, found.value, found.error)).collect()
 }
 
 /// A number, or an object with a mean or a value and maybe a standard error.

@@ -24,7 +24,7 @@ pub struct Setting {
 
 impl Setting {
     /// The setting as an override of a scene.
-    pub(super) fn argument(&self) -> String {
+    pub(crate) fn argument(&self) -> String {
         format!("{}={}", self.key, self.value)
     }
 }
@@ -62,7 +62,7 @@ impl Variation {
 }
 
 /// Reads the settings of one variant, `key=value,key=value,…`.
-pub(super) fn settings(argument: &str) -> Result<Vec<Setting>, String> {
+pub(crate) fn settings(argument: &str) -> Result<Vec<Setting>, String> {
     let mut settings: Vec<Setting> = Vec::new();
     for piece in pieces(argument) {
         let (key, text) = split_key(piece).ok_or_else(|| {

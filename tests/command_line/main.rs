@@ -15,4 +15,5 @@ mod schema;
 mod shallow_water;
 mod sweep;
 mod terminal;
+mod tradeoff;
 mod voronoi;

@@ -73,6 +73,8 @@ fn every_variant_is_the_run_it_would_be_alone() {
         let [one, other] = [&variant, Path::new(&alone)].map(|path| Summary::load(&path.join(files::SUMMARY)).unwrap());
         assert_eq!((one.means, one.results, one.scene), (other.means, other.results, other.scene));
     }
+    let sweep = place.argument("out");
+    fails(&["resume", &sweep], 2, &["holds a sweep, not a run", &format!("mesoscope sweep --resume {sweep}")]);
     // A variant is a run like any other.
     let variant = place.argument("out/friction=9");
     assert!(succeeds(&["plot", &variant]).contains(files::ENERGIES_PLOT));

@@ -31,6 +31,20 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     ways.join(", ")
 }
 
+/// Whether neither a bath nor a noise exchanges energy with the particles.
+pub(super) fn is_conservative(model: &Model) -> bool {
+    let noise = model.coloured_noise().is_some_and(|noise| noise.strength > 0.0);
+    !noise && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
+}
+
+/// Whether baths alone, at the temperature of the model, exchange energy with the particles.
+pub(super) fn has_thermostat(model: &Model) -> bool {
+    let noise = model.coloured_noise().is_some_and(|noise| noise.strength > 0.0);
+    let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
+    let any = acting.peek().is_some();
+    !noise && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)
+}
+
 /// The steps of all baths of particles, pairs and bonds, with their temperatures.
 fn baths(model: &Model) -> Vec<(BathStep, f64)> {
     let mut baths = Vec::new();

@@ -120,6 +120,14 @@ impl Physics for Particles {
         self.chains.is_none()
     }
 
+    fn is_conservative(&self, model: &Model) -> bool {
+        conservation::is_conservative(model)
+    }
+
+    fn has_thermostat(&self, model: &Model) -> bool {
+        conservation::has_thermostat(model)
+    }
+
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
         warnings::warnings(self, scene, model)
     }

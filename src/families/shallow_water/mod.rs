@@ -50,6 +50,10 @@ impl Physics for ShallowWater {
         false
     }
 
+    fn is_conservative(&self, _: &Model) -> bool {
+        self.bath.is_none()
+    }
+
     fn mass_unit(&self) -> Option<f64> {
         Some(self.mass_unit)
     }

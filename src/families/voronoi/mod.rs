@@ -42,6 +42,14 @@ impl Physics for Voronoi {
         true
     }
 
+    fn is_conservative(&self, _: &Model) -> bool {
+        self.viscosity == 0.0 && self.has_potential()
+    }
+
+    fn has_thermostat(&self, model: &Model) -> bool {
+        self.viscosity > 0.0 && model.temperature > 0.0 && !self.keeps_energy()
+    }
+
     fn mass_unit(&self) -> Option<f64> {
         Some(self.mass_unit)
     }

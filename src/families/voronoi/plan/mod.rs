@@ -18,10 +18,10 @@ use crate::families::particles::plan::pair;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
-use crate::shaders::{Choices, Entry, arrays, grid, space, voronoi};
 use crate::plan::serial_memory::Candidate;
 use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, words};
+use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
+use crate::shaders::{Choices, Entry, arrays, grid, space, voronoi};
 
 /// Makes the plan of a model of Voronoi cells.
 pub(crate) fn plan(model: &Model, cells: &Voronoi, measured: &Measured, options: Options) -> PhysicsPlan {

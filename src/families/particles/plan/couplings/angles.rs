@@ -1,9 +1,9 @@
 //! Angles between bonds.
 
 use super::Builder;
-use crate::shaders::{Choices, Entry, bonds};
 use crate::families::Angles;
 use crate::plan::Words;
+use crate::shaders::{Choices, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {

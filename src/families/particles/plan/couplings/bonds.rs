@@ -4,8 +4,8 @@ use super::Builder;
 use crate::document::BondPotential;
 use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
-use crate::shaders::{Choices, Entry, baths, bonds, couplings};
 use crate::plan::Words;
+use crate::shaders::{Choices, Entry, baths, bonds, couplings};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {

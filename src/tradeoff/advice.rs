@@ -1,0 +1,226 @@
+//! The page of a tradeoff: what to choose, in words.
+
+use super::deviation::Deviation;
+use super::reference::Source;
+use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::target::{Target, Verdict};
+use crate::numbers::{short, with_error};
+use crate::sweep::Setting;
+use std::fmt::Write as _;
+
+/// Errors that the page names the cheapest choice for.
+const ROUND_ERRORS: [f64; 3] = [0.05, 0.01, 0.001];
+
+/// A verdict in a word.
+pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Meets => "meets",
+        Verdict::Open => "open",
+        Verdict::Misses => "misses",
+    }
+}
+
+/// A duration in hours or days.
+pub(super) fn hours(seconds: f64) -> String {
+    let hours = seconds / 3600.0;
+    if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
+}
+
+/// What a measure is compared with.
+pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> String {
+    let Some(reference) = summary.reference(measure) else { return "there is nothing to compare it with".to_owned() };
+    let value = with_error(reference.value, reference.uncertainty.filter(|error| *error > 0.0));
+    match &reference.source {
+        Source::Given => format!("compared with {value}, which was given"),
+        Source::Predicted(law) => format!("compared with {value}: {law}"),
+        Source::Finer(_) => {
+            let step = summary.finer.first().map_or(0.0, |run| run.time_step);
+            let step = if step > 0.0 { format!(" of step {}", short(step)) } else { String::new() };
+            format!("compared with {value} of a finer run{step}")
+        }
+    }
+}
+
+/// An error with its uncertainty, in per cent where it is relative.
+#[must_use]
+pub fn error_in_words(error: &Deviation) -> String {
+    let scale = if error.relative { 100.0 } else { 1.0 };
+    let unit = if error.relative { " %" } else { "" };
+    let text =
+        with_error(scale * error.error, error.uncertainty.filter(|found| *found > 0.0).map(|found| scale * found));
+    format!("{text}{unit}")
+}
+
+/// The whole page, in Markdown.
+pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
+    let mut text = format!("# What accuracy costs: {title}\n\n");
+    let adapter = summary.adapter.as_ref().map_or("an unknown adapter", |adapter| &adapter.name);
+    let (count, time) = (summary.choices.len(), short(summary.averaged_time()));
+    let _ = writeln!(
+        text,
+        "{count} choices, each averaged over {time} units of simulated time after {} of equilibration, on {adapter}. \
+         Costs are medians of steps timed in turns, without reports.\n",
+        short(summary.stretch.equilibration)
+    );
+    if summary.is_short {
+        text.push_str(
+            "**The runs ended before the errors were as small as asked for**: a larger --budget makes them longer.\n\n",
+        );
+    }
+    targets(&mut text, summary);
+    table(&mut text, summary);
+    for measure in &summary.measures {
+        section(&mut text, summary, measure);
+    }
+    unstable(&mut text, summary);
+    text
+}
+
+/// The targets, and which choice meets them.
+fn targets(text: &mut String, summary: &TradeoffSummary) {
+    let targets = &summary.arguments.targets;
+    if targets.is_empty() {
+        return;
+    }
+    let wanted = targets.iter().map(Target::to_string).collect::<Vec<_>>().join(", ");
+    let _ = writeln!(text, "## {wanted}\n");
+    verdict(text, summary, ["**", "    "]);
+}
+
+/// Which choice meets the targets and what to write into the scene, or which comes nearest. `bold` and `indent` are what the format
+/// marks with.
+pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, indent]: [&str; 2]) {
+    if let Some(choice) = summary.choice() {
+        let cost = choice.cost.map_or_else(String::new, |cost| {
+            format!(", at {} s a unit of simulated time", short(cost.seconds_per_time))
+        });
+        let _ = writeln!(
+            text,
+            "Choose {bold}{}{bold}{cost}: the cheapest that meets the targets, with two standard errors.\n",
+            choice.label
+        );
+        for line in lines(&choice.settings) {
+            let _ = writeln!(text, "{indent}{line}");
+        }
+        text.push('\n');
+        return;
+    }
+    let _ = write!(text, "{bold}No choice meets the targets.{bold} ");
+    if let Some((choice, target, factor)) = nearest(summary) {
+        let error = choice.error(&target.measure).map_or_else(String::new, error_in_words);
+        let _ = write!(
+            text,
+            "{} comes nearest: its {} is off by {error}, {} times as much as it may be. ",
+            choice.label,
+            target.measure,
+            short(factor)
+        );
+    }
+    if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open)) {
+        text.push_str("Of some it is open: a smaller --error or a larger --budget decides it. ");
+    }
+    text.push_str("Vary other keys, or a smaller time step.\n\n");
+}
+
+/// The choice whose worst error, as a multiple of its target, is least; with that target and the multiple.
+fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
+    let worst = |choice| {
+        let choice: &Choice = choice;
+        let factors = summary.arguments.targets.iter().filter_map(|target| {
+            let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
+            let upper = error.size() + 2.0 * error.uncertainty.unwrap_or(0.0);
+            Some((choice, target, upper / target.most(reference.value, error.relative)))
+        });
+        factors.max_by(|a, b| a.2.total_cmp(&b.2))
+    };
+    summary.choices.iter().filter_map(worst).min_by(|a, b| a.2.total_cmp(&b.2))
+}
+
+/// The lines of a scene that a choice changes, as overrides.
+pub(super) fn lines(settings: &[Setting]) -> Vec<String> {
+    settings.iter().map(|setting| format!("{}: {}", setting.key, setting.value)).collect()
+}
+
+/// All choices in one table.
+fn table(text: &mut String, summary: &TradeoffSummary) {
+    text.push_str("| choice | s a unit of time |");
+    for measure in &summary.measures {
+        let _ = write!(text, " {} |", measure.replace('_', " "));
+    }
+    text.push_str("\n|---|--:|");
+    text.push_str(&"--:|".repeat(summary.measures.len()));
+    text.push('\n');
+    for choice in &summary.choices {
+        let cost = choice.cost.map_or_else(|| "—".to_owned(), |cost| short(cost.seconds_per_time));
+        let _ = write!(text, "| {} | {cost} |", choice.label);
+        for measure in &summary.measures {
+            let error = choice.error(measure).map_or_else(|| "—".to_owned(), error_in_words);
+            let _ = write!(text, " {error} |");
+        }
+        text.push('\n');
+    }
+    text.push_str("\nErrors are relative to the reference of each measure, with their standard errors.");
+    let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
+    if let Some(largest) = distances.reduce(f64::max) {
+        let _ = write!(
+            text,
+            " One step of the device is off from float64 by {} of what the step changes, at most.",
+            short(largest)
+        );
+    }
+    text.push_str("\n\n");
+}
+
+/// What a measure says.
+fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
+    let _ = writeln!(text, "## {}\n", measure.replace('_', " "));
+    let reference = reference_in_words(summary, measure);
+    let mut first = reference.chars();
+    let reference: String = first.next().into_iter().flat_map(char::to_uppercase).chain(first).collect();
+    let _ = writeln!(text, "{reference}.\n");
+    let mut front: Vec<(&Choice, &Deviation)> = summary
+        .choices
+        .iter()
+        .filter_map(|choice| Some((choice, choice.error(measure).filter(|error| error.on_front)?)))
+        .collect();
+    let cost = |choice: &Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
+    front.sort_by(|a, b| cost(a.0).total_cmp(&cost(b.0)));
+    if front.is_empty() {
+        text.push_str("No choice has both a cost and an error.\n\n");
+        return;
+    }
+    text.push_str("The Pareto front, from the cheapest on:\n\n");
+    for (choice, error) in &front {
+        let noise = if error.is_within_noise() { " (within its statistical error)" } else { "" };
+        let _ =
+            writeln!(text, "- {}: {} s, off by {}{noise}", choice.label, short(cost(choice)), error_in_words(error));
+    }
+    text.push('\n');
+    for bound in ROUND_ERRORS {
+        let within = |error: &Deviation| {
+            error.relative && error.uncertainty.is_some_and(|known| error.size() + 2.0 * known <= bound)
+        };
+        let cheapest = summary
+            .choices
+            .iter()
+            .filter(|choice| choice.error(measure).is_some_and(within))
+            .min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        if let Some(choice) = cheapest {
+            let _ = writeln!(text, "The cheapest within {} %: {}.", short(100.0 * bound), choice.label);
+        }
+    }
+    text.push('\n');
+}
+
+/// Choices that became unstable.
+fn unstable(text: &mut String, summary: &TradeoffSummary) {
+    let mut ended = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Unstable).peekable();
+    if ended.peek().is_none() {
+        return;
+    }
+    text.push_str("## Unstable\n\n");
+    for choice in ended {
+        let _ = writeln!(text, "- {}: {}", choice.label, choice.failure.as_deref().unwrap_or("it became unstable"));
+    }
+    text.push('\n');
+}

@@ -1,0 +1,132 @@
+//! The picture of a measure: error against cost, with the Pareto front.
+
+use super::deviation::Deviation;
+use super::request::Request;
+use super::summary::{Choice, TradeoffSummary};
+use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
+use crate::sweep::{Setting, readable, short_keys};
+use serde_json::Value;
+
+/// A choice in the picture.
+struct Point<'a> {
+    choice: &'a Choice,
+    error: &'a Deviation,
+    place: [f64; 2],
+    bar: f64,
+}
+
+/// The chart of a measure; none where no choice has both a cost and an error.
+pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
+    let relative = summary.reference(measure)?.value != 0.0;
+    // Drifts and distances are parts of something already.
+    let percent = relative || measure.ends_with(super::fields::DISTANCE) || measure == super::measures::ENERGY_DRIFT;
+    let scale = if percent { 100.0 } else { 1.0 };
+    let point = |choice| {
+        let choice: &Choice = choice;
+        let (error, cost) = (choice.error(measure)?, choice.cost?);
+        // What is zero by chance lies at its uncertainty: a logarithm has no zero.
+        let size = if error.size() > 0.0 { error.size() } else { error.uncertainty.filter(|error| *error > 0.0)? };
+        let place = [cost.seconds_per_time, scale * size];
+        Some(Point { choice, error, place, bar: scale * error.uncertainty.unwrap_or(0.0) })
+    };
+    let points: Vec<Point<'_>> = summary.choices.iter().filter_map(point).collect();
+    if points.is_empty() {
+        return None;
+    }
+    let groups = Groups::of(request);
+    let what = measure.replace('_', " ");
+    let unit = if percent { " (%)" } else { "" };
+    let mut panel = Panel {
+        x: Axis::log("seconds of steps a unit of simulated time (s)"),
+        y: Axis::log(&format!("error of {what}{unit}")),
+        ..Panel::default()
+    };
+    let mut front: Vec<[f64; 2]> =
+        points.iter().filter(|point| point.error.on_front).map(|point| point.place).collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    for name in groups.names(&points) {
+        let own: Vec<&Point<'_>> =
+            points.iter().filter(|point| point.error.on_front && groups.name(point.choice) == name).collect();
+        if !own.is_empty() {
+            panel.series.push(series(&name, &own, &groups));
+        }
+    }
+    let dominated: Vec<&Point<'_>> = points.iter().filter(|point| !point.error.on_front).collect();
+    if !dominated.is_empty() {
+        let whole = |point: &Point<'_>| {
+            let (group, label) = (groups.name(point.choice), groups.label(point.choice));
+            [group, label].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
+        };
+        let labels = dominated.iter().map(|point| whole(point)).collect();
+        let series = series("dominated", &dominated, &groups).with_ink(SeriesInk::Faint);
+        panel.series.push(series.with_labels(labels));
+    }
+    panel.series.push(Series::line("Pareto front", front).with_ink(SeriesInk::Ink { pattern: 1 }));
+    let target = summary.arguments.targets.iter().find(|target| target.measure == measure);
+    if let Some(most) =
+        target.map(|target| target.most(summary.reference(measure).map_or(0.0, |found| found.value), relative))
+    {
+        panel = panel.with_reference("target", scale * most);
+    }
+    let bars = if points.iter().any(|point| point.bar > 0.0) { ", bars: standard errors" } else { "" };
+    let subtitle = format!("{}{bars}", super::advice::reference_in_words(summary, measure));
+    Some(Chart { title: format!("{}: {what}", request.title()), subtitle, panels: vec![panel] })
+}
+
+fn series(name: &str, points: &[&Point<'_>], groups: &Groups<'_>) -> Series {
+    let labels = points.iter().map(|point| groups.label(point.choice)).collect();
+    let series = Series::markers(name, points.iter().map(|point| point.place).collect()).with_labels(labels);
+    series.with_errors(points.iter().map(|point| point.bar).collect())
+}
+
+/// Choices that differ in one key of numbers alone are of one colour, and labelled by their numbers.
+struct Groups<'a> {
+    keys: Vec<&'a str>,
+    short: Vec<String>,
+    /// The key whose values are the labels.
+    labelled: Option<&'a str>,
+}
+
+impl<'a> Groups<'a> {
+    fn of(request: &'a Request) -> Self {
+        let sweep = request.sweep();
+        let keys = sweep.keys();
+        let short = short_keys(&keys);
+        let varied = sweep.variations().iter().filter(|varied| varied.values.iter().all(Value::is_number));
+        let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());
+        Self { keys, short, labelled }
+    }
+
+    fn in_words(&self, settings: &[Setting], wanted: impl Fn(&str) -> bool) -> String {
+        let own = settings.iter().filter(|setting| wanted(&setting.key));
+        let words = own.map(|setting| {
+            let key = self.keys.iter().position(|key| *key == setting.key).map_or("", |index| &self.short[index]);
+            let value = readable(&setting.value);
+            // A word says what it is of by itself.
+            if setting.value.is_string() || setting.value.is_object() { value } else { format!("{key} {value}") }
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+
+    /// What the choices of a colour have in common.
+    fn name(&self, choice: &Choice) -> String {
+        self.in_words(&choice.settings, |key| Some(key) != self.labelled)
+    }
+
+    /// What tells a choice from others of its colour.
+    fn label(&self, choice: &Choice) -> String {
+        self.in_words(&choice.settings, |key| Some(key) == self.labelled)
+    }
+
+    /// The names of all groups, in order.
+    fn names(&self, points: &[Point<'_>]) -> Vec<String> {
+        let mut names = Vec::new();
+        for point in points {
+            let name = self.name(point.choice);
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+}

@@ -1,0 +1,74 @@
+//! How far a measure of a choice is from its reference.
+
+use super::measures::Measured;
+use super::reference::Reference;
+use serde::{Deserialize, Serialize};
+
+/// The error of a measure, with its uncertainty.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Deviation {
+    /// The measure.
+    pub measure: String,
+    /// The value less its reference, as a part of the reference where `relative`.
+    pub error: f64,
+    /// Standard error of that, of the value and of the reference together; none where one of them is unknown.
+    pub uncertainty: Option<f64>,
+    /// Whether both are parts of the reference.
+    pub relative: bool,
+    /// Whether no other choice costs less and errs less.
+    pub on_front: bool,
+}
+
+impl Deviation {
+    /// The deviation of what was measured. It is relative unless the reference is zero.
+    pub(super) fn new(measured: &Measured, reference: &Reference) -> Self {
+        let relative = reference.value != 0.0;
+        let scale = if relative { reference.value.abs() } else { 1.0 };
+        let uncertainty =
+            measured.standard_error.zip(reference.uncertainty).map(|(own, other)| own.hypot(other) / scale);
+        Self {
+            measure: measured.measure.clone(),
+            error: (measured.value - reference.value) / scale,
+            uncertainty,
+            relative,
+            on_front: false,
+        }
+    }
+
+    /// The error without its sign.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.error.abs()
+    }
+
+    /// Whether the error may as well be zero: it is within two standard errors.
+    #[must_use]
+    pub fn is_within_noise(&self) -> bool {
+        self.uncertainty.is_none_or(|uncertainty| self.size() <= 2.0 * uncertainty) && self.size() > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reference::Source;
+    use super::*;
+
+    fn measured(value: f64, standard_error: Option<f64>) -> Measured {
+        Measured { measure: "pressure".to_owned(), value, standard_error, fluctuates: true }
+    }
+
+    fn reference(value: f64, uncertainty: Option<f64>) -> Reference {
+        Reference { measure: "pressure".to_owned(), value, uncertainty, source: Source::Given }
+    }
+
+    #[test]
+    fn errors_add_in_squares_and_are_parts_of_the_reference() {
+        let found = Deviation::new(&measured(21.0, Some(0.3)), &reference(20.0, Some(0.4)));
+        assert!((found.error - 0.05).abs() < 1e-15 && found.relative);
+        assert!((found.uncertainty.unwrap_or(0.0) - 0.025).abs() < 1e-15);
+        assert!(found.is_within_noise());
+        let absolute = Deviation::new(&measured(-0.1, Some(0.01)), &reference(0.0, Some(0.0)));
+        assert_eq!((absolute.error, absolute.relative, absolute.is_within_noise()), (-0.1, false, false));
+        assert_eq!(Deviation::new(&measured(1.0, None), &reference(1.0, Some(0.1))).uncertainty, None);
+    }
+}

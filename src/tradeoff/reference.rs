@@ -1,0 +1,159 @@
+//! What the measures are compared with.
+
+use super::measures::{ENERGY_DRIFT, Measured};
+use crate::families::Model;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// The value that a measure should have.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// The measure.
+    pub measure: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard error and what is known of its bias; none where nothing is.
+    pub uncertainty: Option<f64>,
+    /// Where it is from.
+    pub source: Source,
+}
+
+/// Where a reference is from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// The user.
+    Given,
+    /// A law that the scene has to obey, in words.
+    Predicted(String),
+    /// A finer run of this name.
+    Finer(String),
+}
+
+/// References that the user gives.
+///
+/// ```
+/// use mesoscope::tradeoff::References;
+///
+/// let given = References::parse(&["pressure=23.635".to_owned(), "diffusion.einstein=0.306+-0.002".to_owned()])?;
+/// assert_eq!(given.find("diffusion.einstein").map(|found| (found.value, found.uncertainty)), Some((0.306, Some(0.002))));
+/// assert!(References::parse(&["pressure=much".to_owned()]).is_err());
+/// # Ok::<(), Vec<String>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct References(Vec<Reference>);
+
+impl References {
+    /// Reads `measure=value` or `measure=value+-error`, where `±` may stand for `+-`.
+    ///
+    /// # Errors
+    /// All mistakes, in words.
+    pub fn parse(arguments: &[String]) -> Result<Self, Vec<String>> {
+        let mut mistakes = Vec::new();
+        let mut found: Vec<Reference> = Vec::new();
+        for argument in arguments {
+            let accepted = "accepted: measure=value or measure=value+-error, as in pressure=23.635+-0.005";
+            let parts = argument.split_once('=').map(|(measure, text)| (measure.trim(), text.replace('±', "+-")));
+            let Some((measure, text)) = parts.filter(|(measure, _)| !measure.is_empty()) else {
+                mistakes.push(format!("`--reference {argument}`: {accepted}"));
+                continue;
+            };
+            let (value, error) = text.split_once("+-").unwrap_or((text.as_str(), "0"));
+            let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+            match (number(value), number(error).filter(|error| *error >= 0.0)) {
+                (Some(value), Some(error)) if found.iter().all(|known| known.measure != measure) => {
+                    let (measure, uncertainty) = (measure.to_owned(), Some(error));
+                    found.push(Reference { measure, value, uncertainty, source: Source::Given });
+                }
+                (Some(_), Some(_)) => mistakes.push(format!("`--reference {argument}`: `{measure}` has one already")),
+                _ => mistakes.push(format!("`--reference {argument}`: {accepted}")),
+            }
+        }
+        if mistakes.is_empty() { Ok(Self(found)) } else { Err(mistakes) }
+    }
+
+    /// The one of a measure.
+    #[must_use]
+    pub fn find(&self, measure: &str) -> Option<&Reference> {
+        self.0.iter().find(|known| known.measure == measure)
+    }
+
+    /// The measures that have one.
+    pub(super) fn measures(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|reference| reference.measure.as_str())
+    }
+}
+
+/// The value that a measure has if equations of motion are solved exactly, where that is known.
+pub(super) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
+    let (value, law) = match measure {
+        ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant".to_owned()),
+        "temperature" | "configurational_temperature" if has_thermostat(scene) => {
+            (scene.temperature, "the temperature of the bath".to_owned())
+        }
+        _ if measure.ends_with(super::fields::DISTANCE) => (0.0, "no distance from the finer run".to_owned()),
+        _ => return None,
+    };
+    Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source: Source::Predicted(law) })
+}
+
+fn has_thermostat(scene: &Scene) -> bool {
+    let model = Model::new(scene);
+    model.physics().has_thermostat(&model)
+}
+
+/// The reference that a finer run gives, whose own bias is bounded by what its time step, halved once, has changed: with a scheme of
+/// first order, and more so with one of a higher.
+pub(super) fn finer(measure: &str, name: &str, finer: &[Measured], coarser: &[Measured]) -> Option<Reference> {
+    let find = |list: &[Measured]| list.iter().find(|found| found.measure == measure).cloned();
+    let (fine, coarse) = (find(finer)?, find(coarser));
+    let own = fine.standard_error;
+    let bias = coarse.and_then(|coarse| {
+        let noise = own?.hypot(coarse.standard_error?);
+        Some(((fine.value - coarse.value).abs() - noise).max(0.0))
+    });
+    let uncertainty = own.zip(bias).map(|(own, bias)| own.hypot(bias));
+    let source = Source::Finer(name.to_owned());
+    Some(Reference { measure: measure.to_owned(), value: fine.value, uncertainty, source })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::scene;
+
+    fn measured(value: f64, standard_error: f64) -> Vec<Measured> {
+        let standard_error = Some(standard_error);
+        vec![Measured { measure: "pressure".to_owned(), value, standard_error, fluctuates: true }]
+    }
+
+    #[test]
+    fn a_finer_run_is_as_uncertain_as_its_noise_and_its_last_change() {
+        let found = finer("pressure", "finer", &measured(20.0, 0.03), &measured(20.5, 0.04)).unwrap();
+        assert!((found.uncertainty.unwrap() - 0.03_f64.hypot(0.45)).abs() < 1e-12);
+        // A change within the noise says nothing of a bias.
+        let found = finer("pressure", "finer", &measured(20.0, 0.03), &measured(20.02, 0.04)).unwrap();
+        assert_eq!(found.uncertainty, Some(0.03));
+        assert_eq!(finer("pressure", "finer", &measured(20.0, 0.03), &[]).unwrap().uncertainty, None);
+        assert_eq!(finer("energy", "finer", &measured(20.0, 0.03), &[]), None);
+    }
+
+    #[test]
+    fn baths_predict_temperatures_and_nothing_else() {
+        let fluid = scene::load("dpd-fluid", &["temperature=0.7".to_owned()]).unwrap();
+        assert_eq!(predicted("temperature", &fluid).unwrap().value, 0.7);
+        assert_eq!(predicted("pressure", &fluid), None);
+        let water = scene::load("jet-instability", &[]).unwrap();
+        assert_eq!(predicted("temperature", &water), None);
+        assert_eq!(predicted(ENERGY_DRIFT, &water).unwrap().value, 0.0);
+    }
+
+    #[test]
+    fn references_are_read_or_refused_all_at_once() {
+        let wrong = ["pressure", "=1", "a=x", "a=1+-x", "a=1+--1"].map(str::to_owned);
+        assert_eq!(References::parse(&wrong).unwrap_err().len(), 5);
+        let twice = ["a=1", "a=2"].map(str::to_owned);
+        assert!(References::parse(&twice).unwrap_err()[0].contains("has one already"));
+    }
+}

@@ -1,0 +1,250 @@
+//! What a tradeoff is asked for.
+
+use super::error::TradeoffError;
+use super::length::Length;
+use super::measures;
+use super::reference::References;
+use super::target::Target;
+use crate::families::Model;
+use crate::run;
+use crate::scene::{self, Scene, nearest};
+use crate::sweep::{Setting, Sweep, Variation, settings};
+use serde::{Deserialize, Serialize};
+
+/// Keys that the length of the runs is made of, and that cannot be varied for that reason.
+const LENGTHS: [&str; 4] = ["time", "time.steps", "time.equilibration", "output.energies.every"];
+
+/// Names of the runs that give references.
+pub(super) const FINER: &str = "finer";
+pub(super) const COARSER: &str = "finer-twice-the-step";
+
+/// A scene, what of it to vary, for how long to run it, and what to compare it with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    pub(super) arguments: Arguments,
+    pub(super) sweep: Sweep,
+    /// The scene before anything is varied.
+    pub(super) base: Scene,
+}
+
+/// A request as it is written into the summary, and read from there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Arguments {
+    /// The name of the scene in messages.
+    pub scene: String,
+    /// Its text.
+    pub text: String,
+    /// Overrides of all runs.
+    pub set: Vec<String>,
+    /// Keys and their values.
+    pub vary: Vec<String>,
+    /// Further choices.
+    pub also: Vec<String>,
+    /// Settings of the run that references are taken from.
+    pub finer: Option<String>,
+    /// How long to run.
+    pub length: Length,
+    /// References of the user.
+    pub references: References,
+    /// What a choice is to reach.
+    pub targets: Vec<Target>,
+    /// Measures to assess; all usual ones if empty.
+    pub measures: Vec<String>,
+}
+
+impl Request {
+    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Sweep`] or [`TradeoffError::Arguments`] with all mistakes at once.
+    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, TradeoffError> {
+        let (scene, text) = scene::read(source).map_err(crate::sweep::SweepError::Scene)?;
+        Self::new(Arguments {
+            scene,
+            text,
+            set: set.to_vec(),
+            vary: vary.to_vec(),
+            also: also.to_vec(),
+            finer: None,
+            length: Length::default(),
+            references: References::default(),
+            targets: Vec::new(),
+            measures: Vec::new(),
+        })
+    }
+
+    /// The request of a summary, or of a command line.
+    pub(super) fn new(arguments: Arguments) -> Result<Self, TradeoffError> {
+        let Arguments { scene, text, set, vary, also, .. } = &arguments;
+        let mut mistakes = Vec::new();
+        let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
+        let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
+        let keys: Vec<String> = varied.chain(further).collect();
+        for key in LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key)) {
+            mistakes.push(format!(
+                "`{key}` cannot be varied: all choices cover the same simulated time; --set, --error and --budget say how much"
+            ));
+        }
+        if !mistakes.is_empty() {
+            return Err(TradeoffError::Arguments { mistakes });
+        }
+        let sweep = Sweep::of_text(scene, text, (set, None), vary, also)?;
+        if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
+            mistakes.push(format!("`{FINER}` is the name of the run that references are taken from"));
+        }
+        if !mistakes.is_empty() {
+            return Err(TradeoffError::Arguments { mistakes });
+        }
+        let base = scene::parse(scene, text, set).map_err(crate::sweep::SweepError::Scene)?;
+        Ok(Self { arguments, sweep, base })
+    }
+
+    /// The same for so long.
+    #[must_use]
+    pub fn with_length(mut self, length: Length) -> Self {
+        self.arguments.length = length;
+        self
+    }
+
+    /// The same with references that the user gives.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] names those of measures that no run has.
+    pub fn with_references(mut self, references: References) -> Result<Self, TradeoffError> {
+        self.check_names("--reference", references.measures())?;
+        self.arguments.references = references;
+        Ok(self)
+    }
+
+    /// The same with targets, whose measures are assessed too.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] names those of measures that no run has.
+    pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, TradeoffError> {
+        self.check_names("--target", targets.iter().map(|target| target.measure.as_str()))?;
+        self.arguments.targets = targets;
+        Ok(self)
+    }
+
+    /// The same, which assesses these measures.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] names those that no run has.
+    pub fn with_measures(mut self, measures: &[String]) -> Result<Self, TradeoffError> {
+        self.check_names("--measure", measures.iter().map(String::as_str))?;
+        self.arguments.measures = measures.to_vec();
+        Ok(self)
+    }
+
+    /// The same, whose references are those of a run with these settings, `key=value,key=value,…`, instead of half the smallest time
+    /// step.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] if they are not settings, [`TradeoffError::Variant`] if they make no scene.
+    pub fn with_finer(mut self, argument: &str) -> Result<Self, TradeoffError> {
+        settings(argument).map_err(|message| TradeoffError::Arguments {
+            mistakes: vec![format!("`--finer {argument}`: {message}")],
+        })?;
+        self.arguments.finer = Some(argument.to_owned());
+        self.finer_scenes()?;
+        Ok(self)
+    }
+
+    /// The scenes of the run that references are taken from, and of the one with twice its step that says how good they are.
+    pub(super) fn finer_scenes(&self) -> Result<[Scene; 2], TradeoffError> {
+        let smallest =
+            self.sweep.variants().iter().map(|variant| variant.scene.time.step).fold(self.base.time.step, f64::min);
+        let asked = self.arguments.finer.as_deref().map(settings).transpose().unwrap_or_default().unwrap_or_default();
+        let set: Vec<String> = self.arguments.set.iter().cloned().chain(asked.iter().map(Setting::argument)).collect();
+        let sets_step = asked.iter().any(|setting| setting.key == "time.step");
+        let scene = |name: &str, step: f64| {
+            let set: Vec<String> = set.iter().cloned().chain([format!("time.step={step}")]).collect();
+            scene::parse(&self.arguments.scene, &self.arguments.text, &set)
+                .map_err(|source| TradeoffError::Variant { variant: name.to_owned(), source })
+        };
+        let own = asked.iter().find(|_| sets_step).and_then(|_| {
+            asked.iter().find(|setting| setting.key == "time.step").and_then(|setting| setting.value.as_f64())
+        });
+        let step = own.unwrap_or(0.5 * smallest);
+        Ok([scene(FINER, step)?, scene(COARSER, 2.0 * step)?])
+    }
+
+    /// The title of the scene.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.base.title
+    }
+
+    /// What is varied.
+    #[must_use]
+    pub fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+
+    /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
+    fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), TradeoffError> {
+        let columns = measures::names(&self.base);
+        let analyses: Vec<&str> =
+            run::asked_analyses(&self.base, &Model::new(&self.base)).iter().map(|asked| asked.id.name()).collect();
+        let mut mistakes = Vec::new();
+        for name in wanted {
+            let of_analysis = |part: &str| analyses.contains(&part);
+            let is_distance = name.ends_with(super::fields::DISTANCE);
+            if columns.iter().any(|known| known == name)
+                || is_distance
+                || name.split_once('.').is_some_and(|(analysis, _)| of_analysis(analysis))
+            {
+                continue;
+            }
+            let near = nearest(name, columns.iter().map(String::as_str));
+            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let also = if analyses.is_empty() {
+                String::new()
+            } else {
+                format!(", and what its analyses find, as `{}.…`", analyses.join(".…`, `"))
+            };
+            mistakes.push(format!(
+                "`{option} {name}`: no run of this scene measures that{near}; accepted: {}{also}",
+                columns.join(", ")
+            ));
+        }
+        if mistakes.is_empty() { Ok(()) } else { Err(TradeoffError::Arguments { mistakes }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn request(vary: &[&str]) -> Result<Request, TradeoffError> {
+        let owned: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
+        Request::load("dpd-fluid", &[], &owned, &[])
+    }
+
+    #[test]
+    fn lengths_cannot_be_varied() {
+        let text = request(&["time.steps=100,200"]).unwrap_err().to_string();
+        assert!(text.contains("`time.steps` cannot be varied"), "{text}");
+    }
+
+    #[test]
+    fn unknown_measures_are_named_with_the_nearest() {
+        let request = request(&["time.step=0.02,0.04"]).unwrap();
+        let text = request.clone().with_measures(&["presure".to_owned()]).unwrap_err().to_string();
+        assert!(text.contains("did you mean `pressure`?"), "{text}");
+        assert!(request.clone().with_measures(&["radial_distribution.peak_height".to_owned()]).is_ok());
+        let target = Target::parse("colour=1%").unwrap();
+        assert!(request.with_targets(vec![target]).is_err());
+    }
+
+    #[test]
+    fn references_come_from_half_the_smallest_step_unless_the_user_says_otherwise() {
+        let request = request(&["time.step=0.02,0.04"]).unwrap();
+        let steps = |request: &Request| request.finer_scenes().unwrap().map(|scene| scene.time.step);
+        assert_eq!(steps(&request), [0.01, 0.02]);
+        let asked = request.clone().with_finer("time.step=0.005,integrator.type=groot-warren").unwrap();
+        assert_eq!(steps(&asked), [0.005, 0.01]);
+        assert!(request.with_finer("integrator.type=none").is_err());
+    }
+}

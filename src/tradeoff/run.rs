@@ -1,0 +1,523 @@
+//! A tradeoff from its first run to its page.
+
+use super::cost::{self, Timed};
+use super::deviation::Deviation;
+use super::error::TradeoffError;
+use super::length::{self, Extension};
+use super::measures;
+use super::pareto;
+use super::reference;
+use super::request::{COARSER, FINER, Request};
+use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::target::Verdict;
+use super::{advice, charts, fields, files, table};
+use crate::gpu::{AdapterChoice, AdapterDescription, Gpu, Requirements};
+use crate::output::summary::AdapterSummary;
+use crate::output::{Id, OutputError, RunDirectory, Summary, checkpoint, files as run_files, write_atomically};
+use crate::plot::Plotter;
+use crate::run::{self, Event, Interrupt, Progress, RunError, Simulation};
+use crate::scene::Scene;
+use crate::self_test;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Seconds from which on a user has to say that all runs may take so long.
+const LONG: f64 = 8.0 * 3600.0;
+/// What of a budget the first runs may take: they say how long the others have to be.
+const PILOT_SHARE: f64 = 0.2;
+/// Particles up to which a step is compared with the float64 reference: it takes a processor seconds.
+const MOST_COMPARED: usize = 50_000;
+/// By what the runs are made longer where a verdict is open: it halves every uncertainty.
+const FOR_A_VERDICT: f64 = 4.0;
+/// How often they are made longer for that where no budget says how long they may take.
+const MOST_FOR_A_VERDICT: usize = 2;
+
+/// A tradeoff to be executed, from the beginning or from where it was interrupted.
+#[derive(Debug, Clone)]
+pub struct TradeoffRun {
+    request: Request,
+    summary: TradeoffSummary,
+    directory: PathBuf,
+    beginning: Beginning,
+    interrupt: Interrupt,
+    may_be_long: bool,
+}
+
+#[derive(Debug, Clone)]
+enum Beginning {
+    New { force: bool },
+    Interrupted { directory: RunDirectory },
+}
+
+/// What an observer of a tradeoff receives.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum TradeoffEvent<'a> {
+    /// The adapter is open; the runs follow.
+    Started {
+        /// The adapter.
+        adapter: &'a AdapterDescription,
+        /// Number of runs, with those that references are taken from.
+        runs: usize,
+        /// Seconds that all of them are expected to take, at first.
+        seconds: f64,
+    },
+    /// A run has come further.
+    Advanced {
+        /// Its name.
+        name: &'a str,
+        /// How far.
+        progress: Progress,
+    },
+    /// A run has ended.
+    Ended {
+        /// What came out.
+        choice: &'a Choice,
+    },
+    /// All runs are made longer, by a factor of the time that means are taken over.
+    Extended {
+        /// The factor.
+        factor: f64,
+        /// The largest relative standard error so far, if the reason is that it is too large.
+        worst: Option<f64>,
+    },
+    /// Steps of all choices are timed in turns.
+    Timing,
+    /// Tables and pictures follow.
+    Finishing,
+}
+
+/// What a tradeoff leaves.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct TradeoffOutcome {
+    /// What `tradeoff.json` says.
+    pub summary: TradeoffSummary,
+    /// Names of the files in its directory, without those of the runs.
+    pub files: Vec<String>,
+    /// The page in words.
+    pub page: String,
+}
+
+impl TradeoffRun {
+    /// All runs from their first step, in directories below `directory`, which is created. With `force` an earlier tradeoff there is
+    /// replaced.
+    #[must_use]
+    pub fn start(request: Request, directory: impl Into<PathBuf>, force: bool) -> Self {
+        let (directory, beginning) = (directory.into(), Beginning::New { force });
+        let summary = TradeoffSummary::before(&request);
+        Self { request, summary, directory, beginning, interrupt: Interrupt::default(), may_be_long: true }
+    }
+
+    /// What is missing of the tradeoff in a directory, which belongs to this process from now on.
+    ///
+    /// # Errors
+    /// [`TradeoffError::NoTradeoff`], and what reading its summary gives rise to.
+    pub fn resume(directory: impl Into<PathBuf>) -> Result<Self, TradeoffError> {
+        let directory = directory.into();
+        TradeoffSummary::load(&directory)?;
+        let claimed = RunDirectory::claim(&directory)?;
+        let summary = TradeoffSummary::load(&directory)?;
+        let request = Request::new(summary.arguments.clone())?;
+        let beginning = Beginning::Interrupted { directory: claimed };
+        Ok(Self { request, summary, directory, beginning, interrupt: Interrupt::default(), may_be_long: true })
+    }
+
+    /// The same tradeoff, whose runs save checkpoints and stop when it is asked to.
+    #[must_use]
+    pub fn until(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// The same tradeoff, which is refused before it starts if it would take many hours and no budget limits it.
+    #[must_use]
+    pub fn unless_long(self, may_be_long: bool) -> Self {
+        Self { may_be_long, ..self }
+    }
+
+    /// What it was asked for.
+    #[must_use]
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// Runs every choice and what it is compared with, times them, and writes tables, pictures and the page.
+    ///
+    /// # Errors
+    /// [`TradeoffError`]. A choice that becomes unstable is in the outcome.
+    pub fn execute(
+        mut self,
+        adapter: &AdapterChoice,
+        observer: &mut dyn FnMut(TradeoffEvent<'_>),
+    ) -> Result<TradeoffOutcome, TradeoffError> {
+        let runs = self.runs()?;
+        let seconds = self.plan_pilot(&runs, adapter)?;
+        let place = match &self.beginning {
+            Beginning::New { force } => create(&self.directory, *force)?,
+            Beginning::Interrupted { directory } => directory.clone(),
+        };
+        // Every run opens the adapter for itself, this is to know it.
+        let gpu = Gpu::open(adapter, Requirements::default())?;
+        let description = gpu.description();
+        self.summary.adapter = Some(AdapterSummary {
+            name: description.name.clone(),
+            driver: description.driver.clone(),
+            backend: description.backend.clone(),
+        });
+        self.summary.save(place.path())?;
+        observer(TradeoffEvent::Started { adapter: description, runs: count(&runs), seconds });
+        let mut spent = 0.0;
+        loop {
+            let start = Instant::now();
+            self.advance(&runs, adapter, observer)?;
+            spent += start.elapsed().as_secs_f64();
+            self.assess();
+            let extension = self.extension(spent);
+            if extension.factor <= 1.0 {
+                self.summary.is_short = extension.is_short;
+                break;
+            }
+            let wanted = self.request.arguments.length.error;
+            let worst = wanted.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
+            observer(TradeoffEvent::Extended { factor: extension.factor, worst });
+            self.summary.stretch.averaged *= extension.factor;
+            self.summary.extensions += 1;
+            self.summary.is_short = extension.is_short;
+            self.summary.save(place.path())?;
+        }
+        observer(TradeoffEvent::Timing);
+        self.time(&runs, adapter)?;
+        self.assess();
+        self.choose();
+        observer(TradeoffEvent::Finishing);
+        self.finish(&place, &gpu)
+    }
+
+    /// All runs: the choices, then those that references are taken from where some measure needs them.
+    fn runs(&self) -> Result<Vec<(String, Scene)>, TradeoffError> {
+        let stretch = &self.summary.stretch;
+        let mut runs = Vec::new();
+        for variant in self.request.sweep.variants() {
+            runs.push((variant.name.clone(), stretch.applied(&variant.name, &variant.scene)?));
+        }
+        let [finer, coarser] = self.request.finer_scenes()?;
+        runs.push((FINER.to_owned(), stretch.applied(FINER, &finer)?));
+        runs.push((COARSER.to_owned(), stretch.applied(COARSER, &coarser)?));
+        Ok(runs)
+    }
+
+    /// The seconds that all runs are expected to take, after the stretch of time was shortened to what a budget leaves for a pilot.
+    fn plan_pilot(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<f64, TradeoffError> {
+        let mut seconds = 0.0;
+        for (name, scene) in &runs[..count(runs)] {
+            let wrong = |source: RunError| TradeoffError::Run { name: name.clone(), source };
+            match run::adapter_for(scene, adapter).and_then(|gpu| run::expected_time(scene, &gpu)) {
+                Ok(expected) => seconds += expected.seconds,
+                // What cannot be stable takes no time.
+                Err(error) if cost::is_unstable(&error) || matches!(error, RunError::Engine(_)) => {}
+                Err(error) => return Err(wrong(error)),
+            }
+        }
+        let length = self.request.arguments.length;
+        if let (Some(budget), Beginning::New { .. }) = (length.budget, &self.beginning) {
+            let allowed = PILOT_SHARE * budget / seconds.max(1e-9);
+            if allowed < 1.0 {
+                self.summary.stretch.averaged *= allowed;
+                seconds *= allowed;
+            }
+        } else if length.budget.is_none() && !self.may_be_long && seconds > LONG {
+            return Err(TradeoffError::Long { expected: advice::hours(seconds) });
+        }
+        Ok(seconds)
+    }
+
+    /// Brings all runs to the end of the stretch, one after the other.
+    fn advance(
+        &mut self,
+        runs: &[(String, Scene)],
+        adapter: &AdapterChoice,
+        observer: &mut dyn FnMut(TradeoffEvent<'_>),
+    ) -> Result<(), TradeoffError> {
+        let stretch = self.summary.stretch;
+        for (index, (name, scene)) in runs.iter().enumerate() {
+            if self.interrupt.is_asked() {
+                return Err(TradeoffError::Interrupted { directory: self.directory.clone() });
+            }
+            if self.entry(index).state == ChoiceState::Unstable {
+                continue;
+            }
+            // A choice may be what the finer run is compared with.
+            let twin = (0..self.summary.choices.len().min(index)).find(|twin| runs[*twin].1 == *scene);
+            if let Some(twin) = twin.filter(|_| index >= self.summary.choices.len()) {
+                let twin = self.summary.choices[twin].clone();
+                *self.entry(index) = twin;
+                continue;
+            }
+            let mut scene = scene.clone();
+            scene.time.steps = stretch.steps(&scene);
+            let ended = self.simulate(name, &scene, adapter, observer)?;
+            let directory = RunDirectory::open(self.directory.join(name))?;
+            let measured = match &ended {
+                Ok(summary) => measures::of_run(summary, &scene, &directory)?,
+                Err(_) => Vec::new(),
+            };
+            let entry = self.entry(index);
+            entry.measured = measured;
+            match ended {
+                Ok(summary) => (entry.state, entry.steps) = (ChoiceState::Finished, summary.steps),
+                Err(error) => {
+                    entry.state = ChoiceState::Unstable;
+                    entry.failure = error.to_string().lines().next().map(str::to_owned);
+                }
+            }
+            observer(TradeoffEvent::Ended { choice: self.entry(index) });
+            self.summary.save(&self.directory)?;
+        }
+        self.compare_fields(runs)
+    }
+
+    /// The entry of a run in the summary.
+    fn entry(&mut self, index: usize) -> &mut Choice {
+        let choices = self.summary.choices.len();
+        if index < choices { &mut self.summary.choices[index] } else { &mut self.summary.finer[index - choices] }
+    }
+
+    /// Brings one run to its last step: the summary, or why it became unstable.
+    fn simulate(
+        &self,
+        name: &str,
+        scene: &Scene,
+        adapter: &AdapterChoice,
+        observer: &mut dyn FnMut(TradeoffEvent<'_>),
+    ) -> Result<Result<Summary, RunError>, TradeoffError> {
+        let wrong = |source: RunError| match source {
+            RunError::Interrupted { .. } => TradeoffError::Interrupted { directory: self.directory.clone() },
+            source => TradeoffError::Run { name: name.to_owned(), source },
+        };
+        let directory = self.directory.join(name);
+        let steps = scene.time.steps;
+        let simulation = if directory.join(run_files::CHECKPOINT).exists() {
+            RunDirectory::open(&directory)?.check_run(Id::of_run(scene), files::SUMMARY)?;
+            Simulation::resume(&directory, Some(steps)).map_err(wrong)?
+        } else {
+            Simulation::start(scene.clone(), &directory, true)
+        };
+        if simulation.is_finished() {
+            return Ok(Ok(Summary::load(&directory.join(run_files::SUMMARY))?));
+        }
+        let ended = simulation.until(&self.interrupt).execute(adapter, &mut |event| {
+            if let Event::Advanced(progress) = event {
+                observer(TradeoffEvent::Advanced { name, progress });
+            }
+        });
+        match ended {
+            Ok(outcome) => Ok(Ok(outcome.summary)),
+            Err(error) if cost::is_unstable(&error) => Ok(Err(error)),
+            Err(error) => Err(wrong(error)),
+        }
+    }
+
+    /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it says how
+    /// certain they are.
+    fn compare_fields(&mut self, runs: &[(String, Scene)]) -> Result<(), TradeoffError> {
+        if self.summary.finer.iter().any(|run| run.state != ChoiceState::Finished) {
+            return Ok(());
+        }
+        let place = |name: &str| RunDirectory::open(self.directory.join(name));
+        let finer = place(FINER)?;
+        let coarser = self.summary.finer.last().map_or(COARSER, |run| run.name.as_str());
+        let limits = fields::distances(&place(coarser)?, &finer)?;
+        let mut found = Vec::new();
+        for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
+            if self.summary.choices[index].state == ChoiceState::Finished {
+                found.push((index, fields::distances(&place(name)?, &finer)?));
+            }
+        }
+        for (index, distances) in found {
+            let measured = &mut self.summary.choices[index].measured;
+            measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
+            measured.extend(distances.into_iter().map(|mut distance| {
+                let limit = limits.iter().find(|limit| limit.measure == distance.measure);
+                distance.standard_error = limit.map(|limit| limit.value);
+                distance
+            }));
+        }
+        Ok(())
+    }
+
+    /// References, errors and Pareto fronts.
+    fn assess(&mut self) {
+        let summary = &mut self.summary;
+        let arguments = &self.request.arguments;
+        if summary.measures.is_empty() {
+            let finished = summary.choices.iter().find(|choice| choice.state == ChoiceState::Finished);
+            let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
+            summary.measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
+            let further = arguments.targets.iter().map(|target| target.measure.clone());
+            let further = further.chain(arguments.references.measures().map(str::to_owned));
+            for measure in further {
+                if !summary.measures.contains(&measure) {
+                    summary.measures.push(measure);
+                }
+            }
+        }
+        let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());
+        let (finer, coarser) = (measured(0), measured(1));
+        let reference = |measure: &String| {
+            let given = arguments.references.find(measure).cloned();
+            let predicted = || reference::predicted(measure, &self.request.base);
+            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, finer, coarser))
+        };
+        summary.references = summary.measures.iter().filter_map(reference).collect();
+        for choice in &mut summary.choices {
+            let error = |reference: &super::Reference| {
+                let measured = choice.measured.iter().find(|found| found.measure == reference.measure)?;
+                Some(Deviation::new(measured, reference))
+            };
+            choice.errors = summary.references.iter().filter_map(error).collect();
+        }
+        for measure in &summary.measures {
+            let pair = |choice: &Choice| {
+                let error = choice.error(measure).map_or(f64::NAN, Deviation::size);
+                [choice.cost.map_or(f64::NAN, |cost| cost.seconds_per_time), error]
+            };
+            let front = pareto::front(&summary.choices.iter().map(pair).collect::<Vec<_>>());
+            for (choice, on_front) in summary.choices.iter_mut().zip(front) {
+                if let Some(error) = choice.errors.iter_mut().find(|error| error.measure == *measure) {
+                    error.on_front = on_front;
+                }
+            }
+        }
+        let targets = &arguments.targets;
+        for choice in &mut summary.choices {
+            let verdict = |target: &super::Target| {
+                let reference = summary.references.iter().find(|known| known.measure == target.measure)?;
+                Some(
+                    target
+                        .verdict(choice.errors.iter().find(|error| error.measure == target.measure)?, reference.value),
+                )
+            };
+            choice.verdict = match choice.state {
+                _ if targets.is_empty() => None,
+                ChoiceState::Finished => targets.iter().map(|target| verdict(target).unwrap_or(Verdict::Open)).max(),
+                _ => Some(Verdict::Misses),
+            };
+        }
+    }
+
+    /// Whether and by what to make all runs longer.
+    fn extension(&self, spent: f64) -> Extension {
+        let summary = &self.summary;
+        let asked = self.request.arguments.length;
+        let worst = length::worst_error(&summary.choices, &summary.measures);
+        let found = length::extension(&asked, worst, spent, summary.stretch.averaged, summary.extensions);
+        if found.factor > 1.0 || asked.budget.is_some() && asked.error.is_none() {
+            return found;
+        }
+        // A target that may or may not be met asks for more samples.
+        let is_open = summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open));
+        let fluctuates = |choice: &Choice| choice.measured.iter().any(|measured| measured.fluctuates);
+        if asked.budget.is_none() && summary.extensions >= MOST_FOR_A_VERDICT {
+            return found;
+        }
+        if !is_open || !summary.choices.iter().any(fluctuates) {
+            return found;
+        }
+        let wanted = length::Length { error: worst.map(|worst| worst / FOR_A_VERDICT.sqrt()), ..asked };
+        let more = length::extension(&wanted, worst, spent, summary.stretch.averaged, summary.extensions);
+        Extension { is_short: found.is_short || more.is_short, ..more }
+    }
+
+    /// Times the steps of all choices that came to their end, in turns.
+    fn time(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<(), TradeoffError> {
+        let finished: Vec<usize> = (0..self.summary.choices.len())
+            .filter(|index| self.summary.choices[*index].state == ChoiceState::Finished)
+            .collect();
+        let mut states = Vec::new();
+        for index in &finished {
+            let name = &runs[*index].0;
+            let path = self.directory.join(name).join(run_files::CHECKPOINT);
+            let wrong = |error| TradeoffError::Run { name: name.clone(), source: RunError::Checkpoint(error) };
+            states.push(checkpoint::load(&path).map_err(wrong)?.state);
+        }
+        let timed: Vec<Timed<'_>> = finished
+            .iter()
+            .zip(&states)
+            .map(|(index, state)| Timed { name: &runs[*index].0, scene: &runs[*index].1, state })
+            .collect();
+        let costs = cost::measure(&timed, adapter)?;
+        for ((index, cost), state) in finished.into_iter().zip(costs).zip(&states) {
+            let choice = &mut self.summary.choices[index];
+            choice.cost = cost;
+            if state.len() <= MOST_COMPARED && choice.float64_distance.is_none() {
+                let (name, scene) = &runs[index];
+                let wrong = |source| TradeoffError::Run { name: name.clone(), source };
+                let gpu = run::adapter_for(scene, adapter).map_err(wrong)?;
+                choice.float64_distance = self_test::distance_from_reference(&gpu, scene).ok();
+            }
+        }
+        Ok(())
+    }
+
+    /// The cheapest choice that meets all targets.
+    fn choose(&mut self) {
+        let cost = |choice: &&Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
+        let meets = self.summary.choices.iter().filter(|choice| choice.verdict == Some(Verdict::Meets));
+        let chosen = meets.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        self.summary.chosen = chosen.map(|choice| choice.name.clone());
+    }
+
+    fn finish(self, place: &RunDirectory, gpu: &Gpu) -> Result<TradeoffOutcome, TradeoffError> {
+        let Self { request, summary, .. } = self;
+        let page = advice::page(&summary, request.title());
+        write_atomically(&place.file(files::PAGE), |writer| writer.write_all(page.as_bytes()))?;
+        table::write(place.path(), &summary, &request.sweep.keys())?;
+        summary.save(place.path())?;
+        let wrong = |source: RunError| TradeoffError::Run { name: files::plot("*"), source };
+        let plotter = Plotter::new(gpu.device(), gpu.queue())
+            .map_err(|source| wrong(RunError::Plot { name: files::plot("*"), source }))?;
+        let mut written = vec![files::TABLE.to_owned(), files::SUMMARY.to_owned(), files::PAGE.to_owned()];
+        for measure in &summary.measures {
+            let Some(chart) = charts::chart(&summary, &request, measure) else { continue };
+            let name = files::plot(measure);
+            let drawn = plotter.draw_chart(&chart, &request.base.output.plot);
+            run::save(place, &name, summary.tradeoff_id, drawn).map_err(wrong)?;
+            written.push(name);
+        }
+        Ok(TradeoffOutcome { summary, files: written, page })
+    }
+}
+
+/// Number of runs to be made: the last, with which the finer one is compared, may be a choice.
+fn count(runs: &[(String, Scene)]) -> usize {
+    let is_choice = runs.split_last().is_some_and(|((_, last), others)| others.iter().any(|(_, other)| other == last));
+    runs.len() - usize::from(is_choice)
+}
+
+/// Creates the directory of a tradeoff and takes its lock. With `force` the files of an earlier one there are removed; the runs
+/// in it are replaced one by one.
+fn create(path: &std::path::Path, force: bool) -> Result<RunDirectory, TradeoffError> {
+    let mut earlier: Vec<PathBuf> = Vec::new();
+    if let Ok(entries) = fs::read_dir(path) {
+        let names = entries.flatten().map(|entry| entry.path());
+        let is_ours =
+            |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(files::is_of_a_tradeoff);
+        earlier.extend(names.filter(is_ours));
+    }
+    earlier.sort();
+    if let (false, Some(first)) = (force, earlier.first()) {
+        return Err(OutputError::ResultExists { path: first.clone() }.into());
+    }
+    let before = TradeoffSummary::load(path).ok();
+    let directory = RunDirectory::make(path)?;
+    let runs = before.iter().flat_map(|summary| summary.choices.iter().chain(&summary.finer));
+    for name in runs.map(|run| &run.name).filter(|name| directory.file(name).is_dir()) {
+        // A run that continued would not be that of the new scene.
+        RunDirectory::claim(directory.file(name))?.clear(true)?;
+    }
+    for file in earlier {
+        fs::remove_file(&file).map_err(OutputError::io("replace", &file))?;
+    }
+    Ok(directory)
+}

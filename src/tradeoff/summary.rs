@@ -1,0 +1,208 @@
+//! The summary of a tradeoff, `tradeoff.json`.
+
+use super::cost::Cost;
+use super::deviation::Deviation;
+use super::error::TradeoffError;
+use super::files;
+use super::measures::Measured;
+use super::reference::Reference;
+use super::request::{Arguments, COARSER, FINER, Request};
+use super::stretch::Stretch;
+use super::target::Verdict;
+use crate::output::summary::AdapterSummary;
+use crate::output::{Id, OutputError, write_atomically};
+use crate::scene;
+use crate::sweep::{Setting, Variant};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What was asked, and what every choice costs and misses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TradeoffSummary {
+    /// Version of the program.
+    pub mesoscope_version: String,
+    /// The id of the tradeoff, made of those of its runs.
+    pub tradeoff_id: Id,
+    /// The adapter it last computed on; none before it began.
+    pub adapter: Option<AdapterSummary>,
+    pub(super) arguments: Arguments,
+    pub(super) stretch: Stretch,
+    /// How often the runs were made longer.
+    pub extensions: usize,
+    /// Whether the budget, or the number of extensions, ended before the errors were as small as they were to be.
+    pub is_short: bool,
+    /// The measures that are assessed.
+    pub measures: Vec<String>,
+    /// What they are compared with.
+    pub references: Vec<Reference>,
+    /// The choices, in order.
+    pub choices: Vec<Choice>,
+    /// The runs that references are taken from.
+    pub finer: Vec<Choice>,
+    /// The name of the cheapest choice that meets all targets.
+    pub chosen: Option<String>,
+}
+
+/// One choice: a variant, what it costs and what it misses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// Name of its directory.
+    pub name: String,
+    /// What a legend calls it.
+    pub label: String,
+    /// What distinguishes it from others.
+    pub settings: Vec<Setting>,
+    /// How far it is.
+    pub state: ChoiceState,
+    /// Why it ended early.
+    pub failure: Option<String>,
+    /// Its time step.
+    pub time_step: f64,
+    /// The steps that it has run.
+    pub steps: u64,
+    /// What it costs.
+    pub cost: Option<Cost>,
+    /// How far one step of the device is from one of the float64 reference, as a part of what the step changes; none for large systems.
+    pub float64_distance: Option<f64>,
+    /// What was measured.
+    pub measured: Vec<Measured>,
+    /// How far that is off.
+    pub errors: Vec<Deviation>,
+    /// Whether it meets the targets, if there are any.
+    pub verdict: Option<Verdict>,
+}
+
+/// How far a choice is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ChoiceState {
+    /// Not finished yet.
+    Waiting,
+    /// Ran to its end.
+    Finished,
+    /// Became unstable, which is a result.
+    Unstable,
+}
+
+impl Choice {
+    pub(super) fn new(name: &str, label: &str, settings: &[Setting], time_step: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            label: label.to_owned(),
+            settings: settings.to_vec(),
+            state: ChoiceState::Waiting,
+            failure: None,
+            time_step,
+            steps: 0,
+            cost: None,
+            float64_distance: None,
+            measured: Vec::new(),
+            errors: Vec::new(),
+            verdict: None,
+        }
+    }
+
+    /// The error of a measure.
+    #[must_use]
+    pub fn error(&self, measure: &str) -> Option<&Deviation> {
+        self.errors.iter().find(|found| found.measure == measure)
+    }
+
+    /// The value of a measure.
+    #[must_use]
+    pub fn value(&self, measure: &str) -> Option<&Measured> {
+        self.measured.iter().find(|found| found.measure == measure)
+    }
+}
+
+impl TradeoffSummary {
+    /// Before anything has run.
+    pub(super) fn before(request: &Request) -> Self {
+        let variants = request.sweep.variants();
+        let choice =
+            |variant: &Variant| Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step);
+        let reference = |name: &str| Choice::new(name, name, &[], 0.0);
+        Self {
+            mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            tradeoff_id: Id::of_sweep(variants.iter().map(|variant| Id::of_run(&variant.scene))),
+            adapter: None,
+            arguments: request.arguments.clone(),
+            stretch: Stretch::of(&request.base),
+            extensions: 0,
+            is_short: false,
+            measures: Vec::new(),
+            references: Vec::new(),
+            choices: variants.iter().map(choice).collect(),
+            finer: [FINER, COARSER].map(reference).to_vec(),
+            chosen: None,
+        }
+    }
+
+    /// The reference of a measure.
+    #[must_use]
+    pub fn reference(&self, measure: &str) -> Option<&Reference> {
+        self.references.iter().find(|reference| reference.measure == measure)
+    }
+
+    /// The simulated time that means are taken over.
+    #[must_use]
+    pub fn averaged_time(&self) -> f64 {
+        self.stretch.averaged
+    }
+
+    /// The cheapest choice that meets all targets.
+    #[must_use]
+    pub fn choice(&self) -> Option<&Choice> {
+        let name = self.chosen.as_ref()?;
+        self.choices.iter().find(|choice| choice.name == *name)
+    }
+
+    /// What meets the targets, in words; nothing where there are none.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        let mut text = String::new();
+        if !self.arguments.targets.is_empty() {
+            super::advice::verdict(&mut text, self, ["", "  "]);
+        }
+        text
+    }
+
+    /// The text of the scene with the settings of the choice that meets the targets, as JSON; none where no choice does.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Variant`] if the scene cannot be read again.
+    pub fn chosen_scene(&self) -> Result<Option<String>, TradeoffError> {
+        let Some(choice) = self.choice() else { return Ok(None) };
+        let overrides = self.arguments.set.iter().cloned().chain(choice.settings.iter().map(Setting::argument));
+        let text = scene::with_overrides(&self.arguments.scene, &self.arguments.text, &overrides.collect::<Vec<_>>())
+            .map_err(|source| TradeoffError::Variant { variant: choice.name.clone(), source })?;
+        Ok(Some(text))
+    }
+
+    pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {
+        let path = directory.join(files::SUMMARY);
+        let text =
+            serde_json::to_string_pretty(self).map_err(|source| OutputError::Json { path: path.clone(), source })?;
+        write_atomically(&path, |writer| writeln!(writer, "{text}"))
+    }
+
+    /// Reads the summary in the directory of a tradeoff.
+    ///
+    /// # Errors
+    /// [`TradeoffError::NoTradeoff`] when there is none, [`TradeoffError::Output`] when it cannot be read or is no summary.
+    pub fn load(directory: &Path) -> Result<Self, TradeoffError> {
+        let path = directory.join(files::SUMMARY);
+        let text = match std::fs::read(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(TradeoffError::NoTradeoff { path: directory.to_path_buf() });
+            }
+            read => read.map_err(OutputError::io("read", &path))?,
+        };
+        let summary = serde_json::from_slice(&text).map_err(|error| OutputError::Line {
+            path,
+            line: error.line() as u64,
+            problem: error.to_string(),
+        })?;
+        Ok(summary)
+    }
+}

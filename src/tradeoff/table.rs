@@ -1,0 +1,88 @@
+//! The table of a tradeoff, `tradeoff.csv`: a row for every choice.
+
+use super::files;
+use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use crate::numbers::push_exact;
+use crate::output::{OutputError, quoted, write_atomically};
+use std::path::Path;
+
+pub(super) fn write(directory: &Path, summary: &TradeoffSummary, keys: &[&str]) -> Result<(), OutputError> {
+    let text = text(summary, keys);
+    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))
+}
+
+fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
+    let mut header: Vec<String> = ["choice"].into_iter().chain(keys.iter().copied()).map(str::to_owned).collect();
+    header.extend(
+        [
+            "state",
+            "steps",
+            "seconds_per_time",
+            "seconds_per_time_fastest",
+            "seconds_per_time_slowest",
+            "particle_steps_per_second",
+            "bytes_per_particle",
+            "float64_distance",
+        ]
+        .map(str::to_owned),
+    );
+    for measure in &summary.measures {
+        let columns = ["", "_standard_error", "_reference", "_error", "_error_uncertainty", "_on_front"];
+        header.extend(columns.map(|end| format!("{measure}{end}")));
+    }
+    if !summary.arguments.targets.is_empty() {
+        header.push("verdict".to_owned());
+    }
+    let mut text = line(header);
+    for choice in &summary.choices {
+        text.push_str(&line(row(summary, choice, keys)));
+    }
+    text
+}
+
+fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String> {
+    let setting = |key: &&str| {
+        let found = choice.settings.iter().find(|setting| setting.key == *key)?;
+        Some(found.value.as_str().map_or_else(|| found.value.to_string(), str::to_owned))
+    };
+    let mut cells = vec![choice.name.clone()];
+    cells.extend(keys.iter().map(|key| setting(key).unwrap_or_default()));
+    let state = match choice.state {
+        ChoiceState::Waiting => "waiting",
+        ChoiceState::Finished => "finished",
+        ChoiceState::Unstable => "unstable",
+    };
+    cells.extend([state.to_owned(), choice.steps.to_string()]);
+    let cost = choice.cost.map(|cost| {
+        let times = [cost.seconds_per_time, cost.fastest, cost.slowest];
+        [times[0], times[1], times[2], cost.particle_steps_per_second, cost.bytes_per_particle]
+    });
+    cells.extend((0..5).map(|index| number(cost.map(|cost| cost[index]))));
+    cells.push(number(choice.float64_distance));
+    for measure in &summary.measures {
+        let (value, error) = (choice.value(measure), choice.error(measure));
+        cells.push(number(value.map(|value| value.value)));
+        cells.push(number(value.and_then(|value| value.standard_error)));
+        cells.push(number(summary.reference(measure).map(|reference| reference.value)));
+        cells.push(number(error.map(|error| error.error)));
+        cells.push(number(error.and_then(|error| error.uncertainty)));
+        cells.push(error.map_or_else(String::new, |error| u8::from(error.on_front).to_string()));
+    }
+    if !summary.arguments.targets.is_empty() {
+        let verdict = choice.verdict.map(super::advice::verdict_word);
+        cells.push(verdict.unwrap_or_default().to_owned());
+    }
+    cells
+}
+
+fn number(value: Option<f64>) -> String {
+    let mut text = Vec::new();
+    push_exact(&mut text, value.unwrap_or(f64::NAN));
+    String::from_utf8(text).unwrap_or_default()
+}
+
+fn line(cells: Vec<String>) -> String {
+    let mut text = cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
+    text.push('\n');
+    text
+}
