@@ -112,7 +112,7 @@ pub struct State {
 
 /// An array that some states have and others not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Array {
+pub enum StateArray {
     /// [`State::predicted`].
     Predicted,
     /// [`State::masses`].
@@ -139,7 +139,7 @@ pub enum Array {
     Images,
 }
 
-impl Array {
+impl StateArray {
     /// All of them, in the order of a checkpoint.
     pub const ALL: [Self; 12] = [
         Self::Predicted,
@@ -244,75 +244,75 @@ pub struct Hold {
 impl State {
     /// The words of an array.
     #[must_use]
-    pub fn words(&self, array: Array) -> &[u32] {
+    pub fn words(&self, array: StateArray) -> &[u32] {
         match array {
-            Array::Predicted => bytemuck::cast_slice(&self.predicted),
-            Array::Masses => &self.masses,
-            Array::Energies => bytemuck::cast_slice(&self.energies),
-            Array::NodeMasses => &self.node_masses,
-            Array::NodeBath => &self.node_bath,
-            Array::PairBaths => bytemuck::cast_slice(&self.pair_baths),
-            Array::Anchors => bytemuck::cast_slice(&self.anchors),
-            Array::PositionBaths => bytemuck::cast_slice(&self.position_baths),
-            Array::BondBaths => &self.bond_baths,
-            Array::Holds => bytemuck::cast_slice(&self.holds),
-            Array::Tethers => bytemuck::cast_slice(&self.tethers),
-            Array::Images => bytemuck::cast_slice(&self.images),
+            StateArray::Predicted => bytemuck::cast_slice(&self.predicted),
+            StateArray::Masses => &self.masses,
+            StateArray::Energies => bytemuck::cast_slice(&self.energies),
+            StateArray::NodeMasses => &self.node_masses,
+            StateArray::NodeBath => &self.node_bath,
+            StateArray::PairBaths => bytemuck::cast_slice(&self.pair_baths),
+            StateArray::Anchors => bytemuck::cast_slice(&self.anchors),
+            StateArray::PositionBaths => bytemuck::cast_slice(&self.position_baths),
+            StateArray::BondBaths => &self.bond_baths,
+            StateArray::Holds => bytemuck::cast_slice(&self.holds),
+            StateArray::Tethers => bytemuck::cast_slice(&self.tethers),
+            StateArray::Images => bytemuck::cast_slice(&self.images),
         }
     }
 
     /// Number of elements of an array.
     #[must_use]
-    pub fn length(&self, array: Array) -> usize {
+    pub fn length(&self, array: StateArray) -> usize {
         self.words(array).len() / array.width()
     }
 
     /// Sets an array.
     ///
     /// ```
-    /// use mesoscope::state::{Array, State};
+    /// use mesoscope::state::{StateArray, State};
     ///
     /// let mut state = State { masses: vec![3, 5], ..State::default() };
     /// let mut copy = State::default();
-    /// for array in Array::ALL {
+    /// for array in StateArray::ALL {
     ///     copy.set_words(array, state.words(array))?;
     /// }
     /// assert_eq!(copy, state);
-    /// assert!(state.set_words(Array::Tethers, &[1, 2]).is_err());
+    /// assert!(state.set_words(StateArray::Tethers, &[1, 2]).is_err());
     /// # Ok::<(), String>(())
     /// ```
     ///
     /// # Errors
     /// Words that are no whole number of its elements.
-    pub fn set_words(&mut self, array: Array, words: &[u32]) -> Result<(), String> {
-        fn elements<T: bytemuck::Pod>(array: Array, words: &[u32]) -> Result<Vec<T>, String> {
+    pub fn set_words(&mut self, array: StateArray, words: &[u32]) -> Result<(), String> {
+        fn elements<T: bytemuck::Pod>(array: StateArray, words: &[u32]) -> Result<Vec<T>, String> {
             match bytemuck::try_cast_slice(words) {
                 Ok(elements) => Ok(elements.to_vec()),
                 Err(_) => Err(format!("its `{}` are cut off", array.name())),
             }
         }
         match array {
-            Array::Predicted => self.predicted = elements(array, words)?,
-            Array::Masses => self.masses = words.to_vec(),
-            Array::Energies => self.energies = elements(array, words)?,
-            Array::NodeMasses => self.node_masses = words.to_vec(),
-            Array::NodeBath => self.node_bath = words.to_vec(),
-            Array::PairBaths => self.pair_baths = elements(array, words)?,
-            Array::Anchors => self.anchors = elements(array, words)?,
-            Array::PositionBaths => self.position_baths = elements(array, words)?,
-            Array::BondBaths => self.bond_baths = words.to_vec(),
-            Array::Holds => self.holds = elements(array, words)?,
-            Array::Tethers => self.tethers = elements(array, words)?,
-            Array::Images => self.images = elements(array, words)?,
+            StateArray::Predicted => self.predicted = elements(array, words)?,
+            StateArray::Masses => self.masses = words.to_vec(),
+            StateArray::Energies => self.energies = elements(array, words)?,
+            StateArray::NodeMasses => self.node_masses = words.to_vec(),
+            StateArray::NodeBath => self.node_bath = words.to_vec(),
+            StateArray::PairBaths => self.pair_baths = elements(array, words)?,
+            StateArray::Anchors => self.anchors = elements(array, words)?,
+            StateArray::PositionBaths => self.position_baths = elements(array, words)?,
+            StateArray::BondBaths => self.bond_baths = words.to_vec(),
+            StateArray::Holds => self.holds = elements(array, words)?,
+            StateArray::Tethers => self.tethers = elements(array, words)?,
+            StateArray::Images => self.images = elements(array, words)?,
         }
         Ok(())
     }
 
     /// The first array that has neither no element nor one for each particle, where it should.
     #[must_use]
-    pub fn misshapen(&self) -> Option<Array> {
-        let wrong = |array: &Array| ![0, self.len()].contains(&self.length(*array));
-        Array::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)
+    pub fn misshapen(&self) -> Option<StateArray> {
+        let wrong = |array: &StateArray| ![0, self.len()].contains(&self.length(*array));
+        StateArray::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)
     }
 
     /// How often a particle has gone round the box along every axis, as far as that is known.

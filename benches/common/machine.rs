@@ -10,7 +10,13 @@ pub fn describe(adapter: &AdapterDescription, peer: &str) -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let mut lines = vec![
         format!("- date: {}", date()),
-        format!("- adapter: {} ({}, {}), driver {}", adapter.name, adapter.kind, adapter.backend, adapter.driver),
+        format!(
+            "- adapter: {} ({}, {}), driver {}",
+            adapter.name,
+            adapter.kind.name(),
+            adapter.backend,
+            adapter.driver
+        ),
         format!("- processor: {}, {cores} cores, {}", processor(), widest_vectors()),
     ];
     let version = env!("CARGO_PKG_VERSION");

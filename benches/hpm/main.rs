@@ -21,7 +21,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::StageClock;
-use mesoscope::gpu::{Gpu, GpuError};
+use mesoscope::gpu::{AdapterKind, Gpu, GpuError};
 use mesoscope::plan::{Hardware, Options, Plan};
 
 use common::statistics::{grouped, median, ratios, spread};
@@ -102,7 +102,7 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     }
     let mut sizes = vec![Size::filled(64, 16), Size::filled(256, 16)];
     if !settings.quick {
-        let software = common::open(0)?.description().kind == "software";
+        let software = common::open(0)?.description().kind == AdapterKind::Software;
         sizes.push(Size::filled(1024, if software { 4 } else { 16 }));
     }
     match with_room(&sizes)? {

@@ -1,7 +1,6 @@
 // Sizes of chains: the squared distance of the ends and the squared radius of gyration, summed for each group of chains.
 override CHAINS: u32;
 override CHAIN_LENGTH: f32; // squared length over its quantum
-var<storage, read> chain_starts: array<vec4<u32>>; // first bead, beads, group
 
 // Measures the chains of all groups. One invocation a chain; reads the particles in the order of their ids and `chain_starts`,
 // writes rows of `partial_sums`.

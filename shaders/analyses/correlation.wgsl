@@ -1,6 +1,5 @@
 // The time correlation of a vector of each particle, such as its velocity or the force on it.
 override PRODUCT: f32; // a product of two sampled vectors over its quantum
-var<storage, read_write> origins: array<vec4<f32>>;
 
 // Sums the products of each particle's vector with what it was when the window began. One invocation a particle, by id; keeps
 // `origins`, writes rows of `partial_sums`.

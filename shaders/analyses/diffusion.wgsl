@@ -8,7 +8,6 @@ struct Tracker {
     origin: vec4<u32>,   // position when the window began
     momentum: vec4<i32>, // momentum when the window began
 }
-var<storage, read_write> trackers: array<Tracker>;
 
 // Sums the squared displacements of all particles, and the products of their velocities now and at the origin. One invocation a
 // particle, by id; keeps `trackers`, writes rows of `partial_sums`.

@@ -12,7 +12,6 @@ override FRACTION: f32;     // of the range, per unit of what is sampled
 override MOMENT: f32;       // reciprocal of the quantum of the powers
 const MOMENTS: u32 = 5u;    // of the value: first, second, fourth power; of the vector: second, fourth
 const FARTHEST: f32 = 8.0;  // in ranges
-var<storage, read_write> histogram: array<u32>; // low and high word of each entry
 var<workgroup> local_counts: array<atomic<u32>, COUNTS>;
 var<workgroup> local_moments: array<atomic<u32>, 2u * MOMENTS>;
 

@@ -1,7 +1,6 @@
 // Distances of all pairs up to a range, counted into bins, from which the radial distribution function follows.
 override PARTS: u32;    // workgroups that share the rows around the same particles
 override HISTOGRAM_RANGE: f32;
-var<storage, read_write> histogram: array<u32>; // low and high word of each bin
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
 
 // Counts pairs by their distance, each from its smaller id. One invocation a sorted particle and a part of the rows around it; a

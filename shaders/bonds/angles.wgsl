@@ -1,10 +1,9 @@
 // Angles between three particles of a chain: V = k (1 + cos), least where the chain is straight.
 override ANGLES: u32;
 override FIRST_ANGLE: u32;
-// A word for each species, 1 if it can move; then for each angle the ids of three particles, the vertex second, and the bits of
-// the stiffness: an impulse of half a step times a length.
-var<storage, read> angles: array<vec4<u32>>;
 
+// `angles` holds a word for each species, 1 if it can move; then for each angle the ids of three particles, the vertex second, and
+// the bits of the stiffness: an impulse of half a step times a length.
 struct Corner {
     slots: vec3<u32>,
     mobile: vec3<bool>,

@@ -2,9 +2,8 @@
 override BONDS: u32;
 override FIRST_KIND: u32;
 override FIRST_BOND: u32;
-// A word for each species, two for each kind of bonds, then the bonds: the ids of both ends, and the kind.
-var<storage, read> bonds: array<vec4<u32>>;
 
+// `bonds` holds a word for each species, two for each kind of bonds, then the bonds: the ids of both ends, and the kind.
 struct BondKind {
     stiffness: f32,      // impulse of half a step per length
     length: f32,         // at rest

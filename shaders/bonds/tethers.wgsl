@@ -2,7 +2,6 @@
 override TETHER: f32;           // K: impulse of half a step per length
 override TETHER_ENERGY: f32;    // K/2: energy per square of a length, over its quantum
 override TETHER_LAPLACIAN: f32; // K in every dimension, over its quantum
-var<storage, read_write> tethers: array<vec4<u32>>; // where each particle started, by id
 
 fn impulse_of_tether(length: Vector) -> Vector { return -TETHER * length; }
 fn energy_of_tether(length: Vector) -> f32 { return dot(length, length) * TETHER_ENERGY; }

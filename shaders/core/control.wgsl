@@ -14,7 +14,6 @@ struct Control {
     limited: atomic<u32>,       // exchanges between Voronoi cells that a limit has cut, low and high word
     limited_high: atomic<u32>,
 }
-var<storage, read_write> control: Control;
 
 // Whether a number is smaller than a limit, whatever its sign; NaN is not. The bits are compared because a compiler may assume
 // that there is no NaN, and the larger of NaN and a number is the number.

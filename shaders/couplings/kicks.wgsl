@@ -3,9 +3,6 @@
 // Slot couplings/kicks: `add_kick` adds the impulse of half a step to a stored particle, in integer momentum units, in any order.
 // Variants plane, volume; the plan follows the box. No default.
 
-// The conservative forces, by slot.
-var<storage, read_write> forces: array<vec4<i32>>;
-
 // Sums the squares of the conservative forces, once all couplings have added theirs. One invocation a stored particle; reads and
 // clears `forces`.
 @compute @workgroup_size(WORKGROUP)

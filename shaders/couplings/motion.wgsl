@@ -1,9 +1,6 @@
 // The motion of particles, once all couplings have added their half kicks: Cotter and Reich (14)-(17),
 // doi:10.1209/epl/i2003-00621-8.
 
-// The impulses of half a step, by slot.
-var<storage, read_write> kicks: array<vec4<i32>>;
-
 // Ends a step: closing and opening half kicks by all couplings, then the drift. One invocation a stored particle; reads and
 // clears `kicks`, updates the particle and its baths.
 @compute @workgroup_size(WORKGROUP)
@@ -33,7 +30,7 @@ fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     check_anchor(slot, fraction);
 }
 
-// The particles of a report, by id, with momenta at the full step.
+// The particles of a report, by id, with momenta at the full step: each as two vectors of words.
 var<storage, read_write> reported: array<array<vec4<u32>, 2>>;
 
 // Sums the motion of a report. One invocation a stored particle; reads and clears `kicks`, writes `reported` and `partial_sums`.

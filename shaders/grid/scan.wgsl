@@ -73,8 +73,6 @@ fn scan_cells(@builtin(local_invocation_index) lane: u32) {
     scan_all_rows(lane);
 }
 
-var<storage, read_write> row_sums: array<vec2<u32>>; // one a row, then one a block of 256 rows
-
 // First of three levels of the prefix sum: 256 rows a workgroup, one a lane. Reads `counts`; writes to `row_sums` what precedes
 // each row in its block, and the total of the block.
 @compute @workgroup_size(SCAN_LANES)

@@ -1,8 +1,6 @@
 // The bath of the mesh: a variable on every node that remembers the changes of its mass.
 override BATH_PERSISTENCE: f32;
 override BATH_RESPONSE: f32;    // per unit of integer mass
-var<storage, read_write> node_bath: array<f32>;
-var<storage, read_write> previous_masses: array<u32>;
 
 // Slot mesh/bath_noise: noise of the bath of a node, in its unit.
 // Default: off, a bath without a temperature. The plan chooses `gaussian`.

@@ -8,11 +8,8 @@ fn add_particle(moments: ptr<function, Moments>, particle: Water) {
     add_moments(moments, x, f32(particle.mass) * powers(y));
 }
 
-// What each cell brings to each of its nodes.
-var<storage, read_write> contributions: array<i32>; // [node of the cell][cell]
-
-// Sums the mass of a node from the cells whose splines reach it. One invocation a node; reads `contributions`, writes
-// `node_masses`.
+// Sums the mass of a node from the cells whose splines reach it. One invocation a node; reads `contributions`, what each cell brings
+// to each of its nodes, [node of the cell][cell], and writes `node_masses`.
 @compute @workgroup_size(WORKGROUP)
 fn gather_nodes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let node = linear_workgroup(workgroup) * WORKGROUP + lane;

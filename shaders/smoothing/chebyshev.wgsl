@@ -13,7 +13,6 @@ struct Iteration {
     done: array<u32, 2>,     // iterations finished, before one of even number and of odd
     weights: array<f32>,     // ω
 }
-var<storage, read_write> iteration: Iteration;
 var<storage, read_write> waves: array<f32>;
 var<storage, read_write> waves_next: array<f32>;
 

@@ -13,9 +13,6 @@ override LINES: u32;  // number of lines
 override ROW_LENGTH: u32; // of the mesh
 override SPAN: u32;   // length of the transforms that the passes before have finished
 
-var<storage, read_write> symbols: array<f32>; // of the smoothing, up to the middle of both axes
-var<storage, read_write> roots: array<vec2<f32>>; // of unity, clockwise
-
 // Where an invocation works: which line, and which of its LENGTH / RADIX butterflies.
 struct Butterfly {
     line: u32,

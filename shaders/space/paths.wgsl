@@ -14,7 +14,6 @@ struct Path {
     last: vec4<u32>,   // position when it was last followed
     images: vec4<i32>, // boxes crossed until then
 }
-var<storage, read_write> paths: array<Path>;
 
 // `position` has zeros in the words that are no coordinates.
 fn follow(id: u32, position: vec4<u32>) {

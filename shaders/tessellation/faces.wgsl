@@ -2,11 +2,6 @@
 //
 // A word names the neighbour's slot and which of its periodic images is meant: the separation r_k - r_l is the shortest one
 // less (sx, sy) boxes, with (sx + 1) + 3 (sy + 1) in the upper four bits.
-var<storage, read_write> face_counts: array<u32>;
-var<storage, read_write> face_words: array<u32>;
-var<storage, read_write> face_lengths: array<f32>;
-var<storage, read_write> face_offsets: array<f32>; // from the middle of the particles, along the tangent
-var<storage, read_write> volumes: array<f32>;
 
 fn neighbour_of(word: u32) -> u32 { return word & 0x0fffffffu; }
 fn image_of(word: u32) -> vec2<i32> {

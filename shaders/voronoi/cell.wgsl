@@ -33,7 +33,6 @@ struct Places {
     unused: u32,
     elements: array<vec2<u32>>,
 }
-var<storage, read_write> places: Places;
 
 fn place_of(slot: u32) -> Fraction { return places.elements[slot]; }
 

@@ -20,17 +20,13 @@ struct Solver {
     residual: f32,    // relative to that
     sums: array<vec4<f32>>, // of each workgroup: squares of residual, its image, and the right-hand side
 }
-var<storage, read_write> solver: Solver;
 
-// The inverse of a cell's own block of the equations, and 2M.
-var<storage, read_write> preconditioners: array<vec4<f32>>;
+// `preconditioners` holds the inverse of a cell's own block of the equations, and 2M; `images` the image of each search, where
+// iterations are kernels; `directions` the last direction of search of a cell and its image, and in `friction_solve` images follow
+// directions.
+
 // What neighbours read of a cell in an iteration. Its place is kept as words: their bits might not survive as a real number.
 struct Search { residual: Vector, place: Fraction } // the preconditioned residual
-var<storage, read_write> searches: array<Search>;
-// The image of each search, where iterations are kernels.
-var<storage, read_write> images: array<vec2<f32>>;
-// The last direction of search of a cell, and its image; in `friction_solve` images follow them.
-var<storage, read_write> directions: array<vec4<f32>>;
 
 // Sums of single precision over a workgroup, always in the same order.
 const LANES: u32 = 64u;

@@ -1,8 +1,6 @@
 // The order of particles of shallow water by cell, and copies of them in that order. Within a cell the order is any: only sums of
 // integers depend on it.
 
-var<storage, read_write> cells: array<u32>; // where each cell begins, then where it ends
-
 // Counts newly uploaded particles in the cells of the mesh; every later step counts as it advances. One invocation a particle;
 // adds to `counts`.
 @compute @workgroup_size(WORKGROUP)
@@ -12,7 +10,8 @@ fn bin_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
     atomicAdd(&counts[cell_of(stored_water_position(index))], 1u);
 }
 
-// Gives every particle its number in the order of cells. One invocation a particle; adds to `cells`, writes `order`.
+// Gives every particle its number in the order of cells. One invocation a particle; adds to `cells`, after which these
+// say where each cell ends, and writes `order`.
 @compute @workgroup_size(WORKGROUP)
 fn order_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -1,7 +1,6 @@
 // Tracers: particles without mass that the water carries.
 override TRACERS: u32;
 override FIRST_TRACER: u32;
-var<storage, read_write> tracers: array<Water>;
 
 // Moves tracers by one step, like the water around them. One invocation a tracer; updates `tracers`.
 @compute @workgroup_size(WORKGROUP)

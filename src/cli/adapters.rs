@@ -39,7 +39,7 @@ fn list() -> Result<(), Failure> {
     }
     let header = ["", "NAME", "KIND", "BACKEND", "DRIVER"].map(str::to_owned).to_vec();
     let row = |(number, adapter): (usize, AdapterDescription)| {
-        vec![number.to_string(), adapter.name, adapter.kind.to_owned(), adapter.backend, adapter.driver]
+        vec![number.to_string(), adapter.name, adapter.kind.name().to_owned(), adapter.backend, adapter.driver]
     };
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(adapters.into_iter().enumerate().map(row)).collect();
     print(&aligned(&rows, ""))
@@ -54,7 +54,7 @@ fn check(choice: &AdapterChoice) -> Result<(), Failure> {
     let head = [
         ("mesoscope", env!("CARGO_PKG_VERSION").to_owned()),
         ("system", system()),
-        ("adapter", format!("{name} ({kind}, {backend})")),
+        ("adapter", format!("{name} ({}, {backend})", kind.name())),
         ("driver", driver.clone()),
         ("subgroups", format!("{subgroups}; memory {memory}")),
     ];

@@ -283,8 +283,7 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
         );
     }
     text.push_str(&summary.advice());
-    text.push_str(&format!("wrote {directory}/: {}\n", outcome.files.join(", ")));
-    text
+    format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))
 }
 
 fn cell(choice: &Choice, measure: &str) -> String {

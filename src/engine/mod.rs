@@ -18,6 +18,7 @@ use std::mem::offset_of;
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
+use crate::shaders::Array;
 use crate::state::{State, crossings};
 use pipeline::Stage;
 use readback::Readback;
@@ -78,6 +79,7 @@ enum Phase {
 ///
 /// ```
 /// use mesoscope::engine::Engine;
+/// use mesoscope::shaders::Array;
 /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 /// # use mesoscope::plan::{Hardware, Options};
 /// # use mesoscope::run::plan;
@@ -104,7 +106,7 @@ enum Phase {
 /// // The order in which particles are stored does not matter either; any buffer of the plan can be read.
 /// let backwards: Vec<usize> = (0..start.len()).rev().collect();
 /// engine.upload_in_order(&start, &backwards)?;
-/// assert_eq!(engine.words("particles")?[3] as usize, start.len() - 1, "the last particle is stored first");
+/// assert_eq!(engine.words(Array::Particles)?[3] as usize, start.len() - 1, "the last particle is stored first");
 /// engine.advance(30, 10)?;
 /// assert_eq!(engine.state()?, state);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -112,8 +114,8 @@ enum Phase {
 pub struct Engine<'a> {
     gpu: &'a Gpu,
     plan: Plan,
-    buffers: HashMap<&'static str, wgpu::Buffer>,
-    textures: HashMap<&'static str, Texels>,
+    buffers: HashMap<Array, wgpu::Buffer>,
+    textures: HashMap<Array, Texels>,
     stages: Vec<Stage>,
     /// Species of the particles, for layouts that leave them on the host.
     species: Vec<u32>,
@@ -157,15 +159,15 @@ impl<'a> Engine<'a> {
     pub fn new(gpu: &'a Gpu, plan: Plan, state: &State) -> Result<Self, EngineError> {
         let mut buffers = HashMap::new();
         for buffer in &plan.buffers {
-            let doing = format!("creating buffer `{}`", buffer.name);
+            let doing = format!("creating buffer `{}`", buffer.array.name());
             let made = gpu.scoped(&doing, buffer.bytes, || {
                 let made = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(buffer.name),
+                    label: Some(buffer.array.name()),
                     size: buffer.bytes,
                     usage: wgpu::BufferUsages::STORAGE
                         | wgpu::BufferUsages::COPY_SRC
                         | wgpu::BufferUsages::COPY_DST
-                        | if buffer.name == pipeline::DEMANDS {
+                        | if buffer.array == Array::Demands {
                             wgpu::BufferUsages::INDIRECT
                         } else {
                             wgpu::BufferUsages::empty()
@@ -177,9 +179,9 @@ impl<'a> Engine<'a> {
                 }
                 made
             })?;
-            buffers.insert(buffer.name, made);
+            buffers.insert(buffer.array, made);
         }
-        let textures = plan.textures.iter().map(|planned| Ok((planned.name, Texels::new(gpu, planned)?)));
+        let textures = plan.textures.iter().map(|planned| Ok((planned.array, Texels::new(gpu, planned)?)));
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
         let pending_rows = vec![0; plan.samplers.len()];
@@ -251,19 +253,19 @@ impl<'a> Engine<'a> {
             failure_place: u32::MAX,
             ..Control::default()
         };
-        for (name, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
-            match self.textures.get(name) {
+        for (array, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
+            match self.textures.get(&array) {
                 Some(texels) => texels.write(self.gpu, words),
-                None => self.gpu.queue.write_buffer(&self.buffers[name], 0, bytemuck::cast_slice(words)),
+                None => self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(words)),
             }
         }
         self.species.clone_from(&state.species);
-        if let Some(buffer) = self.buffers.get(Paths::BUFFER) {
+        if let Some(buffer) = self.buffers.get(&Paths::BUFFER) {
             self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&pack_paths(state)?));
         }
-        self.gpu.queue.write_buffer(&self.buffers["control"], 0, bytemuck::bytes_of(&control));
+        self.gpu.queue.write_buffer(&self.buffers[&Array::Control], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.encoder("upload");
-        if let Some(counts) = self.buffers.get("counts") {
+        if let Some(counts) = self.buffers.get(&Array::Counts) {
             encoder.clear_buffer(counts, 0, None);
         }
         self.step = state.step;
@@ -271,7 +273,7 @@ impl<'a> Engine<'a> {
         self.record(&mut encoder, &self.plan.prepare);
         for sampler in &self.plan.samplers {
             // Rows and windows of the state before are discarded.
-            encoder.clear_buffer(&self.buffers[sampler.samples], 0, Some(8));
+            encoder.clear_buffer(&self.buffers[&sampler.samples], 0, Some(8));
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.in_flight.clear();
@@ -290,13 +292,13 @@ impl<'a> Engine<'a> {
         let planned = self.plan.samplers.get(sampler).ok_or_else(|| refuse("there is no such sampler"))?;
         let window = planned.window.filter(|window| taken < window.samples);
         let window = window.ok_or_else(|| refuse("the sampler has no window of so many samples"))?;
-        let buffer = &self.buffers[window.buffer];
+        let buffer = &self.buffers[&window.buffer];
         if buffer.size() != 4 * words.len() as u64 {
             return Err(refuse("the window has another number of particles"));
         }
         self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
         // The second word counts the samples since the upload; the place in the window follows from it.
-        self.gpu.queue.write_buffer(&self.buffers[planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
+        self.gpu.queue.write_buffer(&self.buffers[&planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
         Ok(())
     }
 
@@ -391,7 +393,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed.
     pub fn limited_exchanges(&mut self) -> Result<u64, EngineError> {
-        let control = self.words("control")?;
+        let control = self.words(Array::Control)?;
         let word = |offset: usize| u64::from(control.get(offset / size_of::<u32>()).copied().unwrap_or(0));
         Ok(word(offset_of!(Control, limited_high)) << 32 | word(offset_of!(Control, limited)))
     }
@@ -400,13 +402,13 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device failed or the plan has no such buffer or texture.
-    pub fn words(&mut self, buffer: &str) -> Result<Vec<u32>, EngineError> {
+    pub fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError> {
         self.wait_all()?;
-        Ok(bytemuck::pod_collect_to_vec(&self.read(buffer)?))
+        Ok(bytemuck::pod_collect_to_vec(&self.read(array)?))
     }
 
-    fn read(&self, name: &str) -> Result<Vec<u8>, EngineError> {
-        let bytes = match (self.buffers.get(name), self.textures.get(name)) {
+    fn read(&self, array: Array) -> Result<Vec<u8>, EngineError> {
+        let bytes = match (self.buffers.get(&array), self.textures.get(&array)) {
             (Some(buffer), _) => readback::read(self.gpu, buffer.size(), |encoder, staging| {
                 encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
             }),
@@ -414,7 +416,8 @@ impl<'a> Engine<'a> {
                 texels.copy_to(encoder, staging);
             }),
             (None, None) => {
-                return Err(EngineError::State { reason: format!("the plan has no buffer and no texture `{name}`") });
+                let reason = format!("the plan has no buffer and no texture `{}`", array.name());
+                return Err(EngineError::State { reason });
             }
         };
         Ok(bytes?)
@@ -422,8 +425,8 @@ impl<'a> Engine<'a> {
 
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
-        let names = self.plan.layout.buffers();
-        let bytes = names.iter().map(|name| self.read(name)).collect::<Result<Vec<_>, _>>()?;
+        let arrays = self.plan.layout.buffers();
+        let bytes = arrays.into_iter().map(|array| self.read(array)).collect::<Result<Vec<_>, _>>()?;
         let words: Vec<&[u32]> = bytes.iter().map(|bytes| bytemuck::cast_slice(bytes)).collect();
         let count = self.plan.particles as usize;
         let state = self.plan.layout.unpack(self.step, &words, count);

@@ -10,6 +10,7 @@ use std::thread;
 use super::texels::Texels;
 use crate::gpu::{Gpu, GpuError};
 use crate::plan::{Kernel, Plan, folded};
+use crate::shaders::{Array, Constant};
 
 /// A kernel ready to be recorded.
 pub(super) struct Stage {
@@ -37,18 +38,12 @@ impl Stage {
     }
 }
 
-/// The buffer that holds the workgroups of kernels whose number depends on the step.
-pub(super) const DEMANDS: &str = "demands";
-
-/// The constant with which kernels of a folded dispatch number their workgroups.
-const FOLD: &str = "FOLD";
-
 /// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.
 pub(super) fn stages(
     gpu: &Gpu,
     plan: &Plan,
-    buffers: &HashMap<&'static str, wgpu::Buffer>,
-    textures: &HashMap<&'static str, Texels>,
+    buffers: &HashMap<Array, wgpu::Buffer>,
+    textures: &HashMap<Array, Texels>,
 ) -> Result<Vec<Stage>, GpuError> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(plan.kernels.len());
     let next = AtomicUsize::new(0);
@@ -70,23 +65,21 @@ fn stage(
     gpu: &Gpu,
     plan: &Plan,
     kernel: &Kernel,
-    buffers: &HashMap<&'static str, wgpu::Buffer>,
-    textures: &HashMap<&'static str, Texels>,
+    buffers: &HashMap<Array, wgpu::Buffer>,
+    textures: &HashMap<Array, Texels>,
 ) -> Result<Stage, GpuError> {
-    // A kernel's own constants take precedence over those of the plan.
-    let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
-    let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
     let [width, height] = folded(kernel.workgroups);
-    let fold = (height > 1).then_some((FOLD, f64::from(width)));
-    let (pipeline, linked) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants.copied().chain(fold))?;
+    // By which kernels of a folded dispatch number their workgroups.
+    let fold = (height > 1).then_some((Constant::Fold, f64::from(width)));
+    let constants = kernel.constants_in(plan).chain(fold);
+    let (pipeline, linked) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants)?;
     let bound = linked.bindings.iter().map(|binding| {
-        let renamed = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
-        let name = renamed.map_or(binding.name.as_str(), |(_, buffer)| buffer);
-        let buffer = buffers.get(name).map(wgpu::Buffer::as_entire_binding);
-        let resource = buffer.or_else(|| textures.get(name).map(Texels::binding));
+        let array = kernel.array_of(binding.array);
+        let buffer = buffers.get(&array).map(wgpu::Buffer::as_entire_binding);
+        let resource = buffer.or_else(|| textures.get(&array).map(Texels::binding));
         let resource = resource.ok_or_else(|| GpuError::Refused {
             doing: format!("binding the buffers of kernel `{}`", kernel.name),
-            reason: format!("the plan has no buffer and no texture `{name}`"),
+            reason: format!("the plan has no buffer and no texture `{}`", array.name()),
         })?;
         Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
     });
@@ -98,7 +91,7 @@ fn stage(
             entries: &entries,
         })
     })?;
-    let size = match (kernel.demand, buffers.get(DEMANDS)) {
+    let size = match (kernel.demand, buffers.get(&Array::Demands)) {
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };

@@ -7,6 +7,7 @@ use std::time::Duration;
 use super::{Control, Sample};
 use crate::gpu::{Gpu, GpuError};
 use crate::plan::Plan;
+use crate::shaders::Array;
 
 /// A device that has not finished a batch by then counts as lost.
 const PATIENCE: Duration = Duration::from_mins(10);
@@ -29,7 +30,7 @@ impl Readback {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         plan: &Plan,
-        buffers: &HashMap<&'static str, wgpu::Buffer>,
+        buffers: &HashMap<Array, wgpu::Buffer>,
         rows: &[u64],
     ) -> Result<Self, GpuError> {
         let control_bytes = size_of::<Control>() as u64;
@@ -47,9 +48,9 @@ impl Readback {
                 mapped_at_creation: false,
             })
         })?;
-        encoder.copy_buffer_to_buffer(&buffers["control"], 0, &staging, 0, control_bytes);
+        encoder.copy_buffer_to_buffer(&buffers[&Array::Control], 0, &staging, 0, control_bytes);
         for &(sampler, rows, offset) in &stretches {
-            let samples = &buffers[plan.samplers[sampler].samples];
+            let samples = &buffers[&plan.samplers[sampler].samples];
             encoder.copy_buffer_to_buffer(samples, 8, &staging, offset, rows * row_bytes(plan, sampler));
             encoder.clear_buffer(samples, 0, Some(4));
         }

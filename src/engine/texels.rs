@@ -12,10 +12,10 @@ pub(super) struct Texels {
 
 impl Texels {
     pub(super) fn new(gpu: &Gpu, planned: &Texture) -> Result<Self, GpuError> {
-        let doing = format!("creating texture `{}`", planned.name);
+        let doing = format!("creating texture `{}`", planned.array.name());
         let texture = gpu.scoped(&doing, planned.bytes(), || {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(planned.name),
+                label: Some(planned.array.name()),
                 size: extent(planned),
                 mip_level_count: 1,
                 sample_count: 1,
@@ -31,8 +31,8 @@ impl Texels {
                 view_formats: &[],
             })
         })?;
-        let view =
-            texture.create_view(&wgpu::TextureViewDescriptor { label: Some(planned.name), ..Default::default() });
+        let view = texture
+            .create_view(&wgpu::TextureViewDescriptor { label: Some(planned.array.name()), ..Default::default() });
         let texels = Self { planned: planned.clone(), texture, view };
         if let Some(bytes) = planned.contents.bytes() {
             texels.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(&bytes));

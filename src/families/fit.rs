@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::plan::{Length, Plan};
-use crate::state::{Array, State};
+use crate::state::{State, StateArray};
 
 impl Plan {
     /// What a state has that a run of this model would not have left, if there is anything: arrays that are missing, too
@@ -31,17 +31,17 @@ impl Plan {
     }
 
     /// The arrays that a state of it has, and how long they are; it has no others.
-    pub(crate) fn arrays(&self, count: usize) -> Vec<(Array, Length)> {
+    pub(crate) fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
         let mut arrays = self.layout.arrays(count);
         if self.paths.are_followed() {
-            arrays.push((Array::Images, Length::AfterFirstStep(count)));
+            arrays.push((StateArray::Images, Length::AfterFirstStep(count)));
         }
         arrays
     }
 
     fn wrong_length(&self, state: &State) -> Option<String> {
         let expected = self.arrays(state.len());
-        Array::ALL.into_iter().find_map(|array| {
+        StateArray::ALL.into_iter().find_map(|array| {
             let length = expected.iter().find(|(known, _)| *known == array);
             let length = length.map_or(Length::Exactly(0), |(_, length)| *length);
             let (found, expected) = (state.length(array), length.expected());

@@ -1,6 +1,7 @@
 //! What the device counts from the upload of a state on, carried over from checkpoint to checkpoint.
 
 use super::{Model, Observables};
+use crate::shaders::Array;
 
 /// What a family has the device count.
 pub(crate) trait Tally {
@@ -11,7 +12,7 @@ pub(crate) trait Tally {
     fn length(&self) -> u64;
 
     /// The array of the plan that they are read from, besides the number of limited exchanges.
-    fn array(&self, model: &Model) -> Option<&'static str>;
+    fn array(&self, model: &Model) -> Option<Array>;
 
     /// The numbers at a step, from those at the upload and what was counted since.
     fn after(&self, upload: &[f64], counted: &Counted) -> Vec<f64>;

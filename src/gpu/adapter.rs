@@ -34,13 +34,56 @@ impl AdapterChoice {
     }
 }
 
-/// The description of an adapter.
+/// What an adapter is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AdapterKind {
+    /// A graphics card with memory of its own.
+    Discrete,
+    /// A graphics processor that shares the memory of the computer.
+    Integrated,
+    /// One that a virtual machine offers.
+    Virtual,
+    /// A driver that computes on the processor.
+    Software,
+    /// Something else.
+    Other,
+}
+
+impl AdapterKind {
+    fn of(info: &wgpu::AdapterInfo) -> Self {
+        match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => Self::Discrete,
+            wgpu::DeviceType::IntegratedGpu => Self::Integrated,
+            wgpu::DeviceType::VirtualGpu => Self::Virtual,
+            wgpu::DeviceType::Cpu => Self::Software,
+            wgpu::DeviceType::Other => Self::Other,
+        }
+    }
+
+    /// Its name, for people.
+    ///
+    /// ```
+    /// assert_eq!(mesoscope::gpu::AdapterKind::Software.name(), "software");
+    /// ```
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Software => "software",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// An adapter in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AdapterDescription {
     /// Its name.
     pub name: String,
-    /// Discrete, integrated, virtual, software or other.
-    pub kind: &'static str,
+    /// What it is.
+    pub kind: AdapterKind,
     /// Vulkan, Metal or DX12.
     pub backend: String,
     /// The driver and its version.
@@ -49,16 +92,9 @@ pub struct AdapterDescription {
 
 impl AdapterDescription {
     pub(super) fn new(info: &wgpu::AdapterInfo) -> Self {
-        let kind = match info.device_type {
-            wgpu::DeviceType::DiscreteGpu => "discrete",
-            wgpu::DeviceType::IntegratedGpu => "integrated",
-            wgpu::DeviceType::VirtualGpu => "virtual",
-            wgpu::DeviceType::Cpu => "software",
-            wgpu::DeviceType::Other => "other",
-        };
         Self {
             name: info.name.clone(),
-            kind,
+            kind: AdapterKind::of(info),
             backend: format!("{:?}", info.backend),
             driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
         }

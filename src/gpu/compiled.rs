@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use super::device::Gpu;
 use super::error::GpuError;
 use super::shader::{LinkedShader, validate};
-use crate::shaders::{Choices, Entry, linked_text};
+use crate::shaders::{Choices, Constant, Entry, linked_text};
 
 /// As many as some ten engines have. When that is exceeded all are dropped; engines in use keep theirs.
 const MOST_KEPT: usize = 256;
@@ -42,7 +42,7 @@ impl<K, V> Default for Kept<K, V> {
 }
 
 /// The text of a kernel, and the bits of the constants that it uses.
-type Ingredients = (String, Vec<(&'static str, u64)>);
+type Ingredients = (String, Vec<(Constant, u64)>);
 
 /// Changes a linked module before a pipeline is made from it, given the features of the device.
 pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync>;
@@ -70,17 +70,19 @@ impl Gpu {
         name: &'static str,
         entry: Entry,
         choices: &Choices,
-        constants: impl Iterator<Item = (&'static str, f64)>,
+        constants: impl Iterator<Item = (Constant, f64)>,
     ) -> Result<(wgpu::ComputePipeline, Arc<LinkedShader>), GpuError> {
         let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
         let text = linked.text.clone();
         let make = || Ok(Arc::new(validate(name, entry.name(), &linked)?));
         let linked = self.compiled.linked.get_or_make(text.clone(), make)?;
-        let used = constants.filter(|(constant, _)| linked.overrides.iter().any(|known| known == constant));
-        let constants: Vec<(&'static str, f64)> = used.collect();
-        let bits = constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
+        let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
+        let constants: Vec<(Constant, f64)> = used.collect();
+        let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
         let pipeline = self.compiled.pipelines.get_or_make((text, bits), || {
             let mut module = linked.module.clone();
+            let constants: Vec<(&str, f64)> =
+                constants.iter().map(|(constant, value)| (constant.name(), *value)).collect();
             if let Some(rewriting) = &self.compiled.rewriting {
                 rewriting(&mut module, self.device.features());
             }

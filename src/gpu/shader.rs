@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::GpuError;
-use crate::shaders::{Choices, Entry, LinkedText, linked_text};
+use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
 /// A storage buffer or a texture that a kernel uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Binding {
     /// Number within group 0.
     pub number: u32,
-    /// Name of the variable.
-    pub name: String,
+    /// The array of the variable.
+    pub array: Array,
     /// Whether it is a texture.
     pub texture: bool,
 }
@@ -23,8 +23,8 @@ pub struct LinkedShader {
     pub module: naga::Module,
     /// The buffers and textures that the entry point uses, directly or through functions it calls.
     pub bindings: Vec<Binding>,
-    /// Names of all override constants.
-    pub overrides: Vec<String>,
+    /// The constants that a plan sets.
+    pub constants: Vec<Constant>,
     /// Size of each struct and offset of each member: `(struct, member) -> offset`, with member `""` for the size.
     pub layout: BTreeMap<(String, String), u32>,
 }
@@ -42,17 +42,17 @@ pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader,
 ///
 /// ```
 /// use mesoscope::gpu::validate;
-/// use mesoscope::shaders::Library;
+/// use mesoscope::shaders::{Array, Library};
 ///
 /// let kernel = |statement: &str| -> &'static str {
 ///     format!("@compute @workgroup_size(1)\nfn double() {{\n    {statement};\n}}").leak()
 /// };
-/// let data = ("core/data", "var<storage, read_write> data: array<u32>;");
-/// let library = Library::new(&[data, ("core/double", kernel("data[0] *= 2u"))])?;
+/// let counts = ("core/counts", "var<storage, read_write> counts: array<u32>;");
+/// let library = Library::new(&[counts, ("core/double", kernel("counts[0] *= 2u"))])?;
 /// let shader = validate("double", "double", &library.link("double", &[])?)?;
-/// assert_eq!(shader.bindings[0].name, "data");
+/// assert_eq!(shader.bindings[0].array, Array::Counts);
 ///
-/// let library = Library::new(&[data, ("core/double", kernel("data[0] *= 2f"))])?;
+/// let library = Library::new(&[counts, ("core/double", kernel("counts[0] *= 2f"))])?;
 /// let slip = validate("double", "double", &library.link("double", &[])?);
 /// assert!(slip.is_err_and(|error| error.to_string().contains("core/double.wgsl:3")));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -86,18 +86,17 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
         .position(|known| known.name == entry)
         .ok_or_else(|| failure(place(1), format!("there is no entry point `{entry}`")))?;
     let used = info.get_entry_point(index);
-    let mut bindings: Vec<Binding> = module
-        .global_variables
-        .iter()
-        .filter(|(handle, _)| !used[*handle].is_empty())
-        .filter_map(|(_, variable)| {
-            let binding = variable.binding.as_ref()?;
-            let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });
-            Some(Binding { number: binding.binding, name: variable.name.clone()?, texture })
-        })
-        .collect();
+    let mut bindings = Vec::new();
+    for (_, variable) in module.global_variables.iter().filter(|(handle, _)| !used[*handle].is_empty()) {
+        let Some(binding) = &variable.binding else { continue };
+        let name = variable.name.as_deref().unwrap_or_default();
+        let array = Array::named(name).ok_or_else(|| failure(place(1), format!("there is no array `{name}`")))?;
+        let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });
+        bindings.push(Binding { number: binding.binding, array, texture });
+    }
     bindings.sort_by_key(|binding| binding.number);
-    let overrides = module.overrides.iter().filter_map(|(_, constant)| constant.name.clone()).collect();
+    let constants =
+        module.overrides.iter().filter_map(|(_, constant)| Constant::named(constant.name.as_deref()?)).collect();
     let mut layout = BTreeMap::new();
     for (_, declared) in module.types.iter() {
         if let (Some(name), naga::TypeInner::Struct { members, span }) = (&declared.name, &declared.inner) {
@@ -107,7 +106,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
             }
         }
     }
-    Ok(LinkedShader { module, bindings, overrides, layout })
+    Ok(LinkedShader { module, bindings, constants, layout })
 }
 
 fn chain(error: &dyn std::error::Error) -> String {

@@ -1,7 +1,8 @@
 //! How the integer state lies in the buffers and textures of a plan: what every family says of its own.
 
 use super::compared::Compared;
-use crate::state::{Array, State};
+use crate::shaders::Array;
+use crate::state::{State, StateArray};
 use std::any::Any;
 use std::fmt::Debug;
 use std::ops::Deref;
@@ -10,7 +11,7 @@ use std::sync::Arc;
 /// How the integer state of a family lies in buffers and textures.
 pub trait StateLayout: Compared + Debug + Send + Sync {
     /// The buffers and textures that hold the state.
-    fn buffers(&self) -> Vec<&'static str>;
+    fn buffers(&self) -> Vec<Array>;
 
     /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
     ///
@@ -26,7 +27,7 @@ pub trait StateLayout: Compared + Debug + Send + Sync {
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String>;
 
     /// The arrays that a state of so many particles has, and how long they are; it has no others.
-    fn arrays(&self, count: usize) -> Vec<(Array, Length)>;
+    fn arrays(&self, count: usize) -> Vec<(StateArray, Length)>;
 
     /// What a state of the right arrays holds that no run leaves, if anything.
     fn wrong_content(&self, state: &State) -> Option<String> {

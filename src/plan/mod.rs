@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 use crate::document::{AnalysisId, Distribution};
 use crate::noise::Generator;
 use crate::shaders::noise::Deviate;
-use crate::shaders::{self, Choices, Entry};
+use crate::shaders::{self, Array, Choices, Constant, Entry};
 use crate::state::Units;
 
 /// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
@@ -173,9 +173,9 @@ pub struct Kernel {
     /// The position of its number of workgroups in the buffer `demands`, which has three words for each, if that depends on the step.
     pub demand: Option<u32>,
     /// Constants of this kernel only; all others come from [`Plan::constants`].
-    pub constants: Vec<(&'static str, f64)>,
-    /// Variables whose buffer has another name: `(variable, buffer)`.
-    pub renamed: Vec<(&'static str, &'static str)>,
+    pub constants: Vec<(Constant, f64)>,
+    /// Variables in whose place it has another buffer or texture: `(variable, in its place)`.
+    pub renamed: Vec<(Array, Array)>,
     /// Whether it may take so long that it has to be the last of a submission: systems with a watchdog end a submission that takes
     /// seconds.
     pub takes_long: bool,
@@ -204,13 +204,11 @@ impl Contents {
     }
 }
 
-/// A buffer on the device; kernels find it by its name.
+/// A buffer on the device; kernels find it by the name of its array.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Buffer {
-    /// The name, which is also that of the shader variable.
-    pub name: &'static str,
-    /// What it is for.
-    pub purpose: &'static str,
+    /// What it holds.
+    pub array: Array,
     /// Size in bytes.
     pub bytes: u64,
     /// Initial contents.
@@ -248,8 +246,8 @@ pub struct Sampler {
     pub every: u64,
     /// Kernels in order, as indices into [`Plan::kernels`].
     pub kernels: Vec<usize>,
-    /// Name of the buffer that receives the rows.
-    pub samples: &'static str,
+    /// The buffer that receives the rows.
+    pub samples: Array,
     /// Number of sums in a row.
     pub quantities: usize,
     /// Rows the buffer holds.
@@ -263,8 +261,8 @@ pub struct Sampler {
 /// A window of samples, each compared with the first: a buffer of the plan holds the particles as they were then.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Window {
-    /// Name of the buffer.
-    pub buffer: &'static str,
+    /// The buffer.
+    pub buffer: Array,
     /// Samples in a window; the next begins a new one.
     pub samples: u64,
 }
@@ -311,8 +309,8 @@ pub struct Plan {
     pub suggested_step: f64,
     /// All kernels.
     pub kernels: Vec<Kernel>,
-    /// Constants by name, for all kernels that declare them.
-    pub constants: Vec<(&'static str, f64)>,
+    /// Constants for all kernels that declare them.
+    pub constants: Vec<(Constant, f64)>,
     /// All buffers.
     pub buffers: Vec<Buffer>,
     /// All textures: arrays that are loaded lane by lane where that is expensive.
@@ -341,7 +339,7 @@ pub struct Plan {
     pub storage_buffers: u32,
     /// The buffer in which a report leaves the particles by number and how they lie there, if it is not the one that holds
     /// the state.
-    pub reported: Option<(&'static str, Layout)>,
+    pub reported: Option<(Array, Layout)>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
 }
@@ -399,13 +397,40 @@ impl Kernel {
     }
 
     /// The same with constants of its own.
-    pub(crate) fn with(self, constants: Vec<(&'static str, f64)>) -> Self {
+    pub(crate) fn with(self, constants: Vec<(Constant, f64)>) -> Self {
         Self { constants, ..self }
     }
 
-    /// The same with variables whose buffers have other names.
-    pub(crate) fn renamed(self, renamed: Vec<(&'static str, &'static str)>) -> Self {
+    /// The same with other buffers and textures in the place of variables.
+    pub(crate) fn renamed(self, renamed: Vec<(Array, Array)>) -> Self {
         Self { renamed, ..self }
+    }
+
+    /// The buffer or texture that a variable stands for.
+    ///
+    /// ```
+    /// use mesoscope::families::Model;
+    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::shaders::{Array, Entry};
+    ///
+    /// let asked = r#"output.viscosity={"every":10,"window":50}"#.to_owned();
+    /// let scene = mesoscope::scene::load("dpd-fluid", &[asked])?;
+    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let kernel = plan.kernels.iter().find(|kernel| kernel.entry == Entry::SumTransverseModes);
+    /// let array_of = |variable| kernel.map(|kernel| kernel.array_of(variable));
+    /// assert_eq!(array_of(Array::PartialSums), Some(Array::ModeSums));
+    /// assert_eq!(array_of(Array::Particles), Some(Array::Particles));
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn array_of(&self, variable: Array) -> Array {
+        self.renamed.iter().find(|(known, _)| *known == variable).map_or(variable, |(_, array)| *array)
+    }
+
+    /// Its own constants, then those of the plan that it does not set for itself.
+    pub fn constants_in<'a>(&'a self, plan: &'a Plan) -> impl Iterator<Item = (Constant, f64)> + 'a {
+        let own = |name: Constant| self.constants.iter().any(|(known, _)| *known == name);
+        self.constants.iter().chain(plan.constants.iter().filter(move |(name, _)| !own(*name))).copied()
     }
 }
 
@@ -433,7 +458,7 @@ impl Sampler {
 
     /// The buffer of the window that is open before the sample of a step, and the number of its samples so far.
     #[must_use]
-    pub fn open_window(&self, step: u64) -> Option<(&'static str, u64)> {
+    pub fn open_window(&self, step: u64) -> Option<(Array, u64)> {
         let window = self.window?;
         let taken = self.samples_before(step) % window.samples;
         (taken > 0).then_some((window.buffer, taken))
@@ -485,29 +510,29 @@ impl Plan {
     }
 
     /// Adds a buffer of zeros.
-    pub(crate) fn add_buffer(&mut self, name: &'static str, purpose: &'static str, bytes: u64) {
-        self.add_buffer_with(name, purpose, bytes, Contents::Zeros);
+    pub(crate) fn add_buffer(&mut self, array: Array, bytes: u64) {
+        self.add_buffer_with(array, bytes, Contents::Zeros);
     }
 
     /// Adds a buffer of these bytes.
-    pub(crate) fn add_table(&mut self, name: &'static str, purpose: &'static str, contents: Vec<u8>) {
-        self.add_buffer_with(name, purpose, contents.len() as u64, Contents::Bytes(contents));
+    pub(crate) fn add_table(&mut self, array: Array, contents: Vec<u8>) {
+        self.add_buffer_with(array, contents.len() as u64, Contents::Bytes(contents));
     }
 
     /// Adds a buffer of a table that grows with the number of particles.
-    pub(crate) fn add_long_table(&mut self, name: &'static str, purpose: &'static str, words: impl Words) {
+    pub(crate) fn add_long_table(&mut self, array: Array, words: impl Words) {
         let table = Table::new(words);
-        self.add_buffer_with(name, purpose, table.length(), Contents::Table(table));
+        self.add_buffer_with(array, table.length(), Contents::Table(table));
     }
 
-    pub(crate) fn add_buffer_with(
-        &mut self,
-        name: &'static str,
-        purpose: &'static str,
-        bytes: u64,
-        contents: Contents,
-    ) {
-        self.buffers.push(Buffer { name, purpose, bytes: bytes.max(64).next_multiple_of(16), contents });
+    pub(crate) fn add_buffer_with(&mut self, array: Array, bytes: u64, contents: Contents) {
+        self.buffers.push(Buffer { array, bytes: bytes.max(64).next_multiple_of(16), contents });
+    }
+
+    /// Whether there is a buffer of an array.
+    #[must_use]
+    pub fn has_buffer(&self, array: Array) -> bool {
+        self.buffers.iter().any(|buffer| buffer.array == array)
     }
 
     /// Bytes of all buffers and textures.

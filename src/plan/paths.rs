@@ -1,6 +1,7 @@
 //! How often particles cross the periodic box: counted on the device, only for trajectories.
 
 use super::{Kernel, Plan};
+use crate::shaders::Array;
 
 /// Bytes kept for each particle.
 const PATH: u64 = 32;
@@ -21,8 +22,8 @@ pub struct Paths {
 }
 
 impl Paths {
-    /// Name of the buffer with what is kept for each particle, by id.
-    pub const BUFFER: &'static str = "paths";
+    /// The buffer with what is kept for each particle, by id.
+    pub const BUFFER: Array = Array::Paths;
 
     /// Whether anything is counted.
     #[must_use]
@@ -37,7 +38,7 @@ impl Plan {
         let kernels = kernels.into_iter().map(|kernel| self.add_kernel(kernel)).collect();
         // Strictly less than half a box, whatever the rounding.
         let every = (0.499_999 / stride).floor().clamp(1.0, LONGEST) as u64;
-        self.add_buffer(Paths::BUFFER, "where each particle was last, and times round the box", PATH * self.particles);
+        self.add_buffer(Paths::BUFFER, PATH * self.particles);
         self.paths = Paths { kernels, every };
     }
 }

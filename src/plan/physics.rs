@@ -1,8 +1,7 @@
 //! What passes between the plan of a family's physics and the analyses that complete it.
 
-use super::serial_memory::Candidate;
 use super::{Grid, Kernel, Plan};
-use crate::shaders::Choices;
+use crate::shaders::{Array, Choices};
 
 /// Something that a report has to leave for an analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +42,7 @@ pub(crate) struct PhysicsPlan {
     /// Particles in order of cells, where they are needed.
     pub ordered: Option<Ordered>,
     /// Buffers that kernels load lane by lane and often, and may find in textures where that is dear.
-    pub texture_candidates: Vec<Candidate>,
+    pub texture_candidates: Vec<Array>,
     /// Kernels that follow the particles, for trajectories.
     pub followers: Vec<Kernel>,
     /// The farthest that a particle goes in a step along any axis, as a share of the box.
@@ -56,12 +55,12 @@ pub(crate) struct Reported {
     /// The vector space, the stored particle, and where its mass is found.
     pub choices: Choices,
     /// Their buffer.
-    pub particles: &'static str,
+    pub particles: Array,
     /// The buffer of their momenta, where velocities are not to be taken from the particles; there only for
     /// [`Need::Momenta`].
-    pub momenta: Option<&'static str>,
+    pub momenta: Option<Array>,
     /// The buffer of forces, in units of [`Plan::force_unit`]; there only for [`Need::Forces`].
-    pub forces: &'static str,
+    pub forces: Array,
 }
 
 /// Particles in order of cells.

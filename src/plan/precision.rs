@@ -2,6 +2,7 @@
 
 use super::{Contents, Plan};
 use crate::document::{Scene, SceneError};
+use crate::shaders::Array;
 use serde_json::Value;
 
 /// Refuses a plan of a scene if a constant or coefficient of its kernels is too large or too small for single precision.
@@ -23,15 +24,15 @@ use serde_json::Value;
 /// [`SceneError::Precision`] with the number of the scene that is furthest from one.
 pub fn check_precision(scene: &Scene, plan: &Plan) -> Result<(), SceneError> {
     let constants = plan.constants.iter().chain(plan.kernels.iter().flat_map(|kernel| &kernel.constants));
-    let mut lost = constants.filter(|(_, value)| !fits(*value)).map(|(name, value)| ((*name).to_owned(), *value));
+    let mut lost = constants.filter(|(_, value)| !fits(*value)).map(|(constant, value)| (constant.name(), *value));
     let coefficients = || {
-        let buffers = plan.buffers.iter().map(|buffer| (buffer.name, &buffer.contents));
-        let textures = plan.textures.iter().map(|texture| (texture.name, &texture.contents));
-        let (_, contents) = buffers.chain(textures).find(|(name, _)| *name == "coefficients")?;
+        let buffers = plan.buffers.iter().map(|buffer| (buffer.array, &buffer.contents));
+        let textures = plan.textures.iter().map(|texture| (texture.array, &texture.contents));
+        let (array, contents) = buffers.chain(textures).find(|(array, _)| *array == Array::Coefficients)?;
         let Contents::Bytes(bytes) = contents else { return None };
         let numbers = bytemuck::pod_collect_to_vec::<u8, f32>(bytes);
         let value = numbers.into_iter().find(|number| !number.is_finite())?;
-        Some(("coefficients".to_owned(), f64::from(value)))
+        Some((array.name(), f64::from(value)))
     };
     let Some((constant, value)) = lost.next().or_else(coefficients) else { return Ok(()) };
     let mut furthest = (String::new(), 1.0);
@@ -40,7 +41,7 @@ pub fn check_precision(scene: &Scene, plan: &Plan) -> Result<(), SceneError> {
         walk(&document[key], key.to_owned(), &mut furthest);
     }
     let (path, number) = furthest;
-    Err(SceneError::Precision { path, number, constant, value })
+    Err(SceneError::Precision { path, number, constant: constant.to_owned(), value })
 }
 
 fn fits(value: f64) -> bool {

@@ -1,7 +1,7 @@
 //! The prefix sum over cells: where each cell begins among the sorted particles.
 
 use super::{Kernel, Options};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Entry};
 
 /// Cells that a single workgroup still scans faster than three kernels would.
 const SINGLE_SCAN_CELLS: u64 = 1 << 14;
@@ -40,7 +40,7 @@ impl super::Plan {
     /// Adds the buffer of the sums between the levels of a prefix sum, if there are any.
     pub(crate) fn add_row_sums(&mut self, rows: u64, cells: u64, options: Options) {
         if needs_levels(cells, options) {
-            self.add_buffer("row_sums", "prefix sums over rows", 8 * (rows + rows.div_ceil(256)));
+            self.add_buffer(Array::RowSums, 8 * (rows + rows.div_ceil(256)));
         }
     }
 }

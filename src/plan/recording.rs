@@ -1,7 +1,7 @@
 //! Kernels that write sums into rows of samples, where the host reads them.
 
 use super::{Kernel, Plan, Sampler, SamplerId};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Rows of samples kept on the device between two readbacks.
 pub(crate) const SAMPLE_ROWS: u64 = 1024;
@@ -9,12 +9,12 @@ pub(crate) const SAMPLE_ROWS: u64 = 1024;
 /// The kernel that adds up the sums of all workgroups and records them.
 pub(crate) fn record_sums(name: &'static str, quantities: u64, groups: u64) -> Kernel {
     Kernel::new(name, Entry::RecordSample, Choices::new(), 1)
-        .with(vec![("QUANTITIES", quantities as f64), ("GROUPS", groups as f64)])
+        .with(vec![(Constant::Quantities, quantities as f64), (Constant::Groups, groups as f64)])
 }
 
 /// The kernel that records a histogram and clears it.
 pub(crate) fn record_histogram(bins: u64) -> Kernel {
-    Kernel::new("record_histogram", Entry::RecordHistogram, Choices::new(), 1).with(vec![("BINS", bins as f64)])
+    Kernel::new("record_histogram", Entry::RecordHistogram, Choices::new(), 1).with(vec![(Constant::Bins, bins as f64)])
 }
 
 impl Plan {
@@ -26,13 +26,13 @@ impl Plan {
             first: 0,
             every,
             kernels: vec![record],
-            samples: "samples",
+            samples: Array::Samples,
             quantities: quantities as usize,
             capacity: SAMPLE_ROWS,
             needs_report: true,
             window: None,
         });
-        self.add_buffer("partial_sums", "sums of each workgroup at a report", 8 * quantities * groups);
-        self.add_buffer("samples", "rows of sums waiting to be read", 8 * (1 + SAMPLE_ROWS * (1 + quantities)));
+        self.add_buffer(Array::PartialSums, 8 * quantities * groups);
+        self.add_buffer(Array::Samples, 8 * (1 + SAMPLE_ROWS * (1 + quantities)));
     }
 }

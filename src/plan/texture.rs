@@ -1,14 +1,14 @@
 //! Arrays in textures.
 
 use super::{Contents, Plan};
+use crate::shaders::Array;
 
-/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by its name, as a buffer.
+/// An array of texels on the device, in rows of [`Texture::ROW`]; kernels find it by the name of its array, as a
+/// buffer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
-    /// The name, which is also that of the shader variable.
-    pub name: &'static str,
-    /// What it is for.
-    pub purpose: &'static str,
+    /// What it holds.
+    pub array: Array,
     /// Words of a texel: one, two or four.
     pub words: u32,
     /// Texels in a row, and rows.
@@ -56,21 +56,14 @@ impl Texture {
 
 impl Plan {
     /// Adds a texture that can hold the texels.
-    pub(crate) fn add_texture(&mut self, name: &'static str, purpose: &'static str, words: u32, texels: u64) {
-        self.add_texture_with(name, purpose, words, texels, Contents::Zeros);
+    pub(crate) fn add_texture(&mut self, array: Array, texels: u64) {
+        self.add_texture_with(array, texels, Contents::Zeros);
     }
 
     /// The same with contents.
-    pub(crate) fn add_texture_with(
-        &mut self,
-        name: &'static str,
-        purpose: &'static str,
-        words: u32,
-        texels: u64,
-        contents: Contents,
-    ) {
+    pub(crate) fn add_texture_with(&mut self, array: Array, texels: u64, contents: Contents) {
         let width = texels.clamp(1, Texture::ROW).next_multiple_of(64);
         let size = [width as u32, texels.div_ceil(Texture::ROW).max(1) as u32];
-        self.textures.push(Texture { name, purpose, words, size, contents });
+        self.textures.push(Texture { array, words: array.texel_words(), size, contents });
     }
 }

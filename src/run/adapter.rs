@@ -21,7 +21,7 @@ pub(super) fn open_adapter(
         let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
         let gpu = opened.map_err(|error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
             Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
-                RunError::TooLarge { source: error, buffer: largest.name, purpose: largest.purpose }
+                RunError::TooLarge { source: error, buffer: largest.array }
             }
             _ => error.into(),
         })?;

@@ -7,6 +7,7 @@ use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
+use crate::shaders::Array;
 use std::path::{Path, PathBuf};
 
 /// A failure of a run.
@@ -68,15 +69,15 @@ pub enum RunError {
     },
     /// The adapter does not allow a buffer that the scene needs.
     #[error(
-        "{source}, for `{buffer}` ({purpose}): a smaller system needs less; `mesoscope check --kernels` lists all buffers"
+        "{source}, for `{}` ({}): a smaller system needs less; `mesoscope check --kernels` lists all buffers",
+        .buffer.name(),
+        .buffer.purpose()
     )]
     TooLarge {
         /// What the adapter allows.
         source: GpuError,
         /// The largest buffer.
-        buffer: &'static str,
-        /// What it is for.
-        purpose: &'static str,
+        buffer: Array,
     },
     /// The engine refuses the state, or a buffer overflowed.
     #[error(transparent)]

@@ -18,6 +18,7 @@ use crate::plot::{
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
 };
 use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
+use crate::shaders::Array;
 use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
@@ -75,7 +76,7 @@ pub fn redraw(
 
 /// The smoothed depth on the nodes of the mesh, right after a report.
 pub(super) fn mesh_depth(engine: &mut Engine<'_>, model: &Model) -> Result<Vec<f64>, RunError> {
-    let words = engine.words("depths")?;
+    let words = engine.words(Array::Depths)?;
     Ok(words.iter().take(model.physics().nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }
 

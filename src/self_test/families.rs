@@ -149,35 +149,55 @@ fn reference_step(model: &Model, start: &State) -> Result<State, String> {
     Ok(reference.state().clone())
 }
 
-/// Everything of a state that a step changes, by name, in integer units.
-fn quantities(state: &State) -> [(&'static str, Vec<i64>); 4] {
-    [
-        ("momenta", state.momenta.iter().flatten().map(|units| i64::from(*units)).collect()),
-        ("positions", state.positions.iter().flatten().map(|units| i64::from(*units)).collect()),
-        ("masses", state.masses.iter().map(|units| i64::from(*units)).collect()),
-        ("energies", state.energies.iter().map(|units| i64::from(*units)).collect()),
-    ]
+/// What a step changes of a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Momenta,
+    Positions,
+    Masses,
+    Energies,
 }
 
-/// The largest difference, of positions the short way round.
-fn largest_difference(name: &str, one: &[i64], other: &[i64]) -> f64 {
-    let difference = |(a, b): (&i64, &i64)| match name {
-        "positions" => f64::from((*a as u32).wrapping_sub(*b as u32) as i32).abs(),
-        _ => (a - b).abs() as f64,
-    };
-    one.iter().zip(other).map(difference).fold(0.0, f64::max)
+impl Quantity {
+    const ALL: [Self; 4] = [Self::Momenta, Self::Positions, Self::Masses, Self::Energies];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Momenta => "momenta",
+            Self::Positions => "positions",
+            Self::Masses => "masses",
+            Self::Energies => "energies",
+        }
+    }
+
+    /// All of a state, in integer units.
+    fn of(self, state: &State) -> Vec<i64> {
+        match self {
+            Self::Momenta => state.momenta.iter().flatten().map(|units| i64::from(*units)).collect(),
+            Self::Positions => state.positions.iter().flatten().map(|units| i64::from(*units)).collect(),
+            Self::Masses => state.masses.iter().map(|units| i64::from(*units)).collect(),
+            Self::Energies => state.energies.iter().map(|units| i64::from(*units)).collect(),
+        }
+    }
+
+    /// The largest difference between two states, of positions the short way round.
+    fn largest_difference(self, one: &State, other: &State) -> f64 {
+        let difference = |(a, b): (i64, i64)| match self {
+            Self::Positions => f64::from((a as u32).wrapping_sub(b as u32) as i32).abs(),
+            Self::Momenta | Self::Masses | Self::Energies => (a - b).abs() as f64,
+        };
+        self.of(one).into_iter().zip(self.of(other)).map(difference).fold(0.0, f64::max)
+    }
 }
 
 /// The largest difference of two states after a step, as a part of the largest change of the step, and of what.
-fn deviation(start: &State, found: &State, expected: &State) -> (f64, &'static str) {
-    let mut worst = (0.0, "momenta");
-    for (((name, start), (_, found)), (_, expected)) in
-        quantities(start).into_iter().zip(quantities(found)).zip(quantities(expected))
-    {
-        let change = largest_difference(name, &expected, &start).max(FEWEST_UNITS);
-        let part = largest_difference(name, &found, &expected) / change;
+fn deviation(start: &State, found: &State, expected: &State) -> (f64, Quantity) {
+    let mut worst = (0.0, Quantity::Momenta);
+    for quantity in Quantity::ALL {
+        let change = quantity.largest_difference(expected, start).max(FEWEST_UNITS);
+        let part = quantity.largest_difference(found, expected) / change;
         if part > worst.0 {
-            worst = (part, name);
+            worst = (part, quantity);
         }
     }
     worst
@@ -204,8 +224,11 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     if model.conserves_momentum() {
         sums.push(("momentum", state.total_momentum()));
     }
-    for (name, units) in quantities(state).into_iter().skip(2).filter(|(_, units)| !units.is_empty()) {
-        sums.push((if name == "masses" { "mass" } else { "energy" }, [units.iter().sum(), 0, 0]));
+    for (name, quantity) in [("mass", Quantity::Masses), ("energy", Quantity::Energies)] {
+        let units = quantity.of(state);
+        if !units.is_empty() {
+            sums.push((name, [units.iter().sum(), 0, 0]));
+        }
     }
     sums
 }
@@ -219,10 +242,10 @@ fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<Stri
     let plan = |hardware| plan(&model, 0, &scene.output, hardware, Options::default());
     let mut device = Engine::new(gpu, plan(Hardware::from(gpu)), &start).map_err(words)?;
     device.advance(1, 1).map_err(words)?;
-    let (part, name) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
+    let (part, quantity) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
     device.advance(STEPS - 1, STEPS).map_err(words)?;
     let last = device.state().map_err(words)?;
-    let mut found = format!("a step is off by {part:.0e} of its change at most ({name})");
+    let mut found = format!("a step is off by {part:.0e} of its change at most ({})", quantity.name());
     if part > TOLERANCE {
         return Err(format!("{found}, more than {TOLERANCE:.0e}"));
     }
@@ -266,18 +289,15 @@ mod tests {
             let start = families::initial_state(&scene, &model);
             let expected = reference_step(&model, &start)?;
             assert_eq!(deviation(&start, &expected, &expected).0, 0.0);
-            let change = |index: usize| {
-                let [(name, start), (_, expected)] = [&start, &expected].map(|state| quantities(state)[index].clone());
-                largest_difference(name, &start, &expected)
-            };
+            let change = |quantity: Quantity| quantity.largest_difference(&start, &expected);
             let mut wrong = expected.clone();
-            wrong.momenta[0][0] += (0.01 * change(0)) as i32;
-            let (part, name) = deviation(&start, &wrong, &expected);
-            assert!(name == "momenta" && part > 5e-3, "{}: {part} of {name}", case.name);
+            wrong.momenta[0][0] += (0.01 * change(Quantity::Momenta)) as i32;
+            let (part, quantity) = deviation(&start, &wrong, &expected);
+            assert!(quantity == Quantity::Momenta && part > 5e-3, "{}: {part} of {quantity:?}", case.name);
             let mut wrong = expected.clone();
-            wrong.positions[1][1] = wrong.positions[1][1].wrapping_add((0.01 * change(1)) as u32);
-            let (part, name) = deviation(&start, &wrong, &expected);
-            assert!(name == "positions" && part > 5e-3, "{}: {part} of {name}", case.name);
+            wrong.positions[1][1] = wrong.positions[1][1].wrapping_add((0.01 * change(Quantity::Positions)) as u32);
+            let (part, quantity) = deviation(&start, &wrong, &expected);
+            assert!(quantity == Quantity::Positions && part > 5e-3, "{}: {part} of {quantity:?}", case.name);
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Variants chosen for a kernel.
 
-use super::generated::{FILES, arrays};
+use super::generated::{FILES, IN_BUFFERS, SLOTS};
 
 /// A variant of a slot: its number among all files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -24,6 +24,11 @@ impl Choice {
     #[must_use]
     pub fn slot(self) -> &'static str {
         self.path().rsplit_once('/').map_or("", |(slot, _)| slot)
+    }
+
+    /// Whether the other is of the same slot.
+    fn replaces(self, other: Self) -> bool {
+        SLOTS[usize::from(self.0)] == SLOTS[usize::from(other.0)]
     }
 }
 
@@ -49,7 +54,7 @@ impl Choices {
     /// Chooses a variant, in place of one that was chosen for its slot.
     pub fn choose(&mut self, variant: impl Into<Choice>) {
         let choice = variant.into();
-        self.0.retain(|known| known.slot() != choice.slot());
+        self.0.retain(|known| !known.replaces(choice));
         let place = self.0.partition_point(|known| *known < choice);
         self.0.insert(place, choice);
     }
@@ -89,6 +94,11 @@ impl Choices {
         self.0.contains(&variant.into())
     }
 
+    /// The variants.
+    pub fn iter(&self) -> impl Iterator<Item = Choice> + '_ {
+        self.0.iter().copied()
+    }
+
     /// Paths of the variants.
     pub fn paths(&self) -> impl Iterator<Item = &'static str> + '_ {
         self.0.iter().map(|choice| choice.path())
@@ -96,22 +106,6 @@ impl Choices {
 
     /// These, with buffers for all arrays of which nothing is said.
     pub(super) fn with_arrays_in_buffers(&self) -> Self {
-        arrays_in_buffers().and(self)
+        IN_BUFFERS.into_iter().fold(Self::new(), Self::with).and(self)
     }
-}
-
-fn arrays_in_buffers() -> Choices {
-    Choices::new()
-        .with(arrays::Cells::Buffer)
-        .with(arrays::Coefficients::Buffer)
-        .with(arrays::Memories::Buffer)
-        .with(arrays::MemoriesNext::Buffer)
-        .with(arrays::Neighbours::Buffer)
-        .with(arrays::NeighboursNext::Buffer)
-        .with(arrays::Order::Buffer)
-        .with(arrays::Particles::Buffer)
-        .with(arrays::Ranks::Buffer)
-        .with(arrays::Sorted::Buffer)
-        .with(arrays::Waves::Buffer)
-        .with(arrays::WavesNext::Buffer)
 }

@@ -7,7 +7,7 @@
 //! 3. the only page that declares it,
 //!
 //! else linking fails with the candidates. So a function in a page is the default that a chosen variant replaces, and nobody
-//! keeps lists of files.
+//! keeps lists of files. Arrays are seen as the caller's own file declares them, else as the page of the table of arrays does.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -199,10 +199,12 @@ impl Library {
         let failure = |reason: String| self.unlinked(user, reason);
         let list =
             |places: &[Place]| places.iter().map(|(file, _)| self.files[*file].path).collect::<Vec<_>>().join(", ");
-        // Arrays are seen as the user declares them.
         let own = candidates.iter().find(|(file, _)| *file == user.0).copied();
-        if let Some(own) = own.filter(|own| self.declaration(*own).kind == Kind::Array) {
-            return Ok(Some(own));
+        // An array is seen as the user declares it, else as a page does: what a variant sees is its own affair.
+        let is_array = |place: &Place| self.declaration(*place).kind == Kind::Array;
+        let on_page = || candidates.iter().find(|(file, _)| self.files[*file].slot().is_none()).copied();
+        if let Some(array) = own.or_else(on_page).filter(is_array) {
+            return Ok(Some(array));
         }
         let of_chosen: Vec<Place> = candidates.iter().filter(|(file, _)| chosen.contains(file)).copied().collect();
         match of_chosen[..] {
@@ -293,7 +295,8 @@ impl Library {
                 } else {
                     declaration.text.to_owned()
                 };
-                let at = text.rfind("var").unwrap_or(0);
+                // After the comments above it; the one beside it may speak of variables too.
+                let at = if text.starts_with("var") { 0 } else { text.find("\nvar").map_or(0, |at| at + 1) };
                 linked.text.push_str(&text[..at]);
                 linked.text.extend(["@group(0) @binding(", &number.to_string(), ") "]);
                 linked.text.push_str(&text[at..]);
@@ -428,6 +431,28 @@ mod tests {
         );
         let law = off.parts.iter().find(|part| part.path == "core/law").unwrap();
         assert_eq!((law.line, off.text.lines().nth(law.begins as usize - 1)), (1, Some("// Off.")));
+    }
+
+    #[test]
+    fn an_array_is_seen_as_its_page_declares_it_but_by_a_file_that_sees_it_otherwise() {
+        let pairs = (
+            "core/pairs/on",
+            "var<storage, read_write> counts: array<vec2<u32>>;\n\
+            fn law(a: u32) -> u32 { return a; }\nfn pair(a: u32) -> vec2<u32> { return counts[a]; }\n",
+        );
+        let page = library(&[pairs]).link("kernel", &["core/pairs/on"]).unwrap();
+        assert!(
+            page.text.contains("counts: array<atomic<u32>>;") && !page.text.contains("vec2<u32>>"),
+            "{}",
+            page.text
+        );
+        let both = (
+            "core/pairs/on",
+            "var<storage, read_write> counts: array<vec2<u32>>;\n\
+            fn law(a: u32) -> u32 { return counts[a].x; }\n",
+        );
+        let error = library(&[both]).link("kernel", &["core/pairs/on"]).unwrap_err();
+        assert!(error.reason.contains("`counts` is that of core/"), "{}", error.reason);
     }
 
     #[test]

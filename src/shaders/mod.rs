@@ -2,10 +2,10 @@
 //!
 //! The path of a file says what it is. A page, `domain/topic.wgsl`, holds one topic whole, kernels beside their functions. A variant,
 //! `domain/slot/variant.wgsl`, is one of several that provide the same functions. A kernel is an [`Entry`] and the variants chosen
-//! for it, by enumerations made from the folders.
+//! for it, by enumerations made from the folders. Arrays and constants have enumerations too, [`Array`] and [`Constant`].
 //!
 //! ```
-//! use mesoscope::shaders::{Choices, Entry, linked_text, mesh, water};
+//! use mesoscope::shaders::{Array, Choices, Constant, Entry, linked_text, mesh, water};
 //!
 //! let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
 //! let linked = linked_text(Entry::BinWater, &choices)?;
@@ -15,6 +15,11 @@
 //! // Without a spline nobody knows the cell of a particle.
 //! let error = linked_text(Entry::BinWater, &Choices::new()).unwrap_err();
 //! assert!(error.reason.contains("mesh/spline/cubic"), "{}", error.reason);
+//!
+//! // Arrays are known by what the table `build/arrays.rs` says of them.
+//! assert_eq!((Array::Depths.name(), Array::named("depth")), ("depths", None));
+//! assert_eq!(Array::Ranks.purpose(), "place of each particle in its cell");
+//! assert_eq!(Constant::CellsX.name(), "CELLS_X");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -28,7 +33,7 @@ pub use choices::{Choice, Choices};
 pub use generated::*;
 pub use linker::{Declaration, File, Kind, Library, LinkedText, Part, Unlinked};
 
-/// What `build.rs` has found; its comments are those of the shaders.
+/// What `build` has made of the shaders and of the table of arrays; its comments are theirs.
 #[allow(clippy::doc_markdown, clippy::too_long_first_doc_paragraph)]
 mod generated {
     use super::Choice;

@@ -1,6 +1,6 @@
 //! How many variants to run at once.
 
-use crate::gpu::AdapterDescription;
+use crate::gpu::{AdapterDescription, AdapterKind};
 
 /// Operations of a step from which a single variant keeps a software adapter busy.
 const LARGE: f64 = 5e7;
@@ -16,16 +16,17 @@ const LARGE: f64 = 5e7;
 /// user says otherwise.
 ///
 /// ```
-/// use mesoscope::{gpu::AdapterDescription, sweep::default_jobs};
+/// use mesoscope::gpu::{AdapterDescription, AdapterKind};
+/// use mesoscope::sweep::default_jobs;
 ///
 /// let (name, backend, driver) = ("llvmpipe".to_owned(), "Vulkan".to_owned(), "Mesa".to_owned());
-/// let adapter = AdapterDescription { name, kind: "software", backend, driver };
+/// let adapter = AdapterDescription { name, kind: AdapterKind::Software, backend, driver };
 /// assert_eq!(default_jobs(&adapter, 8e6, 8), 2);
 /// assert_eq!(default_jobs(&adapter, 64e6, 8), 1);
 /// ```
 #[must_use]
 pub fn default_jobs(adapter: &AdapterDescription, largest: f64, variants: usize) -> usize {
-    let wanted = if adapter.kind == "software" && largest < LARGE { 2 } else { 1 };
+    let wanted = if adapter.kind == AdapterKind::Software && largest < LARGE { 2 } else { 1 };
     wanted.min(variants.max(1))
 }
 
@@ -38,13 +39,13 @@ mod tests {
         let adapter =
             |kind| AdapterDescription { name: String::new(), kind, backend: String::new(), driver: String::new() };
         for (kind, largest, variants, expected) in [
-            ("software", 8e6, 8, 2),
-            ("software", 8e6, 1, 1),
-            ("software", 8e6, 0, 1),
-            ("software", 64e6, 8, 1),
-            ("discrete", 8e6, 8, 1),
+            (AdapterKind::Software, 8e6, 8, 2),
+            (AdapterKind::Software, 8e6, 1, 1),
+            (AdapterKind::Software, 8e6, 0, 1),
+            (AdapterKind::Software, 64e6, 8, 1),
+            (AdapterKind::Discrete, 8e6, 8, 1),
         ] {
-            assert_eq!(default_jobs(&adapter(kind), largest, variants), expected, "{kind} {largest} {variants}");
+            assert_eq!(default_jobs(&adapter(kind), largest, variants), expected, "{kind:?} {largest} {variants}");
         }
     }
 }

@@ -71,8 +71,10 @@ pub(super) fn measure(choices: &[Timed<'_>], adapter: &AdapterChoice) -> Result<
             if round % 2 == 0 { (0..choices.len()).collect() } else { (0..choices.len()).rev().collect() };
         for index in order.into_iter().filter(|index| !ended[*index]).collect::<Vec<_>>() {
             let choice = &choices[index];
-            let wrong =
-                |source: EngineError| TradeoffError::Run { name: choice.name.to_owned(), source: source.into() };
+            let wrong = |source: EngineError| TradeoffError::Run {
+                name: choice.name.to_owned(),
+                source: Box::new(source.into()),
+            };
             let mut runner = match runners[index].take() {
                 Some(runner) => runner,
                 None => match open(&gpu, choice, steps[index]) {

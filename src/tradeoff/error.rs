@@ -58,6 +58,6 @@ pub enum TradeoffError {
         /// The name of the run.
         name: String,
         /// Why it failed.
-        source: RunError,
+        source: Box<RunError>,
     },
 }

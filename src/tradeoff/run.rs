@@ -211,7 +211,7 @@ impl TradeoffRun {
     fn plan_pilot(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<f64, TradeoffError> {
         let mut seconds = 0.0;
         for (name, scene) in &runs[..count(runs)] {
-            let wrong = |source: RunError| TradeoffError::Run { name: name.clone(), source };
+            let wrong = |source: RunError| TradeoffError::Run { name: name.clone(), source: Box::new(source) };
             match run::adapter_for(scene, adapter).and_then(|gpu| run::expected_time(scene, &gpu)) {
                 Ok(expected) => seconds += expected.seconds,
                 // What cannot be stable takes no time.
@@ -293,7 +293,7 @@ impl TradeoffRun {
     ) -> Result<Result<Summary, RunError>, TradeoffError> {
         let wrong = |source: RunError| match source {
             RunError::Interrupted { .. } => TradeoffError::Interrupted { directory: self.directory.clone() },
-            source => TradeoffError::Run { name: name.to_owned(), source },
+            source => TradeoffError::Run { name: name.to_owned(), source: Box::new(source) },
         };
         let directory = self.directory.join(name);
         let steps = scene.time.steps;
@@ -438,7 +438,8 @@ impl TradeoffRun {
         for index in &finished {
             let name = &runs[*index].0;
             let path = self.directory.join(name).join(run_files::CHECKPOINT);
-            let wrong = |error| TradeoffError::Run { name: name.clone(), source: RunError::Checkpoint(error) };
+            let wrong =
+                |error| TradeoffError::Run { name: name.clone(), source: Box::new(RunError::Checkpoint(error)) };
             states.push(checkpoint::load(&path).map_err(wrong)?.state);
         }
         let timed: Vec<Timed<'_>> = finished
@@ -452,7 +453,7 @@ impl TradeoffRun {
             choice.cost = cost;
             if state.len() <= MOST_COMPARED && choice.float64_distance.is_none() {
                 let (name, scene) = &runs[index];
-                let wrong = |source| TradeoffError::Run { name: name.clone(), source };
+                let wrong = |source| TradeoffError::Run { name: name.clone(), source: Box::new(source) };
                 let gpu = run::adapter_for(scene, adapter).map_err(wrong)?;
                 choice.float64_distance = self_test::distance_from_reference(&gpu, scene).ok();
             }
@@ -474,7 +475,7 @@ impl TradeoffRun {
         write_atomically(&place.file(files::PAGE), |writer| writer.write_all(page.as_bytes()))?;
         table::write(place.path(), &summary, &request.sweep.keys())?;
         summary.save(place.path())?;
-        let wrong = |source: RunError| TradeoffError::Run { name: files::plot("*"), source };
+        let wrong = |source: RunError| TradeoffError::Run { name: files::plot("*"), source: Box::new(source) };
         let plotter = Plotter::new(gpu.device(), gpu.queue())
             .map_err(|source| wrong(RunError::Plot { name: files::plot("*"), source }))?;
         let mut written = vec![files::TABLE.to_owned(), files::SUMMARY.to_owned(), files::PAGE.to_owned()];

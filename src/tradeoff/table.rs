@@ -33,9 +33,9 @@ fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
     if !summary.arguments.targets.is_empty() {
         header.push("verdict".to_owned());
     }
-    let mut text = line(header);
+    let mut text = line(&header);
     for choice in &summary.choices {
-        text.push_str(&line(row(summary, choice, keys)));
+        text.push_str(&line(&row(summary, choice, keys)));
     }
     text
 }
@@ -81,7 +81,7 @@ fn number(value: Option<f64>) -> String {
     String::from_utf8(text).unwrap_or_default()
 }
 
-fn line(cells: Vec<String>) -> String {
+fn line(cells: &[String]) -> String {
     let mut text = cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
     text.push('\n');
     text

@@ -1,5 +1,6 @@
 //! `mesoscope tradeoff` as its user meets it: choices, costs, errors, what to choose, messages and exit codes.
 
+use std::f64::consts::TAU;
 use std::fs;
 
 use mesoscope::output::{files as run_files, read_table};
@@ -131,13 +132,13 @@ fn choices_have_costs_and_errors_over_the_same_time() {
 fn flows_are_compared_with_a_finer_run() {
     let place = Place::of(json!({
         "title": "wave",
-        "space": {"box": [6.283185307179586, 6.283185307179586]},
+        "space": {"box": [TAU, TAU]},
         "time": {"step": 0.02, "steps": 40},
         "temperature": 0,
         "integrator": {"type": "gyro"},
         "particles": [{"species": "water", "count": 4096, "placement": {"type": "lattice"}, "velocities": {"type": "geostrophic"}}],
-        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6.283185307179586,
-            "rotation": 6.283185307179586, "smoothing": {"length": 0.8},
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": TAU,
+            "rotation": TAU, "smoothing": {"length": 0.8},
             "surface": [{"type": "wave", "periods": [1, 2], "amplitude": 0.2}]}],
         "output": {"energies": {"every": 2}, "fields": {"quantities": ["depth"]},
             "plot": {"width": 640, "height": 480}},

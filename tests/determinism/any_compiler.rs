@@ -9,6 +9,7 @@ use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Traversal};
 use mesoscope::run;
 use mesoscope::scene::{self, Scene};
+use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
 use crate::support::compiler::{Compiler, Contraction, can_contract};
@@ -107,7 +108,7 @@ fn conserved(state: &State) -> Vec<i64> {
 
 /// Of the nodes of the mesh, in integer units.
 fn mesh_mass(engine: &mut Engine<'_>) -> Vec<i64> {
-    vec![engine.words("node_masses").unwrap().into_iter().map(i64::from).sum()]
+    vec![engine.words(Array::NodeMasses).unwrap().into_iter().map(i64::from).sum()]
 }
 
 /// What does not stay in a case on a device.

@@ -9,6 +9,7 @@ use mesoscope::families::reference::ShallowWaterReference;
 use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::{Options, Storage, TIDYING, Traversal};
 use mesoscope::scene::Scene;
+use mesoscope::shaders::Array;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 
@@ -157,7 +158,7 @@ fn sorted_water_is_put_in_order_of_cells_now_and_then() {
         let mut in_order = |steps: u64| {
             engine.advance(steps, BATCH).unwrap();
             engine.reported().unwrap();
-            let particles = engine.words("particles").unwrap();
+            let particles = engine.words(Array::Particles).unwrap();
             let cells: Vec<u64> = (particles.chunks_exact(words).take(state.len()))
                 .map(|word| ((u64::from(word[1]) * rows) >> 32) * columns + ((u64::from(word[0]) * columns) >> 32))
                 .collect();
@@ -216,7 +217,7 @@ fn the_mass_on_the_mesh_is_constant_to_the_last_unit() {
             for step in 0..STEPS {
                 let reported = engine.reported().unwrap();
                 assert_eq!(reported.masses, state.masses);
-                let nodes = engine.words("node_masses").unwrap();
+                let nodes = engine.words(Array::NodeMasses).unwrap();
                 let nodes = &nodes[..model.shallow_water().unwrap().nodes() as usize];
                 assert_eq!(nodes.iter().map(|mass| u64::from(*mass)).sum::<u64>(), total, "step {step}, {storage:?}");
                 seen.insert(nodes.to_vec());
@@ -237,7 +238,7 @@ fn the_mass_on_the_mesh_is_constant_for_twenty_thousand_steps() {
     for _ in 0..200 {
         engine.advance(100, 50).unwrap();
         engine.reported().unwrap();
-        let nodes = engine.words("node_masses").unwrap();
+        let nodes = engine.words(Array::NodeMasses).unwrap();
         assert_eq!(nodes[..256].iter().map(|mass| u64::from(*mass)).sum::<u64>(), total);
         engine.finish().unwrap();
     }

@@ -5,6 +5,7 @@ use mesoscope::families::reference::{ShallowWaterReference, Unstable};
 use mesoscope::families::{Instability, Model, ShallowWater};
 use mesoscope::plan::{Options, Storage, Traversal};
 use mesoscope::scene::Scene;
+use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
 use crate::support::{EVERY_STEP, GYRO, ROTATE, WHITE, engine, in_eights, largest_difference, series, start, water};
@@ -535,7 +536,7 @@ fn a_node_may_run_dry() {
     let mut engine = engine(&scene, &state, Options::default());
     engine.advance(8, 3).unwrap();
     engine.reported().unwrap();
-    let depths: Vec<f32> = engine.words("depths").unwrap().iter().map(|bits| f32::from_bits(*bits)).collect();
+    let depths: Vec<f32> = engine.words(Array::Depths).unwrap().iter().map(|bits| f32::from_bits(*bits)).collect();
     assert_eq!((depths[6], depths[7], depths[5]), (-1.0, 1.0, 0.0));
 }
 
@@ -622,7 +623,7 @@ fn more_particles_in_a_cell_than_an_adapter_makes_turns_are_all_seen_or_the_run_
         let mut device = engine(&scene, &state, Options { traversal, ..stored(Storage::Sorted) });
         match device.advance(2, 2).and_then(|()| device.finish()) {
             Ok(_) => {
-                let nodes = device.words("node_masses").unwrap();
+                let nodes = device.words(Array::NodeMasses).unwrap();
                 let total: u64 = nodes[..64].iter().map(|mass| u64::from(*mass)).sum();
                 assert_eq!(total, shallow_water(&scene).total_mass());
             }
@@ -736,7 +737,7 @@ fn a_hundred_times_the_mean_mass_fits() {
         reference.run(2).unwrap();
         let (velocity, position) = largest_difference(&device.state().unwrap(), reference.state());
         assert!(velocity <= 2000 && position <= 2000, "{velocity} {position}");
-        let nodes = device.words("node_masses").unwrap();
+        let nodes = device.words(Array::NodeMasses).unwrap();
         let total: i64 = nodes[..100].iter().map(|mass| i64::from(*mass as i32)).sum();
         assert_eq!(total as u64, shallow_water(&scene).total_mass());
     }

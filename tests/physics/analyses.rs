@@ -9,6 +9,7 @@ use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
 use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Scene, SceneError};
+use mesoscope::shaders::{Array, Constant};
 use mesoscope::table::Table;
 use serde_json::Value;
 
@@ -189,10 +190,10 @@ fn forces_of_a_conservative_fluid_have_the_squares_of_the_observables() {
         }
         // The moments of the histogram hold them too: Σ|a|² in units of the range squared, all masses being one.
         let range = plan.kernels.iter().find(|kernel| kernel.name == "acceleration_histogram").map(|kernel| {
-            let constant = |name: &str| kernel.constants.iter().find(|(known, _)| *known == name).unwrap().1;
-            plan.force_unit / constant("FRACTION")
+            let constant = |name| kernel.constants.iter().find(|(known, _)| *known == name).unwrap().1;
+            plan.force_unit / constant(Constant::Fraction)
         });
-        let unit = range.unwrap().powi(2) / constant_of(&engine, "acceleration_histogram", "MOMENT");
+        let unit = range.unwrap().powi(2) / constant_of(&engine, "acceleration_histogram", Constant::Moment);
         for (sample, square) in of(2).zip(&squares) {
             let moments = &sample.sums[103..];
             assert_eq!(sample.sums[102], 0, "no particle is far beyond the range");
@@ -204,7 +205,7 @@ fn forces_of_a_conservative_fluid_have_the_squares_of_the_observables() {
     }
 }
 
-fn constant_of(engine: &Engine<'_>, kernel: &str, name: &str) -> f64 {
+fn constant_of(engine: &Engine<'_>, kernel: &str, name: Constant) -> f64 {
     let kernel = engine.plan().kernels.iter().find(|known| known.name == kernel).unwrap();
     kernel.constants.iter().find(|(known, _)| *known == name).unwrap().1
 }
@@ -231,7 +232,7 @@ fn reported_forces_are_changes_of_momenta() {
             let before = engine.state().unwrap();
             let reported = engine.reported().unwrap();
             let forces: Vec<i32> =
-                engine.words("reported_forces").unwrap().into_iter().map(|word| word as i32).collect();
+                engine.words(Array::ReportedForces).unwrap().into_iter().map(|word| word as i32).collect();
             let mut strongest = 0;
             for id in 0..before.len() {
                 for axis in 0..3 {
@@ -260,12 +261,12 @@ fn forces_cost_nothing_unless_they_are_asked_for() {
             engine(&scene, &state, Options::default()).plan().clone()
         };
         let without = plan(&[r#"output.histograms=[{"quantity":"velocity","every":1}]"#]);
-        assert!(without.buffers.iter().all(|buffer| buffer.name != "reported_forces"));
+        assert!(!without.has_buffer(Array::ReportedForces));
         let nothing = plan(&[]);
-        assert!(nothing.buffers.iter().all(|buffer| !buffer.name.starts_with("reported")));
+        assert!(nothing.buffers.iter().all(|buffer| !buffer.array.name().starts_with("reported")));
         assert!(without.kernels.iter().all(|kernel| !kernel.files().unwrap().contains("pairs/reported_force/kept")));
         let with = plan(&[r#"output.autocorrelations=[{"quantity":"force","every":1,"window":2}]"#]);
-        assert!(with.buffers.iter().any(|buffer| buffer.name == "reported_forces"));
+        assert!(with.has_buffer(Array::ReportedForces));
         // Only a report writes them: kernels of a step without one are the same.
         assert_eq!(
             with.advance.iter().map(|kernel| &with.kernels[*kernel]).collect::<Vec<_>>(),
@@ -308,7 +309,7 @@ fn counts_are_those_of_the_reported_particles() {
         let mut engine = engine(&scene, &state, Options::default());
         for _ in 0..5 {
             let reported = engine.reported().unwrap();
-            let forces = engine.words("reported_forces").unwrap();
+            let forces = engine.words(Array::ReportedForces).unwrap();
             let samples = engine.finish().unwrap();
             let sums = |sampler: usize| {
                 let found: Vec<&Sample> = samples.iter().filter(|sample| sample.sampler == sampler).collect();
@@ -317,7 +318,7 @@ fn counts_are_those_of_the_reported_particles() {
             };
             // In a split step, velocities are those right after the relaxation, where the temperature is measured.
             let momenta: Vec<[i32; 3]> = if integrator == SPLITTING {
-                let words = engine.words("reported_momenta").unwrap();
+                let words = engine.words(Array::ReportedMomenta).unwrap();
                 let vector = |words: &[u32]| [words[0] as i32, words[1] as i32, words[2] as i32];
                 words.chunks_exact(4).map(vector).collect()
             } else {
@@ -330,7 +331,7 @@ fn counts_are_those_of_the_reported_particles() {
                 assert!((kinetic / measured - 1.0).abs() < 1e-6, "{integrator}: {kinetic} {measured}");
             }
             let mut counts = [vec![0; 39], vec![0; 52], vec![0; 23]];
-            let factor = |name: &str| constant_of(&engine, name, "HALF_BINS") as f32;
+            let factor = |name: &str| constant_of(&engine, name, Constant::HalfBins) as f32;
             for (id, momentum) in momenta.iter().enumerate() {
                 for axis in 0..dimension {
                     counts[0][bin_of(momentum[axis] as f32, factor("velocity_histogram"), 37, 37)] += 1;
@@ -345,7 +346,7 @@ fn counts_are_those_of_the_reported_particles() {
             // A magnitude is a root, which single precision gives to a few units in the last place: on an edge by so
             // little a value may be counted on either side.
             let exact = |momentum: &[i32; 3]| momentum.iter().map(|c| f64::from(*c).powi(2)).sum::<f64>().sqrt();
-            let per_half_bin = constant_of(&engine, "speed_histogram", "HALF_BINS");
+            let per_half_bin = constant_of(&engine, "speed_histogram", Constant::HalfBins);
             let mut close = 0;
             for momentum in &momenta {
                 let half_bins = exact(momentum) * per_half_bin;
@@ -357,8 +358,8 @@ fn counts_are_those_of_the_reported_particles() {
             assert!(counts[0][37] > 0 && counts[0][38] > 0 && counts[1][50] > 0 && counts[2][22] > 0, "{counts:?}");
             // The powers, in double precision: those of the device are in single, with errors of either sign.
             let velocity = sums(1);
-            let quantum = 1.0 / constant_of(&engine, "velocity_histogram", "MOMENT");
-            let fraction = constant_of(&engine, "velocity_histogram", "FRACTION");
+            let quantum = 1.0 / constant_of(&engine, "velocity_histogram", Constant::Moment);
+            let fraction = constant_of(&engine, "velocity_histogram", Constant::Fraction);
             let values = || momenta.iter().flatten().map(|component| f64::from(*component) * fraction);
             for (moment, power) in [(0, 1), (1, 2), (2, 4)] {
                 let expected: f64 = values().map(|value| value.powi(power)).sum();

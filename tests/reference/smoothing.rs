@@ -9,6 +9,7 @@ use mesoscope::families::shallow_water::smoothing::{SmoothingPlan, iterations, s
 use mesoscope::gpu::link;
 use mesoscope::plan::Options;
 use mesoscope::scene::{LaplacianSymbol, Smoothing, SmoothingSolver};
+use mesoscope::shaders::{Array, Constant};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -64,7 +65,7 @@ fn deviations(masses: &[u32]) -> Vec<f64> {
 
 /// A smoothing on the device, with its buffers and pipelines.
 struct Device {
-    buffers: HashMap<&'static str, wgpu::Buffer>,
+    buffers: HashMap<Array, wgpu::Buffer>,
     stages: Vec<(wgpu::ComputePipeline, wgpu::BindGroup, u32)>,
     order: Vec<usize>,
 }
@@ -81,20 +82,22 @@ impl Device {
                 mapped_at_creation: false,
             })
         };
-        let mut buffers: HashMap<&str, wgpu::Buffer> =
-            ["node_masses", "depths"].map(|name| (name, create(4 * water.nodes()))).into();
+        let mut buffers: HashMap<Array, wgpu::Buffer> =
+            [Array::NodeMasses, Array::Depths].map(|array| (array, create(4 * water.nodes()))).into();
         for buffer in planned {
             let made = create(buffer.bytes);
             // Nothing may depend on what scratch space holds.
             let contents = buffer.contents.bytes().unwrap_or_else(|| vec![0x7f; buffer.bytes as usize].into());
             gpu().queue().write_buffer(&made, 0, &contents);
-            assert!(buffers.insert(buffer.name, made).is_none(), "`{}` twice", buffer.name);
+            assert!(buffers.insert(buffer.array, made).is_none(), "`{}` twice", buffer.array.name());
         }
         let stages = kernels.iter().map(|kernel| {
             let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap();
             let mut constants = kernel.constants.clone();
-            constants.push(("WORKGROUP", options.workgroup() as f64));
-            constants.retain(|(name, _)| linked.overrides.iter().any(|known| known == name));
+            constants.push((Constant::Workgroup, options.workgroup() as f64));
+            constants.retain(|(constant, _)| linked.constants.contains(constant));
+            let constants: Vec<(&str, f64)> =
+                constants.iter().map(|(constant, value)| (constant.name(), *value)).collect();
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: None,
                 source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(linked.module)),
@@ -111,9 +114,8 @@ impl Device {
                 .bindings
                 .iter()
                 .map(|binding| {
-                    let other = kernel.renamed.iter().find(|(variable, _)| *variable == binding.name);
-                    let name = other.map_or(binding.name.as_str(), |(_, buffer)| buffer);
-                    wgpu::BindGroupEntry { binding: binding.number, resource: buffers[name].as_entire_binding() }
+                    let resource = buffers[&kernel.array_of(binding.array)].as_entire_binding();
+                    wgpu::BindGroupEntry { binding: binding.number, resource }
                 })
                 .collect();
             let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -144,7 +146,7 @@ impl Device {
 
     fn smooth(&self, masses: &[u32]) -> Vec<f64> {
         let bytes: Vec<u8> = masses.iter().flat_map(|mass| mass.to_ne_bytes()).collect();
-        gpu().queue().write_buffer(&self.buffers["node_masses"], 0, &bytes);
+        gpu().queue().write_buffer(&self.buffers[&Array::NodeMasses], 0, &bytes);
         self.dispatch(1);
         let size = bytes.len() as u64;
         let copy = gpu().device().create_buffer(&wgpu::BufferDescriptor {
@@ -154,7 +156,7 @@ impl Device {
             mapped_at_creation: false,
         });
         let mut encoder = gpu().device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(&self.buffers["depths"], 0, &copy, 0, size);
+        encoder.copy_buffer_to_buffer(&self.buffers[&Array::Depths], 0, &copy, 0, size);
         gpu().queue().submit([encoder.finish()]);
         let (sender, receiver) = mpsc::channel();
         copy.map_async(wgpu::MapMode::Read, .., move |result| sender.send(result).unwrap());

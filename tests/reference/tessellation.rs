@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
+use mesoscope::shaders::Array;
 use mesoscope::state::State;
 use mesoscope::tessellation::{Tessellation, part_coincident};
 
@@ -71,9 +72,12 @@ fn tessellate_all(lengths: [f64; 2], places: &Places) -> Vec<Cell> {
     }
 }
 
+/// Where the particles and the faces of their cells are.
+const GEOMETRY: [Array; 6] =
+    [Array::Particles, Array::FaceCounts, Array::FaceWords, Array::FaceLengths, Array::FaceOffsets, Array::Volumes];
+
 fn read(engine: &mut Engine<'_>, count: usize) -> Vec<Cell> {
-    let buffers = ["particles", "face_counts", "face_words", "face_lengths", "face_offsets", "volumes"];
-    let [particles, counts, words, lengths, offsets, volumes] = buffers.map(|name| engine.words(name).unwrap());
+    let [particles, counts, words, lengths, offsets, volumes] = GEOMETRY.map(|array| engine.words(array).unwrap());
     let place = |slot: usize| [particles[8 * slot], particles[8 * slot + 1]];
     let number = |slot: usize| particles[8 * slot + 3] as usize;
     let real = |word: u32| f64::from(f32::from_bits(word));
@@ -421,12 +425,11 @@ fn neither_order_nor_workgroups_change_a_bit() {
         places[1000 + number] = places[number % 5];
     }
     let (scene, state) = placed(lengths, &places);
-    let buffers = ["particles", "face_counts", "face_words", "face_lengths", "face_offsets", "volumes"];
     let words = |options: Options, order: &[usize]| -> Vec<Vec<u32>> {
         let mut engine = engine(&scene, &state, options);
         engine.upload_in_order(&state, order).unwrap();
         engine.reported().unwrap();
-        buffers.iter().map(|name| engine.words(name).unwrap()).collect()
+        GEOMETRY.map(|array| engine.words(array).unwrap()).to_vec()
     };
     let in_order: Vec<usize> = (0..1200).collect();
     let shuffled: Vec<usize> = (0..1200).map(|index| index * 7 % 1200).collect();
@@ -438,8 +441,8 @@ fn neither_order_nor_workgroups_change_a_bit() {
     ];
     for (options, order) in all {
         let found = words(options, order);
-        for ((name, expected), found) in buffers.iter().zip(&expected).zip(&found) {
-            assert!(expected == found, "{name} with {options:?}");
+        for ((array, expected), found) in GEOMETRY.iter().zip(&expected).zip(&found) {
+            assert!(expected == found, "{} with {options:?}", array.name());
         }
     }
 }

@@ -48,10 +48,8 @@ fn covering() -> Vec<(&'static Kernel, &'static Plan)> {
 fn spirv(kernel: &Kernel, plan: &Plan) -> Vec<u8> {
     let linked = shader(kernel);
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&linked.module).unwrap();
-    let own = |name: &str| kernel.constants.iter().any(|(known, _)| *known == name);
-    let constants = kernel.constants.iter().chain(plan.constants.iter().filter(|(name, _)| !own(name)));
-    let declared = constants.filter(|(name, _)| linked.overrides.iter().any(|known| known == name));
-    let constants = declared.map(|(name, value)| ((*name).to_owned(), *value)).collect();
+    let declared = kernel.constants_in(plan).filter(|(constant, _)| linked.constants.contains(constant));
+    let constants = declared.map(|(constant, value)| (constant.name().to_owned(), value)).collect();
     let entry = (naga::ShaderStage::Compute, kernel.entry.name());
     let (module, info) = process_overrides(&linked.module, &info, Some(entry), &constants).unwrap();
     let options = spv::Options {

@@ -11,7 +11,7 @@ use mesoscope::gpu::LinkedShader;
 use mesoscope::plan::{Contents, Kernel, Plan, Texture};
 
 use crate::canonical::{hash, hash_of_kernel};
-use crate::variants::{buffer_name, plans, shader as shader_of};
+use crate::variants::{plans, shader as shader_of};
 
 /// Hashes of distinct kernels, and of plans in groups of sixteen, in words of eight digits.
 fn record() -> String {
@@ -58,17 +58,17 @@ fn lines(hashes: &[u64], text: &mut String) {
 /// Size and constants of a kernel, and what it binds, which is known by size and not by name.
 fn dispatch(plan: &Plan, kernel: &Kernel, shader: &LinkedShader) -> String {
     let mut constants: Vec<(&str, u64)> = (kernel.constants.iter().chain(&plan.constants))
-        .filter(|(name, _)| shader.overrides.iter().any(|known| known == name))
-        .map(|(name, value)| (*name, value.to_bits()))
+        .filter(|(constant, _)| shader.constants.contains(constant))
+        .map(|(constant, value)| (constant.name(), value.to_bits()))
         .collect();
     // Those of the kernel come first and hold.
     constants.sort_by_key(|(name, _)| *name);
     constants.dedup_by_key(|(name, _)| *name);
     let mut bound: Vec<u64> = (shader.bindings.iter())
         .map(|binding| {
-            let name = buffer_name(kernel, &binding.name);
-            let buffer = plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
-            let texture = plan.textures.iter().find(|texture| texture.name == name).map(Texture::bytes);
+            let array = kernel.array_of(binding.array);
+            let buffer = plan.buffers.iter().find(|buffer| buffer.array == array).map(|buffer| buffer.bytes);
+            let texture = plan.textures.iter().find(|texture| texture.array == array).map(Texture::bytes);
             buffer.or(texture).unwrap_or(0)
         })
         .collect();

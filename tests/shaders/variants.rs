@@ -15,7 +15,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
-use mesoscope::shaders::{Choices, Entry, Library, LinkedText, library, linked_text};
+use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
 use crate::support::{INTEGRATORS, cells, fluid, water};
@@ -421,11 +421,6 @@ pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
     linked()[text(kernel)].as_ref().expect("every_kernel_links lists what does not link")
 }
 
-/// The buffer that a kernel's variable is bound to.
-pub fn buffer_name<'a>(kernel: &'a Kernel, variable: &'a str) -> &'a str {
-    kernel.renamed.iter().find(|(name, _)| *name == variable).map_or(variable, |(_, buffer)| buffer)
-}
-
 /// Fails with all complaints, each once and with the first scene that caused it.
 pub fn report(complaints: &BTreeMap<String, String>) {
     let list: Vec<String> =
@@ -500,16 +495,12 @@ fn every_constant_without_default_has_a_value_that_fits() {
             let module = &shader(kernel).module;
             for (_, constant) in module.overrides.iter() {
                 let name = constant.name.as_deref().unwrap_or("?");
-                let value = kernel.constants.iter().chain(&plan.constants).find(|(known, _)| *known == name);
+                let value = kernel.constants_in(plan).find(|(known, _)| known.name() == name).map(|(_, value)| value);
                 let fits = match (value, &module.types[constant.ty].inner) {
                     (None, _) => constant.init.is_some(),
-                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::F32)) => (*value as f32).is_finite(),
-                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::U32)) => {
-                        f64::from(*value as u32) == *value
-                    }
-                    (Some((_, value)), naga::TypeInner::Scalar(naga::Scalar::I32)) => {
-                        f64::from(*value as i32) == *value
-                    }
+                    (Some(value), naga::TypeInner::Scalar(naga::Scalar::F32)) => (value as f32).is_finite(),
+                    (Some(value), naga::TypeInner::Scalar(naga::Scalar::U32)) => f64::from(value as u32) == value,
+                    (Some(value), naga::TypeInner::Scalar(naga::Scalar::I32)) => f64::from(value as i32) == value,
                     (Some(_), other) => panic!("`{name}` has a type of its own: {other:?}"),
                 };
                 if !fits {
@@ -519,14 +510,49 @@ fn every_constant_without_default_has_a_value_that_fits() {
                 }
             }
         }
-        let mut seen = BTreeSet::new();
-        for (name, _) in &plan.constants {
-            if !seen.insert(name) {
-                complaints.entry(format!("constant `{name}` is given twice")).or_insert(scene.clone());
+    }
+    report(&complaints);
+}
+
+/// A kernel is given what kernels of its entry declare, with some variants at least, and no constant twice; and every constant is
+/// given by some plan.
+#[test]
+fn constants_are_given_to_those_who_declare_them() {
+    let mut complaints = BTreeMap::new();
+    let mut given = BTreeSet::new();
+    let declared: BTreeSet<(Entry, Constant)> = (plans().iter().flat_map(|(_, plan)| &plan.kernels))
+        .flat_map(|kernel| shader(kernel).constants.iter().map(|constant| (kernel.entry, *constant)))
+        .collect();
+    for (scene, plan) in plans() {
+        let mut complain = |complaint: String| {
+            complaints.entry(complaint).or_insert(scene.clone());
+        };
+        for kernel in &plan.kernels {
+            let own = &shader(kernel).constants;
+            given.extend(kernel.constants_in(plan).map(|(constant, _)| constant).filter(|known| own.contains(known)));
+            for (constant, _) in kernel.constants.iter().filter(|(own, _)| !declared.contains(&(kernel.entry, *own))) {
+                complain(format!("kernel `{}` is given `{}`, which it never declares", kernel.name, constant.name()));
             }
+            if let Some(constant) = repeated(&kernel.constants) {
+                complain(format!("kernel `{}` is given `{}` twice", kernel.name, constant.name()));
+            }
+        }
+        if let Some(constant) = repeated(&plan.constants) {
+            complain(format!("`{}` is given twice to all kernels", constant.name()));
         }
     }
     report(&complaints);
+    // A dispatch of so many workgroups is of no scene here.
+    given.insert(Constant::Fold);
+    let missing: Vec<&str> =
+        Constant::ALL.iter().filter(|constant| !given.contains(constant)).map(|constant| constant.name()).collect();
+    assert!(missing.is_empty(), "no plan sets {}", missing.join(", "));
+}
+
+/// A constant that has two values.
+fn repeated(constants: &[(Constant, f64)]) -> Option<Constant> {
+    let mut seen = BTreeSet::new();
+    constants.iter().map(|(constant, _)| *constant).find(|constant| !seen.insert(*constant))
 }
 
 /// DirectX does not tell it to kernels whose number of workgroups a buffer says.
@@ -546,11 +572,11 @@ fn no_kernel_asks_for_the_number_of_workgroups() {
 fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
     let mut complaints = BTreeMap::new();
     for (scene, plan) in plans() {
-        let named = plan.buffers.iter().map(|buffer| (buffer.name, false));
-        let buffers: BTreeMap<&str, bool> =
-            named.chain(plan.textures.iter().map(|texture| (texture.name, true))).collect();
-        if buffers.len() != plan.buffers.len() + plan.textures.len() {
-            complaints.entry("two buffers or textures share a name".to_owned()).or_insert(scene.clone());
+        let made = plan.buffers.iter().map(|buffer| (buffer.array, false));
+        let arrays: BTreeMap<Array, bool> =
+            made.chain(plan.textures.iter().map(|texture| (texture.array, true))).collect();
+        if arrays.len() != plan.buffers.len() + plan.textures.len() {
+            complaints.entry("two buffers or textures are the same array".to_owned()).or_insert(scene.clone());
         }
         let mut bound = BTreeSet::new();
         let storage = |kernel| shader(kernel).bindings.iter().filter(|binding| !binding.texture).count();
@@ -567,7 +593,7 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
                 complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
             };
             if storage(kernel) > plan.storage_buffers as usize {
-                let names: Vec<&str> = bindings.iter().map(|binding| binding.name.as_str()).collect();
+                let names: Vec<&str> = bindings.iter().map(|binding| binding.array.name()).collect();
                 complain(format!("{} storage buffers among {}", storage(kernel), names.join(", ")));
             }
             let textures = bindings.len() - storage(kernel);
@@ -577,22 +603,23 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             if bindings.iter().map(|binding| binding.number).collect::<BTreeSet<_>>().len() != bindings.len() {
                 complain("two of its buffers share a number".to_owned());
             }
-            if bindings.iter().map(|binding| buffer_name(kernel, &binding.name)).collect::<BTreeSet<_>>().len()
+            if bindings.iter().map(|binding| kernel.array_of(binding.array)).collect::<BTreeSet<_>>().len()
                 != bindings.len()
             {
                 complain("two of its variables are the same buffer".to_owned());
             }
             for binding in bindings {
-                let name = buffer_name(kernel, &binding.name);
-                match buffers.get(name) {
-                    Some(texture) if *texture == binding.texture => drop(bound.insert(name)),
+                let array = kernel.array_of(binding.array);
+                let name = array.name();
+                match arrays.get(&array) {
+                    Some(texture) if *texture == binding.texture => drop(bound.insert(array)),
                     Some(_) => complain(format!("`{name}` is a texture in the plan or in the kernel, but not in both")),
                     None => complain(format!("the plan has no buffer `{name}`")),
                 }
             }
         }
-        for name in buffers.keys().filter(|name| !bound.contains(**name)) {
-            complaints.entry(format!("no kernel uses buffer `{name}`")).or_insert(scene.clone());
+        for array in arrays.keys().filter(|array| !bound.contains(array)) {
+            complaints.entry(format!("no kernel uses buffer `{}`", array.name())).or_insert(scene.clone());
         }
     }
     report(&complaints);
@@ -686,22 +713,22 @@ fn host_structs_lie_as_in_the_shaders() {
         // What the engine's upload and download, and the plan's sizes of buffers, take for granted.
         let water = plan.layout.of::<WaterLayout>();
         let stride = if water.is_some() { 24 } else { 32 };
-        let bytes = |name: &str| plan.buffers.iter().find(|buffer| buffer.name == name).map(|buffer| buffer.bytes);
-        let texels = |name: &str| {
-            let texture = plan.textures.iter().find(|texture| texture.name == name)?;
+        let bytes = |array| plan.buffers.iter().find(|buffer| buffer.array == array).map(|buffer| buffer.bytes);
+        let texels = |array| {
+            let texture = plan.textures.iter().find(|texture| texture.array == array)?;
             Some((texture.words, u64::from(texture.size[0]) * u64::from(texture.size[1])))
         };
         if water.is_none_or(|layout| layout.bins.is_none()) {
             let particles = water.map_or(plan.particles, |layout| layout.carriers as u64);
-            match (water, texels("particles")) {
+            match (water, texels(Array::Particles)) {
                 (_, None) => {
                     let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
-                    assert_eq!(bytes("particles"), Some(expected), "{scene}");
+                    assert_eq!(bytes(Array::Particles), Some(expected), "{scene}");
                 }
                 // Of shallow water the motion, beside which there are the masses; else particles as they are in a buffer.
                 (Some(_), Some((words, held))) => {
                     assert!(words == 4 && held >= particles, "{scene}");
-                    assert!(texels("particle_masses").is_some_and(|(words, held)| words == 2 && held >= particles));
+                    assert!(texels(Array::ParticleMasses).is_some_and(|(words, held)| words == 2 && held >= particles));
                 }
                 (_, Some((words, held))) => assert!(words == 4 && held >= 2 * particles, "{scene}"),
             }
@@ -733,12 +760,12 @@ fn host_structs_lie_as_in_the_shaders() {
                     assert_eq!(offset(shader, "StoredWater", member), expected, "StoredWater.{member}");
                 }
             }
-            if shader.bindings.iter().any(|binding| binding.name == "coefficients") {
+            if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
                 // Coupled scenes add a row for the species by themselves.
                 let entries = 2 * if plan.layout.of::<CoupledLayout>().is_some() { 3 } else { 2 };
-                match texels("coefficients") {
-                    None => assert_eq!(bytes("coefficients"), Some(16 * entries)),
+                match texels(Array::Coefficients) {
+                    None => assert_eq!(bytes(Array::Coefficients), Some(16 * entries)),
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),
                 }
             }
@@ -753,11 +780,11 @@ fn host_structs_lie_as_in_the_shaders() {
                 for (member, expected) in members {
                     assert_eq!(offset(shader, "Hold", member) as usize, expected, "Hold.{member}");
                 }
-                assert_eq!(bytes("holds"), Some((24 * plan.particles).max(64)));
+                assert_eq!(bytes(Array::Holds), Some((24 * plan.particles).max(64)));
             }
             if declared("Tracker") {
                 let stride = u64::from(offset(shader, "Tracker", ""));
-                assert_eq!(bytes("trackers"), Some((stride * plan.particles).max(64)));
+                assert_eq!(bytes(Array::Trackers), Some((stride * plan.particles).max(64)));
             }
         }
     }
@@ -786,9 +813,9 @@ fn no_plan_needs_more_workgroups_than_can_be_folded() {
                         assert!(groups * 64 >= count, "`{}` leaves particles out: {count} in {lengths}", kernel.name);
                     }
                     // Workgroups are parts of rows, or share them all.
-                    if let Some(&(_, sharers)) = kernel.constants.iter().find(|(name, _)| *name == "SHARES") {
+                    if let Some(&(_, sharers)) = kernel.constants.iter().find(|(name, _)| *name == Constant::Shares) {
                         assert_eq!(groups as f64, sharers, "`{}`: {count} in {lengths}", kernel.name);
-                    } else if kernel.constants.iter().any(|(name, _)| *name == "SEGMENTS") {
+                    } else if kernel.constants.iter().any(|(name, _)| *name == Constant::Segments) {
                         assert_eq!(
                             groups % (u64::from(plan.cells[1]) * u64::from(plan.cells[2])),
                             0,

@@ -1,6 +1,5 @@
 // A bath with exponential memory on every bond, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8. Where some kinds of
 // bonds have memory, those without forget everything in a step.
-var<storage, read_write> bond_baths: array<f32>;
 
 // Over its quantum.
 fn energy_of_bond_bath(kind: BondKind, bath: f32) -> f32 { return bath * bath * kind.bath_energy; }

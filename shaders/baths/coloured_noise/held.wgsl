@@ -12,7 +12,6 @@ struct Hold {
     halves: u32,
     jump: u32, // jumps so far
 }
-var<storage, read_write> holds: array<Hold>;
 
 struct Jump { force: Vector, time: f32 }
 

@@ -1,7 +1,6 @@
 // A bath with exponential memory on every coordinate, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8.
 override POSITION_IMPULSE: f32; // impulse of half a step per bath
 override POSITION_LOSS: f32;    // the part of a bath that is lost in a step
-var<storage, read_write> position_baths: array<vec4<f32>>;
 
 // Of one coordinate, over its quantum.
 fn energy_of_position_bath(species: i32, bath: f32) -> f32 { return bath * bath * position_energy(species); }

@@ -1,5 +1,4 @@
 // Several dispatches share the work, SHARES workgroups each: systems that guard their displays end what takes an adapter seconds.
-var<storage, read_write> dispatches_done: u32;
 
 // A folded dispatch has a few workgroups too many, which get no share.
 fn share_of(group: u32) -> u32 {

@@ -1,6 +1,5 @@
 // Positions when neighbours were listed: a particle that has moved further than half the margin of the list demands a new one.
 override SQUARED_REACH: f32; // of half the margin
-var<storage, read_write> anchors: array<vec4<u32>>;
 
 fn check_anchor(slot: u32, fraction: Fraction) {
     let d = Vector(signed(fraction - fraction_of(anchors[slot]))) * unit_lengths();

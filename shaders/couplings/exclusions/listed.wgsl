@@ -1,9 +1,8 @@
 // Some listed pairs, such as bonded ones, are excluded from repulsion: their word says so.
 override EXCLUSIONS: u32; // partners in a row
-// By id a row of partners, filled up with the particle's own id.
-var<storage, read> exclusions: array<u32>;
 
-// The bit of a listed neighbour that marks an excluded pair.
+// The bit of a listed neighbour that marks an excluded pair. `exclusions` holds by id a row of partners, filled up with the
+// particle's own id.
 fn excluded(id: u32, other: u32) -> u32 {
     var bit = 0u;
     for (var partner = 0u; partner < EXCLUSIONS; partner++) {

@@ -1,5 +1,4 @@
 // Twice the push through the faces: both halves of a step that has nothing between them.
-var<storage, read_write> pushes: array<vec4<i32>>; // momentum of each cell
 
 fn take_change(slot: u32) -> vec4<i32> {
     let change = 2 * pushes[slot];

@@ -1,7 +1,6 @@
 // The last workgroup to finish begins the next step and finds where its cells begin: a kernel for that would cost software
 // adapters, which wake their threads for every kernel, as much as a hundred particles a thread. For workgroups of one subgroup of
 // eight lanes.
-var<storage, read_write> workgroups_done: atomic<u32>;
 
 fn end_step(lane: u32) {
     // What others have counted is visible once they are done: on processors every atomic addition orders what is before and after

@@ -2,8 +2,6 @@
 // one of this step, in turn. A particle that stays in its cell stays in its bin, so that no sort is needed; but a bin holds
 // only so many particles.
 override ARRIVALS: u32; // of each stretch of those that arrive
-var<storage, read_write> stayed: array<u32>;          // particles that stay; the highest bit says which stretch is current
-var<storage, read_write> arrived: array<u32>; // particles that arrive, in the first stretch, then in the second
 
 struct Bin { begin: u32, stayed: u32, count: u32, turn: u32 }
 

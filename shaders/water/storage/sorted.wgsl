@@ -1,6 +1,5 @@
 // Particles in the order of their cells, which is found in every step, for any number in a cell. The particles themselves stay
-// where they lie.
-var<storage, read_write> cells: array<u32>; // where each cell ends
+// where they lie. `cells` says where each cell ends.
 
 struct Bin { begin: u32, count: u32 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use mesoscope::gpu::{self, GpuError};
 use mesoscope::numbers::{bytes, grouped, six_digits};
 use mesoscope::plan::{Kernel, Plan, TIDYING};
-use mesoscope::shaders::linked_text;
+use mesoscope::shaders::{Choice, Constant, linked_text, space};
 
 use super::interval;
 use crate::cli::Failure;
@@ -27,8 +27,8 @@ pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
     if !shared.choices.is_empty() {
         text.push_str("\nShared by all kernels that see particles\n");
     }
-    wrapped(text, "choices", shared.choices.iter().map(|choice| (*choice).to_owned()));
-    wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, name)));
+    wrapped(text, "choices", shared.choices.iter().map(|choice| choice.path().to_owned()));
+    wrapped(text, "constants", shared.constants.iter().filter_map(|name| constant(&plan.constants, *name)));
     let mut described = Vec::new();
     for (heading, kernels) in stages {
         section(text, heading, plan, kernels, &shared, &mut described)?;
@@ -65,15 +65,15 @@ pub fn shader(plan: &Plan, name: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
-fn constant(constants: &[(&'static str, f64)], name: &str) -> Option<String> {
+fn constant(constants: &[(Constant, f64)], name: Constant) -> Option<String> {
     let (name, value) = constants.iter().find(|(known, _)| *known == name)?;
-    Some(format!("{name} = {}", six_digits(*value)))
+    Some(format!("{} = {}", name.name(), six_digits(*value)))
 }
 
 /// What all kernels that see particles have in common, so that it need not be said of each.
 struct Shared {
-    choices: Vec<&'static str>,
-    constants: Vec<String>,
+    choices: Vec<Choice>,
+    constants: Vec<Constant>,
 }
 
 impl Shared {
@@ -82,12 +82,12 @@ impl Shared {
         for kernel in &plan.kernels {
             let choices = kernel_choices(kernel)?;
             // The others do not see particles.
-            if !choices.iter().any(|choice| choice.starts_with("space/particle/")) {
+            if !space::Particle::ALL.iter().any(|variant| choices.contains(&(*variant).into())) {
                 continue;
             }
-            let constants = gpu::link(kernel.name, kernel.entry, &kernel.choices)?.overrides;
+            let constants = gpu::link(kernel.name, kernel.entry, &kernel.choices)?.constants;
             // A constant that a kernel sets for itself is not shared.
-            let own = |name: &String| kernel.constants.iter().any(|(known, _)| known == name);
+            let own = |name: &Constant| kernel.constants.iter().any(|(known, _)| known == name);
             match &mut shared {
                 None => {
                     let constants = constants.into_iter().filter(|name| !own(name)).collect();
@@ -103,7 +103,7 @@ impl Shared {
     }
 
     /// Whether a kernel with these choices is one of those.
-    fn among(&self, choices: &[&'static str]) -> bool {
+    fn among(&self, choices: &[Choice]) -> bool {
         self.choices.iter().all(|choice| choices.contains(choice))
     }
 }
@@ -139,25 +139,21 @@ fn section(
         let linked = gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
         let choices = kernel_choices(kernel)?;
         wrapped(text, "kernel", std::iter::once(kernel.entry.name().to_owned()));
-        let own = |name: &&&'static str| !shared.among(&choices) || !shared.choices.contains(name);
-        wrapped(text, "choices", choices.iter().filter(own).map(|choice| (*choice).to_owned()));
-        // A kernel's own constants come before those of the plan, as in the engine.
-        let constants = [&kernel.constants[..], &plan.constants].concat();
-        let own = linked.overrides.iter().filter(|name| !shared.among(&choices) || !shared.constants.contains(*name));
-        wrapped(text, "constants", own.filter_map(|name| constant(&constants, name)));
-        let buffer = |variable: &str| {
-            let renamed = kernel.renamed.iter().find(|(name, _)| *name == variable);
-            renamed.map_or(variable, |(_, buffer)| buffer).to_owned()
-        };
-        wrapped(text, "buffers", linked.bindings.iter().map(|binding| buffer(&binding.name)));
+        let own = |choice: &&Choice| !shared.among(&choices) || !shared.choices.contains(choice);
+        wrapped(text, "choices", choices.iter().filter(own).map(|choice| choice.path().to_owned()));
+        let constants: Vec<(Constant, f64)> = kernel.constants_in(plan).collect();
+        let own = linked.constants.iter().filter(|name| !shared.among(&choices) || !shared.constants.contains(*name));
+        wrapped(text, "constants", own.filter_map(|name| constant(&constants, *name)));
+        let arrays = linked.bindings.iter().map(|binding| kernel.array_of(binding.array).name().to_owned());
+        wrapped(text, "buffers", arrays);
     }
     Ok(())
 }
 
 /// The variants that a kernel comes to.
-fn kernel_choices(kernel: &Kernel) -> Result<Vec<&'static str>, Failure> {
+fn kernel_choices(kernel: &Kernel) -> Result<Vec<Choice>, Failure> {
     let files = kernel.files().map_err(|unlinked| GpuError::unlinked(kernel.name, unlinked))?;
-    Ok(kernel.choices.paths().filter(|path| files.contains(path)).collect())
+    Ok(kernel.choices.iter().filter(|choice| files.contains(choice.path())).collect())
 }
 
 /// A label and a list, broken into lines of at most 110 characters.
@@ -185,9 +181,9 @@ fn buffers(text: &mut String, plan: &Plan) {
     let rows: Vec<Vec<String>> = plan
         .buffers
         .iter()
-        .map(|buffer| (buffer.name, buffer.bytes, buffer.purpose))
-        .chain(plan.textures.iter().map(|texture| (texture.name, texture.bytes(), texture.purpose)))
-        .map(|(name, size, purpose)| vec![name.to_owned(), bytes(size), purpose.to_owned()])
+        .map(|buffer| (buffer.array, buffer.bytes))
+        .chain(plan.textures.iter().map(|texture| (texture.array, texture.bytes())))
+        .map(|(array, size)| vec![array.name().to_owned(), bytes(size), array.purpose().to_owned()])
         .collect();
     let title = if plan.textures.is_empty() { "Buffers" } else { "Buffers and textures" };
     let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));

@@ -26,6 +26,7 @@ use super::{
 use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
+use crate::shaders::Constant;
 use crate::state::State;
 use reference::ShallowWaterReference;
 use std::ops::Range;
@@ -152,7 +153,7 @@ impl Physics for ShallowWater {
     }
 
     fn momentum_out_of_range(&self, plan: &Plan) -> String {
-        let limit = plan.constants.iter().find(|(name, _)| *name == "VELOCITY_LIMIT");
+        let limit = plan.constants.iter().find(|(name, _)| *name == Constant::VelocityLimit);
         let limit = limit.map_or(VELOCITY_RANGE, |(_, limit)| *limit);
         let reason = if limit < VELOCITY_RANGE {
             "which may go half round the box in one step"

@@ -1,7 +1,8 @@
 //! How cells lie in buffers, as `shaders/voronoi/cell.wgsl` declares them.
 
 use crate::plan::{Length, Misfit, Places, StateLayout, content};
-use crate::state::{Array, State};
+use crate::shaders::Array;
+use crate::state::{State, StateArray};
 
 /// Words of a cell.
 const CELL: usize = 8;
@@ -14,8 +15,8 @@ pub struct CellLayout {
 }
 
 impl StateLayout for CellLayout {
-    fn buffers(&self) -> Vec<&'static str> {
-        vec!["particles"]
+    fn buffers(&self) -> Vec<Array> {
+        vec![Array::Particles]
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -57,8 +58,8 @@ impl StateLayout for CellLayout {
         Ok(state)
     }
 
-    fn arrays(&self, count: usize) -> Vec<(Array, Length)> {
+    fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
         let energies = if self.energies { count } else { 0 };
-        vec![(Array::Masses, Length::Exactly(count)), (Array::Energies, Length::Exactly(energies))]
+        vec![(StateArray::Masses, Length::Exactly(count)), (StateArray::Energies, Length::Exactly(energies))]
     }
 }

@@ -2,6 +2,7 @@
 
 use super::plan::SOLVER;
 use crate::families::{Counted, Model, Observables, Tally, Voronoi};
+use crate::shaders::Array;
 
 /// Words of `iterations` and `residual` in the struct `Solver` of `shaders/voronoi/friction.wgsl`.
 const ITERATIONS: usize = 2;
@@ -19,7 +20,7 @@ impl Tally for Voronoi {
         3
     }
 
-    fn array(&self, model: &Model) -> Option<&'static str> {
+    fn array(&self, model: &Model) -> Option<Array> {
         self.solves(model).then_some(SOLVER)
     }
 

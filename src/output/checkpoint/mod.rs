@@ -24,7 +24,7 @@ mod read;
 
 use super::{Extent, Id, OutputError, write_atomically};
 use crate::scene::{Scene, SceneError};
-use crate::state::{Array, State};
+use crate::state::{State, StateArray};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -145,7 +145,7 @@ pub fn save(
 ) -> Result<(), OutputError> {
     let scene = serde_json::to_vec(scene).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
     let sections_length: u64 = sections.iter().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
-    let mut arrays = Array::ALL.map(|array| (array.name(), state.words(array))).to_vec();
+    let mut arrays = StateArray::ALL.map(|array| (array.name(), state.words(array))).to_vec();
     arrays.retain(|(_, words)| !words.is_empty());
     let run_id = run_id.to_string();
     let length = 8

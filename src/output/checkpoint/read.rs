@@ -4,7 +4,7 @@ use super::{CHECKSUM, Checkpoint, CheckpointError, Fnv, HEADER, MAGIC, VERSION};
 use crate::families::Model;
 use crate::output::{Extent, Id, OutputError};
 use crate::scene::{self, Scene};
-use crate::state::{Array, State};
+use crate::state::{State, StateArray};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
@@ -153,7 +153,7 @@ impl Payload<'_> {
             if known.contains(&name) {
                 return Err(self.malformed(format!("it holds `{}` twice", name.escape_debug())));
             }
-            let array = Array::ALL.into_iter().find(|array| array.name() == name);
+            let array = StateArray::ALL.into_iter().find(|array| array.name() == name);
             let array =
                 array.ok_or_else(|| self.malformed(format!("it holds an unknown array `{}`", name.escape_debug())))?;
             state.set_words(array, &words).map_err(|problem| self.malformed(problem))?;

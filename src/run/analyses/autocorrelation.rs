@@ -13,7 +13,7 @@ use crate::plan::{Need, Plan, Window};
 use crate::plot::{Chart, autocorrelation_chart};
 use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output, Scene};
 use crate::shaders::analyses::Sampled;
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -49,21 +49,21 @@ impl Descriptor for Autocorrelation {
         let (choices, before, [origins, sums, samples]) = match self.0 {
             CorrelatedQuantity::Velocity => {
                 let (velocities, before) = planner.velocities(asked.frame);
-                (velocities, before, ["velocity_origins", "velocity_products", "velocity_product_samples"])
+                (velocities, before, [Array::VelocityOrigins, Array::VelocityProducts, Array::VelocityProductSamples])
             }
             CorrelatedQuantity::Force => {
-                let names = ["force_origins", "force_products", "force_product_samples"];
+                let names = [Array::ForceOrigins, Array::ForceProducts, Array::ForceProductSamples];
                 (Choices::new().with(Sampled::Force), Vec::new(), names)
             }
         };
         let bytes = 16 * planner.plan.particles;
-        planner.plan.add_buffer(origins, "each particle's vector when the window began", bytes);
+        planner.plan.add_buffer(origins, bytes);
         planner.add_sums(&SumSampler {
             id: AnalysisId::Autocorrelation(self.0),
             entry: Entry::CorrelateVectors,
             choices,
-            constants: vec![("WINDOW", asked.window as f64), ("PRODUCT", unit * unit / quantum)],
-            renamed: vec![("origins", origins)],
+            constants: vec![(Constant::Window, asked.window as f64), (Constant::Product, unit * unit / quantum)],
+            renamed: vec![(Array::Origins, origins)],
             before,
             sums,
             samples,

@@ -10,7 +10,7 @@ use crate::measure::statistics::estimate;
 use crate::plan::{Need, Words};
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
 use crate::scene::{AnalysisId, Scene};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 
@@ -33,8 +33,9 @@ impl Descriptor for ChainSizes {
         let Some(asked) = &planner.output.chain_sizes else { return };
         let groups = planner.model.chain_groups();
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
-        planner.plan.add_long_table("chain_starts", "where each chain begins", ChainTable(groups.to_vec()));
-        let constants = vec![("CHAINS", chains as f64), ("CHAIN_LENGTH", 1.0 / planner.plan.quanta.length_squared)];
+        planner.plan.add_long_table(Array::ChainStarts, ChainTable(groups.to_vec()));
+        let constants =
+            vec![(Constant::Chains, chains as f64), (Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared)];
         planner.add_sums(&SumSampler {
             id: AnalysisId::ChainSizes,
             entry: Entry::MeasureChains,
@@ -42,8 +43,8 @@ impl Descriptor for ChainSizes {
             constants,
             renamed: Vec::new(),
             before: Vec::new(),
-            sums: "chain_sums",
-            samples: "chain_samples",
+            sums: Array::ChainSums,
+            samples: Array::ChainSamples,
             quantities: 2 * groups.len(),
             every: asked.every,
             window: None,

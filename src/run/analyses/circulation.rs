@@ -8,14 +8,14 @@ use crate::plan::recording::SAMPLE_ROWS;
 use crate::plan::{Kernel, Sampler, SamplerId};
 use crate::plot::{Chart, circulation_chart};
 use crate::scene::{AnalysisId, Scene};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Entry};
 use crate::state::Units;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
 /// The buffer of tracers at reports.
-const SAMPLES: &str = "tracer_samples";
+const SAMPLES: Array = Array::TracerSamples;
 
 /// Bytes of tracers kept on the device between two readbacks.
 const TRACER_BYTES: u64 = 1 << 24;
@@ -43,12 +43,13 @@ impl Descriptor for Circulation {
         }
         let plan = &mut *planner.plan;
         let record = plan.add_kernel(
-            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1).renamed(vec![("samples", SAMPLES)]),
+            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1)
+                .renamed(vec![(Array::Samples, SAMPLES)]),
         );
         let row = 8 * (1 + 2 * tracers);
         // Two rows at the least: one is taken, and room is left for the next.
         let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
-        plan.add_buffer(SAMPLES, "tracers at reports, waiting to be read", 8 + capacity * row);
+        plan.add_buffer(SAMPLES, 8 + capacity * row);
         plan.samplers.push(Sampler {
             id: SamplerId::Analysis(AnalysisId::Circulation),
             first: 0,

@@ -11,12 +11,12 @@ use crate::measure::diffusion::{diffusion_from_displacement, diffusion_from_velo
 use crate::plan::{Need, Window};
 use crate::plot::{Chart, diffusion_chart};
 use crate::scene::{self, AnalysisId, Scene};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 
 /// The buffer of what is known of each particle.
-const TRACKERS: &str = "trackers";
+const TRACKERS: Array = Array::Trackers;
 
 /// Names of the coefficients in the result.
 const EINSTEIN: &str = "diffusion_einstein";
@@ -39,11 +39,11 @@ impl Descriptor for Diffusion {
         let Some(asked) = &planner.output.diffusion else { return };
         let unit = planner.model.units.momentum;
         let plan = &mut *planner.plan;
-        plan.add_buffer(TRACKERS, "each particle's way since the window began", 64 * plan.particles);
+        plan.add_buffer(TRACKERS, 64 * plan.particles);
         let constants = vec![
-            ("WINDOW", asked.window as f64),
-            ("DISPLACEMENT", 1.0 / plan.quanta.length_squared),
-            ("VELOCITY", unit * unit / plan.quanta.velocity_squared),
+            (Constant::Window, asked.window as f64),
+            (Constant::Displacement, 1.0 / plan.quanta.length_squared),
+            (Constant::Velocity, unit * unit / plan.quanta.velocity_squared),
         ];
         planner.add_sums(&SumSampler {
             id: AnalysisId::Diffusion,
@@ -52,8 +52,8 @@ impl Descriptor for Diffusion {
             constants,
             renamed: Vec::new(),
             before: Vec::new(),
-            sums: "diffusion_sums",
-            samples: "diffusion_samples",
+            sums: Array::DiffusionSums,
+            samples: Array::DiffusionSamples,
             quantities: 2,
             every: asked.every,
             window: Some(Window { buffer: TRACKERS, samples: asked.window.max(1) }),

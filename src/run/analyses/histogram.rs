@@ -13,7 +13,7 @@ use crate::plan::{Need, Sampler, SamplerId};
 use crate::plot::{Chart, histogram_chart};
 use crate::scene::{self, AnalysisId, CountedQuantity, Output, Scene};
 use crate::shaders::analyses::{Counted, Sampled};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -59,33 +59,39 @@ impl Descriptor for Histogram {
             CountedQuantity::Velocity | CountedQuantity::Speed => {
                 let (velocities, before) = planner.velocities(asked.frame);
                 let [counts, samples] = if self.0 == CountedQuantity::Velocity {
-                    ["velocity_counts", "velocity_count_samples"]
+                    [Array::VelocityCounts, Array::VelocityCountSamples]
                 } else {
-                    ["speed_counts", "speed_count_samples"]
+                    [Array::SpeedCounts, Array::SpeedCountSamples]
                 };
                 (counts, samples, planner.model.units.momentum, velocities, before)
             }
             CountedQuantity::Acceleration => {
                 let choices = Choices::new().with(Sampled::Acceleration);
-                ("acceleration_counts", "acceleration_count_samples", planner.plan.force_unit, choices, Vec::new())
+                (
+                    Array::AccelerationCounts,
+                    Array::AccelerationCountSamples,
+                    planner.plan.force_unit,
+                    choices,
+                    Vec::new(),
+                )
             }
         };
         let groups = planner.groups().min(GROUPS);
         let (constants, counted) = counting(asked, planner, unit, groups);
         let choices = choices.with(counted);
         let id = AnalysisId::Histogram(self.0);
-        let renamed = [("histogram", counts)];
+        let renamed = [(Array::Histogram, counts)];
         let kernel = planner.kernel_of_particles(id.name(), Entry::CountHistogram, &choices, groups, &renamed);
         let Some(kernel) = kernel else { return };
         let plan = &mut *planner.plan;
         let count = plan.add_kernel(kernel.with(constants));
         let entries = u64::from(asked.bins) + (EXTRA + MOMENTS) as u64;
-        let record = record_histogram(entries).renamed(vec![("histogram", counts), ("samples", samples)]);
+        let record = record_histogram(entries).renamed(vec![(Array::Histogram, counts), (Array::Samples, samples)]);
         let record = plan.add_kernel(record);
         // About a mebibyte.
         let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
-        plan.add_buffer(counts, "counts of each bin and sums of powers", 8 * entries);
-        plan.add_buffer(samples, "histograms waiting to be read", 8 * (1 + capacity * (1 + entries)));
+        plan.add_buffer(counts, 8 * entries);
+        plan.add_buffer(samples, 8 * (1 + capacity * (1 + entries)));
         plan.samplers.push(Sampler {
             id: SamplerId::Analysis(id),
             first: planner.equilibration,
@@ -114,19 +120,19 @@ fn counting(
     planner: &Planner<'_>,
     unit: f64,
     groups: u64,
-) -> (Vec<(&'static str, f64)>, Counted) {
+) -> (Vec<(Constant, f64)>, Counted) {
     let magnitude = asked.quantity == CountedQuantity::Speed;
     let range = range(planner.model, asked);
     let bins = f64::from(asked.bins);
     let mut constants = vec![
-        ("BINS", bins),
-        ("COUNTS", bins + EXTRA as f64),
+        (Constant::Bins, bins),
+        (Constant::Counts, bins + EXTRA as f64),
         // From minus to plus the range there are twice as many half bins as from zero.
-        ("HALF_BINS", if magnitude { 2.0 } else { 1.0 } * bins * unit / range),
-        ("HALF_BELOW", if magnitude { 0.0 } else { bins }),
-        ("FRACTION", unit / range),
-        ("MOMENT", 1.0 / moment_quantum(planner.plan.particles)),
-        ("GROUPS", groups as f64),
+        (Constant::HalfBins, if magnitude { 2.0 } else { 1.0 } * bins * unit / range),
+        (Constant::HalfBelow, if magnitude { 0.0 } else { bins }),
+        (Constant::Fraction, unit / range),
+        (Constant::Moment, 1.0 / moment_quantum(planner.plan.particles)),
+        (Constant::Groups, groups as f64),
     ];
     if magnitude {
         return (constants, Counted::Magnitude);
@@ -135,7 +141,7 @@ fn counting(
         Some(axis) => [axis as usize, axis as usize + 1],
         None => [0, planner.model.units.dimension],
     };
-    constants.extend([("FIRST_AXIS", axes[0] as f64), ("END_AXIS", axes[1] as f64)]);
+    constants.extend([(Constant::FirstAxis, axes[0] as f64), (Constant::EndAxis, axes[1] as f64)]);
     (constants, Counted::Components)
 }
 

@@ -384,7 +384,7 @@ impl Analyses {
     pub(super) fn continue_windows(&self, engine: &mut Engine<'_>, sections: &Sections<'_>) -> Result<(), RunError> {
         for Sampled { id, sampler, .. } in &self.sampled {
             let Some((buffer, taken)) = engine.plan().samplers[*sampler].open_window(sections.step) else { continue };
-            let planned = engine.plan().buffers.iter().find(|planned| planned.name == buffer);
+            let planned = engine.plan().buffers.iter().find(|planned| planned.array == buffer);
             let words = planned.map_or(0, |planned| planned.bytes / 4);
             if let Some(words) = sections.words(&window_name(*id), words)? {
                 engine.continue_window(*sampler, taken, &words)?;

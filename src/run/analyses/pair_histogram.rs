@@ -4,8 +4,8 @@ use crate::plan::recording::record_histogram;
 use crate::plan::serial_memory::TURNS;
 use crate::plan::{Grid, Kernel, Options, Ordered, Plan, Sampler, SamplerId};
 use crate::scene::{AnalysisId, RadialDistribution};
-use crate::shaders::Entry;
 use crate::shaders::core::Dispatches;
+use crate::shaders::{Array, Constant, Entry};
 use crate::state::Units;
 
 /// Histograms kept on the device between two readbacks.
@@ -44,37 +44,37 @@ impl PairHistogram<'_> {
         let choices = ordered.choices.clone().with_if(dispatches > 1, Dispatches::InTurn);
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
-            ("BINS", bins as f64),
-            ("HISTOGRAM_RANGE", self.asked.range),
-            ("SPAN_X", spans[0] as f64),
-            ("SPAN_Y", spans[1] as f64),
-            ("SPAN_Z", spans[2] as f64),
-            ("SEGMENTS", segments as f64),
-            ("PARTS", parts as f64),
+            (Constant::Bins, bins as f64),
+            (Constant::HistogramRange, self.asked.range),
+            (Constant::SpanX, spans[0] as f64),
+            (Constant::SpanY, spans[1] as f64),
+            (Constant::SpanZ, spans[2] as f64),
+            (Constant::Segments, segments as f64),
+            (Constant::Parts, parts as f64),
         ];
         if dispatches > 1 {
-            constants.push(("SHARES", shares as f64));
+            constants.push((Constant::Shares, shares as f64));
         }
         let kernel =
             Kernel::new("pair_histogram", Entry::CountPairsByDistance, choices.clone(), shares).with(constants);
         let count = plan.add_kernel(Kernel { takes_long, ..kernel });
         if dispatches > 1 {
             let next = Kernel::new("next_dispatch", Entry::NextDispatch, choices, 1);
-            let next = plan.add_kernel(next.with(vec![("DISPATCHES", dispatches as f64)]));
+            let next = plan.add_kernel(next.with(vec![(Constant::Dispatches, dispatches as f64)]));
             kernels.extend([count, next].repeat(dispatches as usize));
-            plan.add_buffer("dispatches_done", "dispatches of a histogram that have run", 4);
+            plan.add_buffer(Array::DispatchesDone, 4);
         } else {
             kernels.push(count);
         }
-        kernels.push(plan.add_kernel(record_histogram(bins).renamed(vec![("samples", "histogram_samples")])));
-        plan.add_buffer("histogram", "pairs by distance", 8 * bins);
-        plan.add_buffer("histogram_samples", "histograms waiting to be read", 8 * (1 + CAPACITY * (1 + bins)));
+        kernels.push(plan.add_kernel(record_histogram(bins).renamed(vec![(Array::Samples, Array::HistogramSamples)])));
+        plan.add_buffer(Array::Histogram, 8 * bins);
+        plan.add_buffer(Array::HistogramSamples, 8 * (1 + CAPACITY * (1 + bins)));
         plan.samplers.push(Sampler {
             id: SamplerId::Analysis(AnalysisId::RadialDistribution),
             first,
             every: self.asked.every,
             kernels,
-            samples: "histogram_samples",
+            samples: Array::HistogramSamples,
             quantities: self.asked.bins as usize,
             capacity: CAPACITY,
             needs_report: ordered.needs_report,

@@ -5,7 +5,7 @@ use crate::plan::recording::{SAMPLE_ROWS, record_sums};
 use crate::plan::{Kernel, Options, Ordered, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
 use crate::scene::{AnalysisId, Frame, Output};
 use crate::shaders::analyses::{Frame as CentreFrame, Sampled};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// A plan of the physics that samplers are added to.
 pub(in crate::run) struct Planner<'a> {
@@ -36,15 +36,15 @@ pub(super) struct SumSampler {
     /// Its variants, beside those that find the particles.
     pub choices: Choices,
     /// Its constants.
-    pub constants: Vec<(&'static str, f64)>,
+    pub constants: Vec<(Constant, f64)>,
     /// Its variables whose buffers have other names.
-    pub renamed: Vec<(&'static str, &'static str)>,
+    pub renamed: Vec<(Array, Array)>,
     /// Kernels that run before it.
     pub before: Vec<usize>,
     /// The buffer of the sums of workgroups.
-    pub sums: &'static str,
+    pub sums: Array,
     /// The buffer of rows that wait to be read.
-    pub samples: &'static str,
+    pub samples: Array,
     /// Number of sums in a row.
     pub quantities: usize,
     /// Steps between two samples.
@@ -79,11 +79,11 @@ impl<'a> Planner<'a> {
         entry: Entry,
         choices: &Choices,
         groups: u64,
-        renamed: &[(&'static str, &'static str)],
+        renamed: &[(Array, Array)],
     ) -> Option<Kernel> {
         let reported = self.reported?;
-        let here = [("particles", reported.particles), ("reported_forces", reported.forces)];
-        let momenta = reported.momenta.map(|buffer| ("reported_momenta", buffer));
+        let here = [(Array::Particles, reported.particles), (Array::ReportedForces, reported.forces)];
+        let momenta = reported.momenta.map(|buffer| (Array::ReportedMomenta, buffer));
         let all = here.into_iter().chain(momenta).chain(renamed.iter().copied());
         let renamed = all.filter(|(variable, buffer)| variable != buffer).collect();
         Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
@@ -92,17 +92,17 @@ impl<'a> Planner<'a> {
     /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
     pub(super) fn add_sums(&mut self, sampler: &SumSampler) {
         let groups = self.groups();
-        let rows = vec![("partial_sums", sampler.sums), ("samples", sampler.samples)];
+        let rows = vec![(Array::PartialSums, sampler.sums), (Array::Samples, sampler.samples)];
         let renamed = [&rows[..], &sampler.renamed].concat();
         let kernel = self.kernel_of_particles(sampler.id.name(), sampler.entry, &sampler.choices, groups, &renamed);
         let Some(kernel) = kernel else { return };
-        let constants = [&sampler.constants[..], &[("QUANTITIES", sampler.quantities as f64)]].concat();
+        let constants = [&sampler.constants[..], &[(Constant::Quantities, sampler.quantities as f64)]].concat();
         let sums = self.plan.add_kernel(kernel.with(constants));
         let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
         let record = self.plan.add_kernel(recorded.renamed(rows));
-        self.plan.add_buffer(sampler.sums, "sums of each workgroup", 8 * sampler.quantities as u64 * groups);
+        self.plan.add_buffer(sampler.sums, 8 * sampler.quantities as u64 * groups);
         let row = 8 * (1 + sampler.quantities as u64);
-        self.plan.add_buffer(sampler.samples, "rows of sums waiting to be read", 8 + SAMPLE_ROWS * row);
+        self.plan.add_buffer(sampler.samples, 8 + SAMPLE_ROWS * row);
         self.plan.samplers.push(Sampler {
             id: SamplerId::Analysis(sampler.id),
             first: self.equilibration,
@@ -132,22 +132,22 @@ impl<'a> Planner<'a> {
     /// Adds the kernels that find the velocity of the centre of mass.
     fn find_centre(&mut self) -> Vec<usize> {
         let groups = self.groups();
-        let sums = [("partial_sums", "momentum_sums")];
+        let sums = [(Array::PartialSums, Array::MomentumSums)];
         let kernel = self.kernel_of_particles("sum_momenta", Entry::SumMomenta, &Choices::new(), groups, &sums);
         let Some(kernel) = kernel else { return Vec::new() };
-        let sum = self.plan.add_kernel(kernel.with(vec![("QUANTITIES", 3.0)]));
+        let sum = self.plan.add_kernel(kernel.with(vec![(Constant::Quantities, 3.0)]));
         let species = self.model.species.iter();
         let mass: f64 = species.map(|species| species.mass * species.count as f64).sum();
         let find = self.plan.add_kernel(
             Kernel::new("find_centre", Entry::FindCentre, Choices::new(), 1)
                 .with(vec![
-                    ("GROUPS", groups as f64),
-                    ("INVERSE_TOTAL_MASS", if mass > 0.0 { 1.0 / mass } else { 0.0 }),
+                    (Constant::Groups, groups as f64),
+                    (Constant::InverseTotalMass, if mass > 0.0 { 1.0 / mass } else { 0.0 }),
                 ])
                 .renamed(sums.to_vec()),
         );
-        self.plan.add_buffer("momentum_sums", "sums of each workgroup", 24 * groups);
-        self.plan.add_buffer("centre", "velocity of the centre of mass", 16);
+        self.plan.add_buffer(Array::MomentumSums, 24 * groups);
+        self.plan.add_buffer(Array::Centre, 16);
         vec![sum, find]
     }
 }

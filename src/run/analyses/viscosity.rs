@@ -10,7 +10,7 @@ use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscos
 use crate::plan::Need;
 use crate::plot::{Chart, Found, viscosity_chart};
 use crate::scene::{self, AnalysisId, Scene};
-use crate::shaders::{Choices, Entry};
+use crate::shaders::{Array, Choices, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -42,8 +42,8 @@ impl Descriptor for Viscosity {
             constants: Vec::new(),
             renamed: Vec::new(),
             before: Vec::new(),
-            sums: "mode_sums",
-            samples: "mode_samples",
+            sums: Array::ModeSums,
+            samples: Array::ModeSamples,
             quantities: 2 * dimension * (dimension - 1),
             every: asked.every,
             window: None,

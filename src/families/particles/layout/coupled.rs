@@ -2,7 +2,8 @@
 
 use super::{ListLayout, ParticleLayout, WORDS};
 use crate::plan::{Length, Misfit, StateLayout, content};
-use crate::state::{Array, Hold, State};
+use crate::shaders::Array;
+use crate::state::{Hold, State, StateArray};
 
 /// Pairs of a particle, on average, in a list of such a capacity: the capacity is half as many again and twelve.
 fn pairs_in_list(capacity: usize) -> usize {
@@ -35,18 +36,18 @@ impl CoupledLayout {
 }
 
 impl StateLayout for CoupledLayout {
-    fn buffers(&self) -> Vec<&'static str> {
+    fn buffers(&self) -> Vec<Array> {
         let optional = [
-            ("anchors", self.list.is_some()),
-            ("neighbours", self.list.is_some()),
-            ("memories", self.pairs_remember()),
-            ("position_baths", self.position_baths),
-            ("bond_baths", self.bond_baths > 0),
-            ("holds", self.holds),
-            ("tethers", self.tethers),
+            (Array::Anchors, self.list.is_some()),
+            (Array::Neighbours, self.list.is_some()),
+            (Array::Memories, self.pairs_remember()),
+            (Array::PositionBaths, self.position_baths),
+            (Array::BondBaths, self.bond_baths > 0),
+            (Array::Holds, self.holds),
+            (Array::Tethers, self.tethers),
         ];
         let asked = optional.into_iter().filter(|(_, asked)| *asked).map(|(name, _)| name);
-        std::iter::once("particles").chain(asked).collect()
+        std::iter::once(Array::Particles).chain(asked).collect()
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -108,18 +109,18 @@ impl StateLayout for CoupledLayout {
         Ok(state)
     }
 
-    fn arrays(&self, count: usize) -> Vec<(Array, Length)> {
+    fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
         let all_if = |asked: bool| if asked { count } else { 0 };
         let mut arrays = self.particles.arrays(count);
-        arrays.push((Array::Anchors, Length::AfterFirstStep(all_if(self.pairs_remember()))));
+        arrays.push((StateArray::Anchors, Length::AfterFirstStep(all_if(self.pairs_remember()))));
         if let Some(list) = self.list.filter(|list| list.memory) {
-            arrays.push((Array::PairBaths, Length::About(count.saturating_mul(pairs_in_list(list.capacity)))));
+            arrays.push((StateArray::PairBaths, Length::About(count.saturating_mul(pairs_in_list(list.capacity)))));
         }
         arrays.extend([
-            (Array::PositionBaths, Length::Exactly(all_if(self.position_baths))),
-            (Array::BondBaths, Length::Exactly(self.bond_baths)),
-            (Array::Holds, Length::Exactly(all_if(self.holds))),
-            (Array::Tethers, Length::Exactly(all_if(self.tethers))),
+            (StateArray::PositionBaths, Length::Exactly(all_if(self.position_baths))),
+            (StateArray::BondBaths, Length::Exactly(self.bond_baths)),
+            (StateArray::Holds, Length::Exactly(all_if(self.holds))),
+            (StateArray::Tethers, Length::Exactly(all_if(self.tethers))),
         ]);
         arrays
     }

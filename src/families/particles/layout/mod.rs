@@ -8,7 +8,8 @@ pub use list::ListLayout;
 
 use crate::plan::{Length, Misfit, Places, StateLayout, content};
 use crate::prediction;
-use crate::state::{Array, State};
+use crate::shaders::Array;
+use crate::state::{State, StateArray};
 
 /// Bytes of a particle.
 pub(super) const PARTICLE: u64 = 32;
@@ -27,8 +28,8 @@ pub struct ParticleLayout {
 }
 
 impl StateLayout for ParticleLayout {
-    fn buffers(&self) -> Vec<&'static str> {
-        vec!["particles"]
+    fn buffers(&self) -> Vec<Array> {
+        vec![Array::Particles]
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -74,7 +75,7 @@ impl StateLayout for ParticleLayout {
         Ok(state)
     }
 
-    fn arrays(&self, count: usize) -> Vec<(Array, Length)> {
-        vec![(Array::Predicted, Length::AfterFirstStep(if self.predicted { count } else { 0 }))]
+    fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
+        vec![(StateArray::Predicted, Length::AfterFirstStep(if self.predicted { count } else { 0 }))]
     }
 }

@@ -12,7 +12,7 @@ use crate::document::Integrator;
 use crate::families::particles::ParticleLayout;
 use crate::families::{Model, PairForce};
 use crate::noise;
-use crate::shaders::{Choices, Entry, arrays, core, grid, pairs, space};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, grid, pairs, space};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
@@ -153,44 +153,48 @@ impl Builder<'_> {
         let capacity = self.frame_capacity();
         let mut constants = Vec::new();
         constants.extend([
-            ("UNIT_X", unit(0)),
-            ("UNIT_Y", unit(1)),
-            ("UNIT_Z", unit(2)),
-            ("CELLS_X", f64::from(self.grid.cells[0])),
-            ("CELLS_Y", f64::from(self.grid.cells[1])),
-            ("CELLS_Z", f64::from(self.grid.cells[2])),
-            ("CELLS", self.grid.count() as f64),
-            ("WINDOW_X", f64::from(self.grid.windows[0])),
-            ("WINDOW_Y", f64::from(self.grid.windows[1])),
-            ("WINDOW_Z", f64::from(self.grid.windows[2])),
-            ("PROBE_Y", self.grid.ratios[1]),
-            ("PROBE_Z", self.grid.ratios[2]),
-            ("PROBE_REACH", self.grid.reach_squared),
-            ("PARTICLES", self.particles as f64),
-            ("WORKGROUP", self.workgroup_size() as f64),
-            ("CAPACITY", (self.particles + capacity) as f64),
-            ("CUTOFF", cutoff),
-            ("WEIGHT_ROOT_EXPONENT", 0.5 * exponent),
-            ("SPECIES", self.model.species.len() as f64),
-            ("DISPLACEMENT_LIMIT", cutoff),
-            ("PAIR_ENERGY", to_force * cutoff / (4.0 * pair_energy)),
-            ("PAIR_VIRIAL", to_force / (2.0 * pair_energy)),
-            ("GRADIENT", to_force * to_force / force_squared),
-            ("LAPLACIAN", to_force / curvature),
+            (Constant::UnitX, unit(0)),
+            (Constant::UnitY, unit(1)),
+            (Constant::UnitZ, unit(2)),
+            (Constant::CellsX, f64::from(self.grid.cells[0])),
+            (Constant::CellsY, f64::from(self.grid.cells[1])),
+            (Constant::CellsZ, f64::from(self.grid.cells[2])),
+            (Constant::Cells, self.grid.count() as f64),
+            (Constant::WindowX, f64::from(self.grid.windows[0])),
+            (Constant::WindowY, f64::from(self.grid.windows[1])),
+            (Constant::WindowZ, f64::from(self.grid.windows[2])),
+            (Constant::ProbeY, self.grid.ratios[1]),
+            (Constant::ProbeZ, self.grid.ratios[2]),
+            (Constant::ProbeReach, self.grid.reach_squared),
+            (Constant::Particles, self.particles as f64),
+            (Constant::Workgroup, self.workgroup_size() as f64),
+            (Constant::Capacity, (self.particles + capacity) as f64),
+            (Constant::Cutoff, cutoff),
+            (Constant::WeightRootExponent, 0.5 * exponent),
+            (Constant::Species, self.model.species.len() as f64),
+            (Constant::DisplacementLimit, cutoff),
+            (Constant::PairEnergy, to_force * cutoff / (4.0 * pair_energy)),
+            (Constant::PairVirial, to_force / (2.0 * pair_energy)),
+            (Constant::Gradient, to_force * to_force / force_squared),
+            (Constant::Laplacian, to_force / curvature),
         ]);
         if let Integrator::GrootWarren { lambda } = self.model.integrator {
-            constants.push(("PREDICTION", 2.0 * lambda - 1.0));
+            constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
         let mass = self.species.mass();
         constants.extend([
-            ("DRIFT", self.model.time_step * units.momentum / mass),
-            ("KINETIC", units.momentum * units.momentum / (2.0 * mass * energy)),
-            ("INVERSE_MASS", 1.0 / mass),
-            ("FRICTION_PER_LENGTH", mass / (self.model.time_step * units.momentum)),
+            (Constant::Drift, self.model.time_step * units.momentum / mass),
+            (Constant::Kinetic, units.momentum * units.momentum / (2.0 * mass * energy)),
+            (Constant::InverseMass, 1.0 / mass),
+            (Constant::FrictionPerLength, mass / (self.model.time_step * units.momentum)),
         ]);
         if !self.species.have_table() {
             let [repulsion, friction, noise] = self.impulses(0, 0);
-            constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
+            constants.extend([
+                (Constant::Repulsion, repulsion),
+                (Constant::Friction, friction),
+                (Constant::Noise, noise),
+            ]);
         }
         self.plan.constants = constants;
     }
@@ -224,6 +228,7 @@ impl Builder<'_> {
             .and(&self.species.choices())
             .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
+            .with_if(self.texels, grid::Sorted::Apart)
     }
 
     fn ordering(&mut self) {
@@ -315,12 +320,12 @@ impl Builder<'_> {
         let turns = (self.particles / lanes * 3_u64.pow(self.grid.dimension as u32)).saturating_mul(crowd);
         let least = turns.div_ceil(TURNS);
         let segments = if segments > 0 { segments } else { rounds.min((enough.max(least) / rows).max(1)) };
-        let mut constants = vec![("SEGMENTS", segments as f64)];
+        let mut constants = vec![(Constant::Segments, segments as f64)];
         let mut groups = rows * segments;
         if clusters {
             let wanted = (self.particles / 256).clamp(32, 1024).max(least);
             groups = groups.min(wanted.next_multiple_of(32));
-            constants.push(("SHARES", groups as f64));
+            constants.push((Constant::Shares, groups as f64));
         }
         self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
     }
@@ -341,7 +346,7 @@ impl Builder<'_> {
     fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
-        self.plan.kernels[kernel].constants.push(("QUANTITIES", OBSERVABLES as f64));
+        self.plan.kernels[kernel].constants.push((Constant::Quantities, OBSERVABLES as f64));
         kernel
     }
 
@@ -361,18 +366,18 @@ impl Builder<'_> {
     fn split_step(&mut self, kept: &Choices) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
-        self.plan.kernels[find].renamed.push(("kept_masks", "particles"));
+        self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax);
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
-        self.plan.kernels[relax].constants.push(("HALVES", 2.0));
+        self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
         let to_the_report = with(pairs::Pass::Relax);
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
-        self.plan.kernels[relax_to_report].constants.push(("HALVES", 1.0));
+        self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
         let motion = self.observation("report_motion", kept.clone().with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
         let rest = self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles);
-        for kernel in [find, motion, configuration, rest] {
-            self.plan.kernels[kernel].constants.push(("HALVES", 1.0));
+        for kernel in [find, motion, configuration] {
+            self.plan.kernels[kernel].constants.push((Constant::Halves, 1.0));
         }
         let again = self.sorting(&self.choices().with(core::Step::Same));
         self.plan.before_report = vec![find];
@@ -409,10 +414,10 @@ impl Builder<'_> {
     fn reported(&self) -> Reported {
         Reported {
             choices: space_of(&self.model.units, self.predicted()).and(&self.species.choices()),
-            particles: "particles",
+            particles: Array::Particles,
             // The particles of a split step's report are half a drift later, and have been kicked for it.
-            momenta: self.splits().then_some("reported_momenta"),
-            forces: "reported_forces",
+            momenta: self.splits().then_some(Array::ReportedMomenta),
+            forces: Array::ReportedForces,
         }
     }
 
@@ -427,7 +432,7 @@ impl Builder<'_> {
         if !self.measured.needs(Need::Momenta) {
             return None;
         }
-        self.plan.add_buffer("reported_momenta", "momenta where the temperature is measured", 16 * self.particles);
+        self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
         Some(pairs::ReportedMomentum::Kept)
     }
 
@@ -439,7 +444,7 @@ impl Builder<'_> {
         // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
         let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
         self.plan.force_unit = self.model.units.momentum / time;
-        self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
+        self.plan.add_buffer(Array::ReportedForces, 16 * self.particles);
         Some(pairs::ReportedForce::Kept)
     }
 
@@ -448,28 +453,23 @@ impl Builder<'_> {
         let cells = self.grid.count();
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let copies = self.frame_capacity();
-        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
-        let purpose = if self.splits() {
-            "particles in the order they were advanced; within a step, which pairs the first pass has found"
-        } else {
-            "particles in the order they were advanced"
-        };
-        self.plan.add_buffer("particles", purpose, PARTICLE * self.particles);
+        self.plan.add_buffer(Array::Control, 64);
+        self.plan.add_buffer(Array::Particles, PARTICLE * self.particles);
         if self.texels {
             let count = self.particles + copies;
-            self.plan.add_texture("sorted_positions", "positions in order of cells", 4, count);
-            self.plan.add_texture("sorted_momenta", "momenta in order of cells", 4, count);
+            self.plan.add_texture(Array::SortedPositions, count);
+            self.plan.add_texture(Array::SortedMomenta, count);
         } else {
             let count = self.particles + copies;
-            self.plan.add_buffer("sorted", "particles in order of cells", PARTICLE * count);
-            self.plan.add_buffer("probes", "one word a sorted particle for the prefilter", 4 * count);
+            self.plan.add_buffer(Array::Sorted, PARTICLE * count);
+            self.plan.add_buffer(Array::Probes, 4 * count);
         }
-        self.plan.add_buffer("cells", "where each cell begins", 4 * (rows * width + 1 + rows));
-        self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
-        self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * self.particles);
+        self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
+        self.plan.add_buffer(Array::Counts, 4 * cells);
+        self.plan.add_buffer(Array::Ranks, 4 * self.particles);
         self.plan.add_row_sums(rows, cells, self.options);
         if self.scans_at_end {
-            self.plan.add_buffer("workgroups_done", "workgroups that have ended the step", 4);
+            self.plan.add_buffer(Array::WorkgroupsDone, 4);
         }
         if self.species.have_table() {
             let count = self.model.species.len();
@@ -481,7 +481,7 @@ impl Builder<'_> {
                 }
             }
             let bytes = bytemuck::cast_slice(&table).to_vec();
-            self.plan.add_table("coefficients", "coefficients of each pair of species", bytes);
+            self.plan.add_table(Array::Coefficients, bytes);
         }
     }
 

@@ -1,9 +1,9 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
+use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow, whole_fractions};
 use crate::prediction;
-use crate::scene::Integrator;
 use crate::state::State;
 
 /// Takes a state from its report point, where momenta are p(n), to the next step. A step may drift in two equal halves, between

@@ -1,8 +1,8 @@
 //! Potentials of a distance: energy, force, virial and curvature of pairs and bonds, for steps and for what is observed alike.
 
 use super::pairs::Pair;
+use crate::document::BondPotential;
 use crate::families::PairForce;
-use crate::scene::BondPotential;
 
 /// V, V' and V'' at a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

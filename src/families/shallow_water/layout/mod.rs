@@ -5,7 +5,8 @@ mod bins;
 pub use bins::Bins;
 
 use crate::plan::{Length, Misfit, Places, StateLayout, content};
-use crate::state::{Array, State};
+use crate::shaders::Array;
+use crate::state::{State, StateArray};
 
 /// Units of the heaviest particle: single precision has to round them to integers.
 pub(super) const LARGEST_MASS: f64 = 8_388_607.0;
@@ -31,18 +32,18 @@ pub struct WaterLayout {
 }
 
 impl StateLayout for WaterLayout {
-    fn buffers(&self) -> Vec<&'static str> {
+    fn buffers(&self) -> Vec<Array> {
         let mut names = match (self.bins.is_some(), self.texels) {
-            (false, false) => vec!["particles"],
-            (false, true) => vec!["particles", "particle_masses"],
-            (true, false) => vec!["bins", "stayed", "arrived"],
-            (true, true) => vec!["bins", "bin_masses", "stayed", "arrived"],
+            (false, false) => vec![Array::Particles],
+            (false, true) => vec![Array::Particles, Array::ParticleMasses],
+            (true, false) => vec![Array::Bins, Array::Stayed, Array::Arrived],
+            (true, true) => vec![Array::Bins, Array::BinMasses, Array::Stayed, Array::Arrived],
         };
         if self.tracers > 0 {
-            names.push("tracers");
+            names.push(Array::Tracers);
         }
         if self.bath_nodes > 0 {
-            names.extend(["previous_masses", "node_bath"]);
+            names.extend([Array::PreviousMasses, Array::NodeBath]);
         }
         names
     }
@@ -125,11 +126,11 @@ impl StateLayout for WaterLayout {
         Ok(state)
     }
 
-    fn arrays(&self, count: usize) -> Vec<(Array, Length)> {
+    fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
         vec![
-            (Array::Masses, Length::Exactly(count)),
-            (Array::NodeMasses, Length::AfterFirstStep(self.bath_nodes)),
-            (Array::NodeBath, Length::Exactly(self.bath_nodes)),
+            (StateArray::Masses, Length::Exactly(count)),
+            (StateArray::NodeMasses, Length::AfterFirstStep(self.bath_nodes)),
+            (StateArray::NodeBath, Length::Exactly(self.bath_nodes)),
         ]
     }
 

@@ -7,9 +7,8 @@ use std::f64::consts::TAU;
 use super::{Buffer, Contents, Kernel, Options, Plan};
 use crate::document::{LaplacianSymbol, SmoothingSolver};
 use crate::families::{ShallowWater, chebyshev_iterations};
-use crate::plan::serial_memory::Candidate;
 use crate::shaders::smoothing::{Lines, Load, Radix, Source, Store, Twist};
-use crate::shaders::{Choices, Entry, arrays};
+use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
@@ -58,10 +57,10 @@ pub struct SmoothingPlan {
 #[must_use]
 pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> SmoothingPlan {
     let workgroup = options.workgroup();
-    let constants = [("MEAN_MASS", water.mean_mass() as f64), ("MASS_UNIT", water.mass_unit)];
+    let constants = [(Constant::MeanMass, water.mean_mass() as f64), (Constant::MassUnit, water.mass_unit)];
     if water.smoothing.length == 0.0 {
         let kernel = Kernel::new("depths", Entry::FindDepths, Choices::new(), workgroups(water.nodes(), workgroup))
-            .with([constants.as_slice(), &[("NODES", water.nodes() as f64)]].concat());
+            .with([constants.as_slice(), &[(Constant::Nodes, water.nodes() as f64)]].concat());
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
     match water.smoothing.solver {
@@ -71,12 +70,9 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 }
 
 /// Buffers of a plan that may be held in textures: those of Fourier transforms.
-pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Candidate> {
+pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Array> {
     if plan.kernels.iter().any(|kernel| kernel.entry == Entry::FourierTurn) {
-        vec![
-            Candidate::new("waves", 2, arrays::Waves::Texture),
-            Candidate::new("waves_next", 2, arrays::WavesNext::Texture),
-        ]
+        vec![Array::Waves, Array::WavesNext]
     } else {
         Vec::new()
     }
@@ -154,13 +150,13 @@ fn operator(water: &ShallowWater, lengths: [f64; 2], symbol: LaplacianSymbol, wa
     1.0 + laplacian(0) + laplacian(1)
 }
 
-fn table(name: &'static str, purpose: &'static str, values: impl Iterator<Item = f32>) -> Buffer {
+fn table(array: Array, values: impl Iterator<Item = f32>) -> Buffer {
     let bytes: Vec<u8> = values.flat_map(f32::to_ne_bytes).collect();
-    Buffer { name, purpose, bytes: bytes.len() as u64, contents: Contents::Bytes(bytes) }
+    Buffer { array, bytes: bytes.len() as u64, contents: Contents::Bytes(bytes) }
 }
 
-fn scratch(name: &'static str, purpose: &'static str, bytes: u64) -> Buffer {
-    Buffer { name, purpose, bytes, contents: Contents::Zeros }
+fn scratch(array: Array, bytes: u64) -> Buffer {
+    Buffer { array, bytes, contents: Contents::Zeros }
 }
 
 /// The solver by Fourier transforms.
@@ -172,7 +168,7 @@ struct Fourier<'a> {
     water: &'a ShallowWater,
     lengths: [f64; 2],
     workgroup: u64,
-    constants: [(&'static str, f64); 2],
+    constants: [(Constant, f64); 2],
 }
 
 /// An axis along which lines are transformed.
@@ -262,21 +258,21 @@ impl Fourier<'_> {
             .with(pass.load)
             .with(pass.store);
         let mut constants = vec![
-            ("LENGTH", f64::from(length)),
-            ("LINES", f64::from(lines)),
-            ("SPAN", f64::from(pass.span)),
-            ("ROOTS", f64::from(self.roots())),
-            ("ROW_LENGTH", f64::from(width)),
+            (Constant::Length, f64::from(length)),
+            (Constant::Lines, f64::from(lines)),
+            (Constant::Span, f64::from(pass.span)),
+            (Constant::Roots, f64::from(self.roots())),
+            (Constant::RowLength, f64::from(width)),
         ];
         if number == 0 {
             constants.extend(self.constants);
         }
-        let swapped = vec![("waves", "waves_next"), ("waves_next", "waves")];
+        let swapped = vec![(Array::Waves, Array::WavesNext), (Array::WavesNext, Array::Waves)];
         // A small mesh has few butterflies, which are to be shared out all the same.
         let butterflies = u64::from(lines) * u64::from(length / pass.radix);
         let share = (1_u64 << (butterflies / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
         let workgroup = self.workgroup.min(share);
-        constants.push(("WORKGROUP", workgroup as f64));
+        constants.push((Constant::Workgroup, workgroup as f64));
         Kernel::new(pass.name, pass.entry, choices, workgroups(butterflies, workgroup))
             .with(constants)
             .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
@@ -289,14 +285,11 @@ impl Fourier<'_> {
         let scale = 0.5 / self.water.nodes() as f64;
         let waves = (0..=height / 2).flat_map(|l| (0..=width / 2).map(move |k| [k, l]));
         let symbols = waves.map(|wave| (scale * transfer(self.water, self.lengths, wave)) as f32);
-        let mut buffers = vec![
-            scratch("waves", "depth in Fourier space", bytes),
-            scratch("waves_next", "the same after the next pass", bytes),
-            table("symbols", "smoothing of each wave", symbols),
-        ];
+        let mut buffers =
+            vec![scratch(Array::Waves, bytes), scratch(Array::WavesNext, bytes), table(Array::Symbols, symbols)];
         if twisted {
             let roots = self.roots();
-            buffers.push(table("roots", "roots of unity", (0..roots).flat_map(|index| root(index, roots))));
+            buffers.push(table(Array::Roots, (0..roots).flat_map(|index| root(index, roots))));
         }
         buffers
     }
@@ -361,7 +354,7 @@ fn chebyshev(
     lengths: [f64; 2],
     tolerance: f64,
     workgroup: u64,
-    constants: &[(&'static str, f64)],
+    constants: &[(Constant, f64)],
 ) -> SmoothingPlan {
     let polynomial = Polynomial::new(water, lengths, tolerance);
     let iterations = polynomial.weights.len();
@@ -370,11 +363,9 @@ fn chebyshev(
     let constants = [
         constants,
         &[
-            ("NODES_X", f64::from(width)),
-            ("NODES_Y", f64::from(height)),
-            ("STIFFNESS_X", stiffness_x),
-            ("STIFFNESS_Y", stiffness_y),
-            ("INVERSE_CENTRE", 1.0 / polynomial.centre),
+            (Constant::NodesX, f64::from(width)),
+            (Constant::NodesY, f64::from(height)),
+            (Constant::InverseCentre, 1.0 / polynomial.centre),
         ],
     ]
     .concat();
@@ -382,36 +373,42 @@ fn chebyshev(
     let mut plan = SmoothingPlan { kernels: Vec::new(), order: Vec::new(), buffers: Vec::new() };
     for application in 1..=water.smoothing.power {
         let choices = Choices::new().with_if(application > 1, Source::Smoothed);
-        let result = if application == water.smoothing.power { "depths" } else { "once_smoothed" };
+        let result = if application == water.smoothing.power { Array::Depths } else { Array::OnceSmoothed };
         // Iterations go to and fro between two buffers, and the last one ends in the right one.
-        let (odd, even) = if iterations % 2 == 1 { (result, "waves") } else { ("waves", result) };
-        let mut kernel = |name, entry, workgroups, parity: u32, [from, to]: [&'static str; 2]| {
+        let (odd, even) = if iterations % 2 == 1 { (result, Array::Waves) } else { (Array::Waves, result) };
+        let mut kernel = |name, entry, workgroups, own: &[(Constant, f64)], [from, to]: [Array; 2]| {
             plan.kernels.push(
                 Kernel::new(name, entry, choices.clone(), workgroups)
-                    .with([constants.as_slice(), &[("PARITY", f64::from(parity))]].concat())
-                    .renamed(vec![("waves", from), ("waves_next", to)]),
+                    .with([constants.as_slice(), own].concat())
+                    .renamed(vec![(Array::Waves, from), (Array::WavesNext, to)]),
             );
             plan.kernels.len() - 1
         };
         let all = workgroups(water.nodes(), workgroup);
-        plan.order.push(kernel("begin smoothing", Entry::ChebyshevBegin, all, 0, [even, odd]));
-        let pair: Vec<usize> = [[odd, even], [even, odd]]
+        plan.order.push(kernel("begin smoothing", Entry::ChebyshevBegin, all, &[], [even, odd]));
+        let pair: Vec<usize> = [(0.0, [odd, even]), (1.0, [even, odd])]
             .into_iter()
             .take(iterations - 1)
-            .zip(0..)
-            .map(|(buffers, parity)| kernel("smooth", Entry::ChebyshevIterate, strips, parity, buffers))
+            .map(|(parity, buffers)| {
+                let own = [
+                    (Constant::StiffnessX, stiffness_x),
+                    (Constant::StiffnessY, stiffness_y),
+                    (Constant::Parity, parity),
+                ];
+                kernel("smooth", Entry::ChebyshevIterate, strips, &own, buffers)
+            })
             .collect();
         plan.order.extend(pair.iter().cycle().take(iterations - 1));
     }
     let bytes = 4 * water.nodes();
-    plan.buffers.push(scratch("waves", "depth between iterations", bytes));
+    plan.buffers.push(scratch(Array::Waves, bytes));
     if water.smoothing.power > 1 {
-        plan.buffers.push(scratch("once_smoothed", "depth smoothed once", bytes));
+        plan.buffers.push(scratch(Array::OnceSmoothed, bytes));
     }
     // After two counters.
     let counters = [0, 0].map(f32::from_bits).into_iter();
     let weights = polynomial.weights.iter().map(|weight| *weight as f32);
-    plan.buffers.push(table("iteration", "weights of the iterations", counters.chain(weights)));
+    plan.buffers.push(table(Array::Iteration, counters.chain(weights)));
     plan
 }
 

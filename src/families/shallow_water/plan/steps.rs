@@ -11,7 +11,7 @@ use crate::families::shallow_water::{Bins, WaterLayout};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Choices, Entry, arrays, grid, mesh, water};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
@@ -194,25 +194,25 @@ impl Builder<'_> {
         let squared = water.wave_speed.powi(2);
         let carriers = water.carriers as f64;
         let mut constants = vec![
-            ("WORKGROUP", self.options.workgroup() as f64),
-            ("CELLS_X", f64::from(water.mesh[0])),
-            ("CELLS_Y", f64::from(water.mesh[1])),
-            ("PARTICLES", carriers),
-            ("TRACERS", self.tracers() as f64),
-            ("FIRST_TRACER", carriers),
-            ("KICK_X", kick(0)),
-            ("KICK_Y", kick(1)),
-            ("CHORD_X", chord * fraction(0)),
-            ("CHORD_Y", chord * fraction(1)),
-            ("SAGITTA_X", sagitta * fraction(0)),
-            ("SAGITTA_Y", sagitta * fraction(1)),
-            ("VELOCITY_LIMIT", velocity_limit),
-            ("LEAST_DEPTH", -1.0 - DEPTH_ROUNDING * (1.0 + water.nodes() as f64 / carriers.max(1.0))),
-            ("MEAN_MASS", water.mean_mass() as f64),
-            ("KINETIC", 0.5 * water.mass_unit * units.momentum.powi(2) / quanta.energy),
-            ("MOMENTUM", water.mass_unit * units.momentum * water.wave_speed / quanta.energy),
-            ("POTENTIAL", 0.5 * squared * water.mass_unit / quanta.pair_energy),
-            ("BATH_SQUARE", 1.0 / quanta.bath_squared),
+            (Constant::Workgroup, self.options.workgroup() as f64),
+            (Constant::CellsX, f64::from(water.mesh[0])),
+            (Constant::CellsY, f64::from(water.mesh[1])),
+            (Constant::Particles, carriers),
+            (Constant::Tracers, self.tracers() as f64),
+            (Constant::FirstTracer, carriers),
+            (Constant::KickX, kick(0)),
+            (Constant::KickY, kick(1)),
+            (Constant::ChordX, chord * fraction(0)),
+            (Constant::ChordY, chord * fraction(1)),
+            (Constant::SagittaX, sagitta * fraction(0)),
+            (Constant::SagittaY, sagitta * fraction(1)),
+            (Constant::VelocityLimit, velocity_limit),
+            (Constant::LeastDepth, -1.0 - DEPTH_ROUNDING * (1.0 + water.nodes() as f64 / carriers.max(1.0))),
+            (Constant::MeanMass, water.mean_mass() as f64),
+            (Constant::Kinetic, 0.5 * water.mass_unit * units.momentum.powi(2) / quanta.energy),
+            (Constant::Momentum, water.mass_unit * units.momentum * water.wave_speed / quanta.energy),
+            (Constant::Potential, 0.5 * squared * water.mass_unit / quanta.pair_energy),
+            (Constant::BathSquare, 1.0 / quanta.bath_squared),
         ];
         let turn = if self.gyrates() { angle } else { 0.5 * angle };
         let quarters = (turn / FRAC_PI_2).round();
@@ -220,15 +220,15 @@ impl Builder<'_> {
         let rest = if rest > 0.5 * TAU { rest - TAU } else { rest };
         constants.extend([
             // Not a negative zero.
-            ("QUARTER_TURNS", quarters.rem_euclid(4.0) + 0.0),
-            ("TURN_TANGENT", (0.5 * rest).tan()),
-            ("TURN_SINE", rest.sin()),
+            (Constant::QuarterTurns, quarters.rem_euclid(4.0) + 0.0),
+            (Constant::TurnTangent, (0.5 * rest).tan()),
+            (Constant::TurnSine, rest.sin()),
         ]);
         if let Some(bath) = &water.bath {
             constants.extend([
-                ("BATH_PERSISTENCE", bath.persistence),
-                ("BATH_RESPONSE", bath.response() * water.mass_unit),
-                ("BATH_NOISE", bath.noise(self.model.temperature) / water.wave_speed),
+                (Constant::BathPersistence, bath.persistence),
+                (Constant::BathResponse, bath.response() * water.mass_unit),
+                (Constant::BathNoise, bath.noise(self.model.temperature) / water.wave_speed),
             ]);
         }
         self.plan.constants = constants;
@@ -312,10 +312,10 @@ impl Builder<'_> {
         let tidied = Choices::new().with(if self.texels { water::Tidied::Textures } else { water::Tidied::Buffers });
         let tidy = self.kernel("tidy", Entry::TidyWater, &tidied, carriers);
         let keep = self.kernel("keep_tidied", Entry::KeepTidiedWater, &tidied, carriers);
-        let back = [("particles", "tidied"), ("tidied", "particles")];
+        let back = [(Array::Particles, Array::Tidied), (Array::Tidied, Array::Particles)];
         self.plan.kernels[keep].renamed.extend(back);
         if self.texels {
-            let back = [("particle_masses", "tidied_masses"), ("tidied_masses", "particle_masses")];
+            let back = [(Array::ParticleMasses, Array::TidiedMasses), (Array::TidiedMasses, Array::ParticleMasses)];
             self.plan.kernels[keep].renamed.extend(back);
         }
         self.plan.tidy = vec![tidy, keep];
@@ -370,9 +370,9 @@ impl Builder<'_> {
         };
         let (push, push_on) = (self.cell_kernel("push", &push), self.cell_kernel("push_from_report", &push));
         let report = self.kernel("report", Entry::ReportWater, &Choices::new(), self.water.nodes());
-        self.plan.kernels[report].constants.push(("QUANTITIES", OBSERVABLES as f64));
-        self.plan.kernels[push].constants.push(("CLOSES", 1.0));
-        self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
+        self.plan.kernels[report].constants.push((Constant::Quantities, OBSERVABLES as f64));
+        self.plan.kernels[push].constants.push((Constant::Closes, 1.0));
+        self.plan.kernels[push_on].constants.push((Constant::Closes, 0.0));
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
@@ -392,12 +392,12 @@ impl Builder<'_> {
         let push = self.kernel("push_tracers", Entry::PushTracers, &none, tracers);
         let push_on = self.kernel("push_tracers_from_report", Entry::PushTracers, &none, tracers);
         let report = self.kernel("report_tracers", Entry::ReportTracers, &none, tracers);
-        self.plan.kernels[push].constants.push(("CLOSES", 1.0));
-        self.plan.kernels[push_on].constants.push(("CLOSES", 0.0));
+        self.plan.kernels[push].constants.push((Constant::Closes, 1.0));
+        self.plan.kernels[push_on].constants.push((Constant::Closes, 0.0));
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        self.plan.add_buffer("tracers", "particles without mass", WATER * tracers);
+        self.plan.add_buffer(Array::Tracers, WATER * tracers);
     }
 
     /// Kernels that follow particles and tracers.
@@ -411,57 +411,58 @@ impl Builder<'_> {
         if self.tracers() > 0 {
             let stored = self.choices().with(water::Particles::InPlace);
             let follow = Kernel::new("follow_tracers", Entry::FollowWater, stored, groups(self.tracers()));
-            let count = vec![("PARTICLES", self.tracers() as f64)];
-            kernels.push(follow.with(count).renamed(vec![("particles", "tracers")]));
+            let count = vec![(Constant::Particles, self.tracers() as f64)];
+            kernels.push(follow.with(count).renamed(vec![(Array::Particles, Array::Tracers)]));
         }
         kernels
     }
 
     /// A buffer of so many particles, or two textures: of their motion, and of their masses and numbers.
-    fn add_water(&mut self, [name, masses]: [&'static str; 2], purpose: &'static str, particles: u64) {
+    fn add_water(&mut self, [water, masses]: [Array; 2], particles: u64) {
         if self.texels {
-            self.plan.add_texture(name, purpose, 4, particles);
-            self.plan.add_texture(masses, "their masses and numbers", 2, particles);
+            self.plan.add_texture(water, particles);
+            self.plan.add_texture(masses, particles);
         } else {
-            self.plan.add_buffer(name, purpose, WATER * particles);
+            self.plan.add_buffer(water, WATER * particles);
         }
     }
 
     fn buffers(&mut self) {
         let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
         let width = u64::from(self.water.spline_order + 1);
-        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
+        self.plan.add_buffer(Array::Control, 64);
         match self.storage {
             Storage::Sorted => {
-                self.add_water(["particles", "particle_masses"], "particles", particles);
-                self.add_water(["tidied", "tidied_masses"], "particles in order of cells, for a moment", particles);
-                let purpose = "where the particles lie in order of cells";
+                self.add_water([Array::Particles, Array::ParticleMasses], particles);
+                self.add_water([Array::Tidied, Array::TidiedMasses], particles);
                 if self.texels {
-                    self.plan.add_texture("order", purpose, 1, particles);
+                    self.plan.add_texture(Array::Order, particles);
                 } else {
-                    self.plan.add_buffer("order", purpose, 4 * particles);
+                    self.plan.add_buffer(Array::Order, 4 * particles);
                 }
-                self.plan.add_buffer("counts", "particles in each cell", 4 * nodes);
-                self.plan.add_buffer("cells", "where each cell begins, and ends", 4 * (nodes + 1 + rows));
+                self.plan.add_buffer(Array::Counts, 4 * nodes);
+                self.plan.add_buffer(Array::Cells, 4 * (nodes + 1 + rows));
             }
             Storage::Bins => {
                 let (capacity, arrivals) = bin_places(self.model, self.water);
-                self.plan.constants.extend([("CAPACITY", capacity as f64), ("ARRIVALS", arrivals as f64)]);
+                self.plan
+                    .constants
+                    .extend([(Constant::Capacity, capacity as f64), (Constant::Arrivals, arrivals as f64)]);
                 let places = places(self.model, self.water, self.storage);
-                self.add_water(["bins", "bin_masses"], "particles of each cell", places);
-                self.plan.add_buffer("stayed", "particles that stay in each cell", 4 * nodes);
-                self.plan.add_buffer("arrived", "particles that arrive in each cell, by turns", 8 * nodes);
+                self.add_water([Array::Bins, Array::BinMasses], places);
+                self.plan.add_buffer(Array::Stayed, 4 * nodes);
+                self.plan.add_buffer(Array::Arrived, 8 * nodes);
             }
         }
         // Seven rows of a strip of four, and one that fills up the last word.
         let shares = if self.eights { 2 * (nodes + 3 * nodes / 8) } else { width * width * nodes };
-        self.plan.add_buffer("contributions", "what cells add to the nodes around them", 4 * shares);
-        self.plan.add_buffer("node_masses", "mass on each node", 4 * nodes);
-        self.plan.add_buffer("depths", "smoothed depth on each node", 4 * nodes);
+        self.plan.add_buffer(Array::Contributions, 4 * shares);
+        self.plan.add_buffer(Array::NodeMasses, 4 * nodes);
+        self.plan.add_buffer(Array::Depths, 4 * nodes);
         if self.water.bath.is_some() {
-            self.plan.add_buffer("node_bath", "bath variable of each node", 4 * nodes);
-            self.plan.add_buffer("previous_masses", "mass on each node one step before", 4 * nodes);
-            self.plan.add_buffer("surface", "depth and bath together", 4 * nodes);
+            self.plan.add_buffer(Array::NodeBath, 4 * nodes);
+            self.plan.add_buffer(Array::PreviousMasses, 4 * nodes);
+            self.plan.add_buffer(Array::Surface, 4 * nodes);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What crosses the faces: momentum, mass and energy, as each part of a step asks for.
 
 use super::Builder;
-use crate::shaders::{Choices, Entry, exchange, voronoi};
+use crate::shaders::{Array, Choices, Constant, Entry, exchange, voronoi};
 
 /// What a part of a step exchanges, in which time, and how fast cells are then taken to move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(super) enum Part {
 
 impl Builder<'_> {
     /// Kernels that compute a part of a step and leave it in a buffer.
-    pub(super) fn exchange(&mut self, part: Part, into: &'static str) -> Vec<usize> {
+    pub(super) fn exchange(&mut self, part: Part, into: Array) -> Vec<usize> {
         let pressure = matches!(part, Part::Pressure | Part::Everything);
         let predicted = pressure && self.cells.keeps_energy();
         let mut kernels = Vec::new();
@@ -46,8 +46,8 @@ impl Builder<'_> {
                 (_, true, true) => exchange::Moved::All,
             });
         let exchange = self.face_kernel("exchange", Entry::ExchangeThroughFaces, &choices, part);
-        if into != "exchanges" {
-            self.plan.kernels[exchange].renamed = vec![("exchanges", into)];
+        if into != Array::Exchanges {
+            self.plan.kernels[exchange].renamed = vec![(Array::Exchanges, into)];
         }
         kernels.push(exchange);
         kernels
@@ -55,8 +55,8 @@ impl Builder<'_> {
 
     /// The kernel that looks ahead, so that energies are exchanged at the velocities in the middle of a part.
     fn predict(&mut self, part: Part) -> usize {
-        if !self.plan.buffers.iter().any(|buffer| buffer.name == "predictions") {
-            self.plan.add_buffer("predictions", "what an exchange is expected to bring", 16 * self.particles);
+        if !self.plan.has_buffer(Array::Predictions) {
+            self.plan.add_buffer(Array::Predictions, 16 * self.particles);
         }
         let choices = self
             .forces(part, false)
@@ -88,7 +88,7 @@ impl Builder<'_> {
         let step = self.model.time_step * if part == Part::Pressure { 0.5 } else { 1.0 };
         let groups = self.groups(self.particles);
         let kernel = self.kernel(name, entry, choices, groups);
-        self.plan.kernels[kernel].constants = vec![("STEP", step)];
+        self.plan.kernels[kernel].constants = vec![(Constant::Step, step)];
         kernel
     }
 }

@@ -3,14 +3,14 @@
 
 use super::Builder;
 use crate::plan::folded;
-use crate::shaders::{Choices, Entry, voronoi};
+use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 
 /// Lanes of a workgroup of the solver, whose sums are of single precision: no choice, for results depend on it.
 const LANES: u64 = 64;
 /// Cells whose equations one workgroup solves as fast as many.
 const FEW: u64 = 2048;
 /// The buffer of what the solver has come to.
-pub(in crate::families::voronoi) const SOLVER: &str = "solver";
+pub(in crate::families::voronoi) const SOLVER: Array = Array::Solver;
 
 /// Bytes of what the solver has come to, before the sums of workgroups.
 const HEADER: u64 = 48;
@@ -25,9 +25,9 @@ impl Builder<'_> {
         let setup = self.kernel("friction_setup", Entry::FrictionSetup, &setup, groups);
         self.solver_buffers(groups);
         let verdict = vec![
-            ("CELL_GROUPS", groups as f64),
-            ("TOLERANCE", self.cells.solver.tolerance),
-            ("ITERATIONS", f64::from(self.cells.solver.iterations)),
+            (Constant::CellGroups, groups as f64),
+            (Constant::Tolerance, self.cells.solver.tolerance),
+            (Constant::Iterations, f64::from(self.cells.solver.iterations)),
         ];
         let none = Choices::new();
         if self.solves_at_once() {
@@ -63,18 +63,14 @@ impl Builder<'_> {
             let mut demands = [0_u32; 16];
             demands[..3].copy_from_slice(&[width, height, 1]);
             let bytes: Vec<u8> = bytemuck::cast_slice(&demands).to_vec();
-            self.plan.add_table("demands", "workgroups of an iteration of the solver", bytes);
-            self.plan.add_buffer("images", "what friction makes of preconditioned residuals", 8 * self.particles);
+            self.plan.add_table(Array::Demands, bytes);
+            self.plan.add_buffer(Array::Images, 8 * self.particles);
         }
-        self.plan.add_buffer(SOLVER, "how far the solver of the friction has come", HEADER + 16 * groups);
-        self.plan.add_buffer("estimates", "mean velocities in friction, and residuals", 16 * self.particles);
-        self.plan.add_buffer("preconditioners", "what a cell's own friction does to its velocity", 16 * self.particles);
-        self.plan.add_buffer("searches", "preconditioned residuals", 16 * self.particles);
+        self.plan.add_buffer(SOLVER, HEADER + 16 * groups);
+        self.plan.add_buffer(Array::Estimates, 16 * self.particles);
+        self.plan.add_buffer(Array::Preconditioners, 16 * self.particles);
+        self.plan.add_buffer(Array::Searches, 16 * self.particles);
         let directions = if self.solves_at_once() { 32 } else { 16 };
-        self.plan.add_buffer(
-            "directions",
-            "directions of search, and what friction makes of them",
-            directions * self.particles,
-        );
+        self.plan.add_buffer(Array::Directions, directions * self.particles);
     }
 }

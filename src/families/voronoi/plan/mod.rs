@@ -18,10 +18,9 @@ use crate::families::particles::plan::pair;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::plan::serial_memory::Candidate;
 use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, words};
 use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
-use crate::shaders::{Choices, Entry, arrays, grid, space, voronoi};
+use crate::shaders::{Array, Choices, Constant, Entry, grid, space, voronoi};
 
 /// Makes the plan of a model of Voronoi cells.
 pub(crate) fn plan(model: &Model, cells: &Voronoi, measured: &Measured, options: Options) -> PhysicsPlan {
@@ -66,13 +65,8 @@ fn plane() -> Choices {
 }
 
 /// Buffers that may be held in textures.
-fn texture_candidates() -> Vec<Candidate> {
-    vec![
-        Candidate::new("cells", 1, arrays::Cells::Texture),
-        Candidate::new("ranks", 1, arrays::Ranks::Texture),
-        Candidate::new("particles", 4, arrays::Particles::Texture),
-        Candidate::new("sorted", 4, arrays::Sorted::Texture),
-    ]
+fn texture_candidates() -> Vec<Array> {
+    vec![Array::Cells, Array::Ranks, Array::Particles, Array::Sorted]
 }
 
 struct Builder<'a> {
@@ -90,27 +84,27 @@ impl Builder<'_> {
         let (units, cells) = (self.model.units, self.cells);
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         self.plan.constants = vec![
-            ("UNIT_X", unit(0)),
-            ("UNIT_Y", unit(1)),
-            ("CELLS_X", f64::from(self.grid.cells[0])),
-            ("CELLS_Y", f64::from(self.grid.cells[1])),
-            ("CELLS", self.grid.count() as f64),
-            ("PARTICLES", self.particles as f64),
-            ("WORKGROUP", self.options.workgroup() as f64),
-            ("MASS_UNIT", cells.mass_unit),
-            ("MOMENTUM_UNIT", units.momentum),
-            ("ENERGY_UNIT", cells.energy_unit),
-            ("IMPULSE_STEPS", 1.0 / units.momentum),
-            ("MASS_STEPS", 1.0 / cells.mass_unit),
-            ("ENERGY_STEPS", 1.0 / cells.energy_unit),
+            (Constant::UnitX, unit(0)),
+            (Constant::UnitY, unit(1)),
+            (Constant::CellsX, f64::from(self.grid.cells[0])),
+            (Constant::CellsY, f64::from(self.grid.cells[1])),
+            (Constant::Cells, self.grid.count() as f64),
+            (Constant::Particles, self.particles as f64),
+            (Constant::Workgroup, self.options.workgroup() as f64),
+            (Constant::MassUnit, cells.mass_unit),
+            (Constant::MomentumUnit, units.momentum),
+            (Constant::EnergyUnit, cells.energy_unit),
+            (Constant::ImpulseSteps, 1.0 / units.momentum),
+            (Constant::MassSteps, 1.0 / cells.mass_unit),
+            (Constant::EnergySteps, 1.0 / cells.energy_unit),
             // Rounding of single precision at a few hundred times what a cell usually has of it in a step.
-            ("ENERGY_SLACK", 4096.0 * cells.energy_unit),
-            ("TEMPERATURE", self.model.temperature),
-            ("MOLECULAR_MASS", cells.molecular_mass),
-            ("EXCHANGE_LIMIT", cells.exchange_limit),
-            ("VISCOSITY", cells.viscosity * self.model.time_step),
-            ("CONDUCTIVITY", cells.conductivity.unwrap_or(0.0) * self.model.time_step),
-            ("DISPLACEMENT_LIMIT", self.reach()),
+            (Constant::EnergySlack, 4096.0 * cells.energy_unit),
+            (Constant::Temperature, self.model.temperature),
+            (Constant::MolecularMass, cells.molecular_mass),
+            (Constant::ExchangeLimit, cells.exchange_limit),
+            (Constant::Viscosity, cells.viscosity * self.model.time_step),
+            (Constant::Conductivity, cells.conductivity.unwrap_or(0.0) * self.model.time_step),
+            (Constant::DisplacementLimit, self.reach()),
         ];
     }
 
@@ -188,7 +182,7 @@ impl Builder<'_> {
     }
 
     fn buffers(&mut self) {
-        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
-        self.plan.add_buffer("particles", "cells: place, mass, number, momentum, energy, species", 32 * self.particles);
+        self.plan.add_buffer(Array::Control, 64);
+        self.plan.add_buffer(Array::Particles, 32 * self.particles);
     }
 }

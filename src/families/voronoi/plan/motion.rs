@@ -4,7 +4,7 @@ use super::Builder;
 use super::exchange::Part;
 use super::tessellation::Occasion;
 use crate::shaders::exchange::{Change, EnergyCheck};
-use crate::shaders::{Choices, Entry, voronoi};
+use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 
 /// Which way cells go once they have taken up what they got.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,18 +36,19 @@ impl Builder<'_> {
     /// Some thirty candidates and a dozen cuts of a cell; three owned faces in every exchange, twice as many in those that
     /// look ahead; and six faces in each of some five iterations of the solver.
     fn operations(&self) -> f64 {
-        let count = |name: &str| {
-            let named = |kernel: &&usize| self.plan.kernels[**kernel].name == name;
-            self.plan.advance.iter().filter(named).count() as f64
+        let count = |entry: Entry| {
+            let kernels = self.plan.advance.iter().filter(|kernel| self.plan.kernels[**kernel].entry == entry);
+            kernels.count() as f64
         };
         let solver = if self.rubs() && !self.is_explicit() { 5.0 * 6.0 * 25.0 } else { 0.0 };
-        30.0 * 60.0 + 12.0 * 250.0 + 3.0 * 100.0 * (count("exchange") + 2.0 * count("predict")) + solver
+        let exchanges = count(Entry::ExchangeThroughFaces) + 2.0 * count(Entry::PredictExchange);
+        30.0 * 60.0 + 12.0 * 250.0 + 3.0 * 100.0 * exchanges + solver
     }
 
     /// Everything from what there is at the beginning of the step, as printed.
     fn explicit_step(&mut self) -> Vec<usize> {
-        self.exchange_buffer("exchanges");
-        let mut kernels = self.exchange(Part::Everything, "exchanges");
+        self.exchange_buffer(Array::Exchanges);
+        let mut kernels = self.exchange(Part::Everything, Array::Exchanges);
         kernels.push(self.take_up(Change::Taken, Drift::Explicit));
         kernels
     }
@@ -62,10 +63,10 @@ impl Builder<'_> {
         let between = if self.rubs() { Some(Part::Friction) } else { self.conducts().then_some(Part::Heat) };
         // Constant masses at a constant temperature push as they did before friction.
         if !self.cells.exchanges_mass() && !self.cells.keeps_energy() {
-            self.exchange_buffer("pushes");
-            kernels.extend(self.exchange(Part::Pressure, "pushes"));
+            self.exchange_buffer(Array::Pushes);
+            kernels.extend(self.exchange(Part::Pressure, Array::Pushes));
             if let Some(part) = between {
-                self.exchange_buffer("exchanges");
+                self.exchange_buffer(Array::Exchanges);
                 kernels.push(self.take_up(Change::Kept, Drift::None));
                 kernels.extend(self.between(part));
                 kernels.push(self.take_up(Change::Again, Drift::Half));
@@ -74,8 +75,8 @@ impl Builder<'_> {
             }
             return kernels;
         }
-        self.exchange_buffer("exchanges");
-        let push = self.exchange(Part::Pressure, "exchanges");
+        self.exchange_buffer(Array::Exchanges);
+        let push = self.exchange(Part::Pressure, Array::Exchanges);
         let take_up = self.take_up(Change::Taken, Drift::None);
         kernels.extend(&push);
         kernels.push(take_up);
@@ -91,16 +92,12 @@ impl Builder<'_> {
     /// What comes between the two halves of a push.
     fn between(&mut self, part: Part) -> Vec<usize> {
         let mut kernels = if part == Part::Friction { self.solve_friction() } else { Vec::new() };
-        kernels.extend(self.exchange(part, "exchanges"));
+        kernels.extend(self.exchange(part, Array::Exchanges));
         kernels
     }
 
-    fn exchange_buffer(&mut self, name: &'static str) {
-        self.plan.add_buffer(
-            name,
-            "what came through the faces of each cell: momentum, mass, energy",
-            16 * self.particles,
-        );
+    fn exchange_buffer(&mut self, array: Array) {
+        self.plan.add_buffer(array, 16 * self.particles);
     }
 
     /// The kernel that adds to the cells what came through their faces.
@@ -119,7 +116,7 @@ impl Builder<'_> {
         kernel
     }
 
-    fn drift_constants(&self, part: f64) -> Vec<(&'static str, f64)> {
-        vec![("DRIFT_STEP", part * self.model.time_step)]
+    fn drift_constants(&self, part: f64) -> Vec<(Constant, f64)> {
+        vec![(Constant::DriftStep, part * self.model.time_step)]
     }
 }

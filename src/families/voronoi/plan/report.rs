@@ -2,7 +2,7 @@
 
 use super::{Builder, plane};
 use crate::plan::{Need, Reported};
-use crate::shaders::{Choices, Entry, voronoi};
+use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 
 /// Sums of a report, in order: kinetic energy, two components of momentum, mass, volume, sides of faces; then free energy,
 /// or internal energy, total energy and temperature; then exchanges that a limit has cut; then iterations and residual.
@@ -44,11 +44,11 @@ impl Builder<'_> {
         let observe = self.kernel("observe", Entry::ObserveCells, &choices, groups);
         let quanta = self.plan.quanta;
         self.plan.kernels[observe].constants = vec![
-            ("QUANTITIES", self.quantities() as f64),
-            ("FIRST_GROUP", 0.0),
-            ("KINETIC", 1.0 / quanta.energy),
-            ("VOLUME_STEPS", 1.0 / quanta.length_squared),
-            ("MEAN_VOLUME", super::mean_volume(self.model)),
+            (Constant::Quantities, self.quantities() as f64),
+            (Constant::FirstGroup, 0.0),
+            (Constant::Kinetic, 1.0 / quanta.energy),
+            (Constant::VolumeSteps, 1.0 / quanta.length_squared),
+            (Constant::MeanVolume, super::mean_volume(self.model)),
         ];
         self.plan.report.push(observe);
     }
@@ -65,7 +65,7 @@ impl Builder<'_> {
         if !self.measured.needs(Need::Particles) {
             return None;
         }
-        self.plan.add_buffer("reported", "cells of the last report by number", 32 * self.particles);
-        Some(Reported { choices: plane(), particles: "reported", momenta: None, forces: "reported_forces" })
+        self.plan.add_buffer(Array::Reported, 32 * self.particles);
+        Some(Reported { choices: plane(), particles: Array::Reported, momenta: None, forces: Array::ReportedForces })
     }
 }

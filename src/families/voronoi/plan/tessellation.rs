@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::plan::Kernel;
 use crate::plan::prefix_sum::PrefixSum;
-use crate::shaders::{Entry, core, tessellation};
+use crate::shaders::{Array, Constant, Entry, core, tessellation};
 
 /// Corners for which an invocation has room in memory of its own, as `shaders/tessellation/corners/private.wgsl` says.
 const PRIVATE_CORNERS: u64 = 24;
@@ -39,19 +39,19 @@ impl Builder<'_> {
         kernels.push(self.shared_kernel("arrange", Entry::ArrangeParticles, arrange_groups));
         kernels.push(self.shared_kernel("order_cells", Entry::OrderCells, groups));
         let quickly = self.shared_kernel("tessellate", Entry::Tessellate, groups);
-        self.plan.kernels[quickly].constants = vec![("SPACING", self.spacing())];
+        self.plan.kernels[quickly].constants = vec![(Constant::Spacing, self.spacing())];
         let groups = self.groups(self.particles.div_ceil(DOUBTFUL_SHARE));
         let exactly = self.shared_kernel("tessellate_exactly", Entry::TessellateExactly, groups);
         let [x_weight, y_weight] = weights(self.model.units.lengths);
         let (low, high) = (|weight: u64| f64::from(weight as u32), |weight: u64| (weight >> 32) as f64);
         self.plan.kernels[exactly].constants = vec![
-            ("SPACING", self.spacing()),
-            ("CORNERS", self.face_capacity() as f64),
-            ("GROUPS", groups as f64),
-            ("WEIGHT_X_LOW", low(x_weight)),
-            ("WEIGHT_X_HIGH", high(x_weight)),
-            ("WEIGHT_Y_LOW", low(y_weight)),
-            ("WEIGHT_Y_HIGH", high(y_weight)),
+            (Constant::Spacing, self.spacing()),
+            (Constant::Corners, self.face_capacity() as f64),
+            (Constant::Groups, groups as f64),
+            (Constant::WeightXLow, low(x_weight)),
+            (Constant::WeightXHigh, high(x_weight)),
+            (Constant::WeightYLow, low(y_weight)),
+            (Constant::WeightYHigh, high(y_weight)),
         ];
         kernels.extend([quickly, exactly]);
         self.geometry_buffers();
@@ -90,24 +90,24 @@ impl Builder<'_> {
     }
 
     fn geometry_buffers(&mut self) {
-        if self.plan.buffers.iter().any(|buffer| buffer.name == "sorted") {
+        if self.plan.has_buffer(Array::Sorted) {
             return;
         }
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
-        self.plan.add_buffer("sorted", "particles in order of grid cells", 32 * particles);
-        self.plan.add_buffer("cells", "where each grid cell begins", 4 * (cells + 1 + rows));
-        self.plan.add_buffer("counts", "particles in each grid cell", 4 * cells);
-        self.plan.add_buffer("ranks", "place of each particle in its grid cell", 4 * particles);
-        self.plan.add_buffer("places", "where particles are, and which cells are in doubt", 8 + 16 * particles);
+        self.plan.add_buffer(Array::Sorted, 32 * particles);
+        self.plan.add_buffer(Array::Cells, 4 * (cells + 1 + rows));
+        self.plan.add_buffer(Array::Counts, 4 * cells);
+        self.plan.add_buffer(Array::Ranks, 4 * particles);
+        self.plan.add_buffer(Array::Places, 8 + 16 * particles);
         self.plan.add_row_sums(rows, cells, self.options);
         let faces = self.face_capacity() * particles;
         // With many faces a cell's polygon is where its faces will be, and takes more room.
         let lengths = if self.options.list_growth > 0 { 2 * faces } else { faces };
-        self.plan.add_buffer("face_counts", "number of faces of each cell", 4 * particles);
-        self.plan.add_buffer("face_words", "neighbour behind each face, and its image", 4 * faces);
-        self.plan.add_buffer("face_lengths", "length of each face", 4 * lengths);
-        self.plan.add_buffer("face_offsets", "middle of each face beside the line between the particles", 4 * faces);
-        self.plan.add_buffer("volumes", "area of each cell", 4 * particles);
+        self.plan.add_buffer(Array::FaceCounts, 4 * particles);
+        self.plan.add_buffer(Array::FaceWords, 4 * faces);
+        self.plan.add_buffer(Array::FaceLengths, 4 * lengths);
+        self.plan.add_buffer(Array::FaceOffsets, 4 * faces);
+        self.plan.add_buffer(Array::Volumes, 4 * particles);
     }
 }
 

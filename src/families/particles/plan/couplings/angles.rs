@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::families::Angles;
 use crate::plan::Words;
-use crate::shaders::{Choices, Entry, bonds};
+use crate::shaders::{Array, Choices, Constant, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
@@ -13,9 +13,9 @@ impl Builder<'_> {
         // The constant of pairs counts both ends of one.
         let laplacian = 1.0 / (self.impulse() * self.plan.quanta.curvature);
         self.plan.constants.extend([
-            ("ANGLES", count as f64),
-            ("FIRST_ANGLE", self.model.species.len() as f64),
-            ("ANGLE_LAPLACIAN", laplacian),
+            (Constant::Angles, count as f64),
+            (Constant::FirstAngle, self.model.species.len() as f64),
+            (Constant::AngleLaplacian, laplacian),
         ]);
         let advance = self.kernel("angles", Entry::BendAngles, &Choices::new(), groups);
         self.plan.advance.push(advance);
@@ -25,7 +25,7 @@ impl Builder<'_> {
         let impulses = angles.stiffness.iter().map(|stiffness| ((stiffness * self.impulse()) as f32).to_bits());
         let (head, impulses) = (mobile.flatten().collect(), impulses.collect());
         let table = AngleTable { head, angles: angles.clone(), impulses };
-        self.plan.add_long_table("angles", "angles and their stiffness", table);
+        self.plan.add_long_table(Array::Angles, table);
         self.plan.operations_per_particle += 100.0 * count as f64 / self.particles.max(1) as f64;
     }
 }

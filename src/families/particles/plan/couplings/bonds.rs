@@ -5,7 +5,7 @@ use crate::document::BondPotential;
 use crate::families::{BondKind, Bonds};
 use crate::noise::{self, stream};
 use crate::plan::Words;
-use crate::shaders::{Choices, Entry, baths, bonds, couplings};
+use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds, couplings};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
@@ -15,11 +15,11 @@ impl Builder<'_> {
         let (species, kinds) = (self.model.species.len(), bonds.kinds.len());
         let key = noise::seed_key(self.model.seed, stream::BOND);
         self.plan.constants.extend([
-            ("BONDS", count as f64),
-            ("FIRST_KIND", species as f64),
-            ("FIRST_BOND", (species + 2 * kinds) as f64),
-            ("BOND_STREAM_X", f64::from(key[0])),
-            ("BOND_STREAM_Y", f64::from(key[1])),
+            (Constant::Bonds, count as f64),
+            (Constant::FirstKind, species as f64),
+            (Constant::FirstBond, (species + 2 * kinds) as f64),
+            (Constant::BondStreamX, f64::from(key[0])),
+            (Constant::BondStreamY, f64::from(key[1])),
         ]);
         if bonds.have_friction() {
             self.bath_impulse();
@@ -40,9 +40,9 @@ impl Builder<'_> {
 
     /// Impulse of half a step per bath, which pairs with memory may have named already.
     fn bath_impulse(&mut self) {
-        if !self.plan.constants.iter().any(|(name, _)| *name == "BATH_IMPULSE") {
+        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
             let impulse = self.impulse();
-            self.plan.constants.push(("BATH_IMPULSE", impulse));
+            self.plan.constants.push((Constant::BathImpulse, impulse));
         }
     }
 
@@ -56,9 +56,9 @@ impl Builder<'_> {
             words.extend(self.bond_coefficients(kind).map(f32::to_bits));
         }
         let table = BondTable { head: words, bonds: bonds.clone() };
-        self.plan.add_long_table("bonds", "bonds and what they are like", table);
+        self.plan.add_long_table(Array::Bonds, table);
         if bonds.have_memory() {
-            self.plan.add_buffer("bond_baths", "bath of each bond", 4 * bonds.count());
+            self.plan.add_buffer(Array::BondBaths, 4 * bonds.count());
         }
     }
 
@@ -89,10 +89,9 @@ impl Builder<'_> {
     pub(super) fn exclusions(&mut self) -> Option<couplings::Exclusions> {
         let bonds = self.model.bonds().filter(|_| self.spares())?;
         let width = bonds.most_spared().max(1) as u64;
-        self.plan.constants.push(("EXCLUSIONS", width as f64));
-        let purpose = "partners whose repulsion each particle is spared";
+        self.plan.constants.push((Constant::Exclusions, width as f64));
         let table = ExclusionTable { bonds: bonds.clone(), particles: self.particles, width };
-        self.plan.add_long_table("exclusions", purpose, table);
+        self.plan.add_long_table(Array::Exclusions, table);
         Some(couplings::Exclusions::Listed)
     }
 }

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::document::NoiseProcess;
 use crate::noise::{self, stream};
-use crate::shaders::{Choices, baths};
+use crate::shaders::{Array, Choices, Constant, baths};
 
 /// Largest time that a constant takes, in half steps: above it every force outlasts any run.
 const LONGEST_TIME: f64 = 1e30;
@@ -26,23 +26,19 @@ impl Builder<'_> {
         let half_step = 0.5 * self.model.time_step;
         let key = noise::seed_key(self.model.seed, stream::JUMP);
         self.plan.constants.extend([
-            ("HOLD_IMPULSE", self.impulse()),
-            ("HOLD_FORCE", noise.strength.sqrt()),
-            ("HOLD_TIME", (noise.time / half_step).min(LONGEST_TIME)),
-            ("JUMP_STREAM_X", f64::from(key[0])),
-            ("JUMP_STREAM_Y", f64::from(key[1])),
+            (Constant::HoldImpulse, self.impulse()),
+            (Constant::HoldForce, noise.strength.sqrt()),
+            (Constant::HoldTime, (noise.time / half_step).min(LONGEST_TIME)),
+            (Constant::JumpStreamX, f64::from(key[0])),
+            (Constant::JumpStreamY, f64::from(key[1])),
         ]);
         if noise.process == NoiseProcess::Literal {
-            self.plan.constants.push(("HOLD_TURNS", 1.0 / (std::f64::consts::TAU * noise.time.sqrt())));
+            self.plan.constants.push((Constant::HoldTurns, 1.0 / (std::f64::consts::TAU * noise.time.sqrt())));
         }
         // Words and jumps of the particles whose force ends in a step are few unless forces are short.
         let jumps = self.model.time_step / noise.time;
         let bytes = size_of::<crate::state::Hold>() as u64;
-        self.plan.add_buffer(
-            "holds",
-            "random force of each particle and the time left of it, by number",
-            bytes * self.particles,
-        );
+        self.plan.add_buffer(Array::Holds, bytes * self.particles);
         self.plan.operations_per_particle += 30.0 + 120.0 * jumps;
     }
 }

@@ -6,7 +6,7 @@ use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::plan::prefix_sum::PrefixSum;
 use crate::plan::{Options, folded};
-use crate::shaders::{Choices, Entry, core, couplings};
+use crate::shaders::{Array, Choices, Constant, Entry, core, couplings};
 use std::f64::consts::PI;
 
 /// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
@@ -33,7 +33,7 @@ impl Builder<'_> {
     /// The clock and, for pairs, the list.
     pub(super) fn list(&mut self) {
         if self.needs_slots() {
-            self.plan.add_buffer("slots", "where each particle is stored", 4 * self.particles);
+            self.plan.add_buffer(Array::Slots, 4 * self.particles);
         }
         let groups = self.groups(self.particles);
         let slots = Choices::new().with_if(self.needs_slots(), couplings::Slots::Kept);
@@ -60,9 +60,9 @@ impl Builder<'_> {
         for (index, kernel) in rebuild.iter().enumerate() {
             self.plan.kernels[*kernel].demand = Some((rebuild.len() + index) as u32);
         }
-        self.plan.kernels[begin].constants.push(("CONDITIONAL", rebuild.len() as f64));
+        self.plan.kernels[begin].constants.push((Constant::Conditional, rebuild.len() as f64));
         let bytes: Vec<u8> = bytemuck::cast_slice(&[&sizes[..], &vec![0; sizes.len()]].concat()).to_vec();
-        self.plan.add_table("demands", "workgroups of the kernels of the list", bytes);
+        self.plan.add_table(Array::Demands, bytes);
         self.plan.sort = [&[begin][..], &rebuild].concat();
         self.list_buffers();
     }
@@ -74,12 +74,12 @@ impl Builder<'_> {
             f64::from(if cells >= 3 { 3 } else { 1 })
         };
         self.plan.constants.extend([
-            ("SPAN_X", span(0)),
-            ("SPAN_Y", span(1)),
-            ("SPAN_Z", span(2)),
-            ("SQUARED_RANGE", range * range),
-            ("SQUARED_REACH", 0.25 * self.force.skin * self.force.skin),
-            ("LIST_CAPACITY", self.list_capacity() as f64),
+            (Constant::SpanX, span(0)),
+            (Constant::SpanY, span(1)),
+            (Constant::SpanZ, span(2)),
+            (Constant::SquaredRange, range * range),
+            (Constant::SquaredReach, 0.25 * self.force.skin * self.force.skin),
+            (Constant::ListCapacity, self.list_capacity() as f64),
         ]);
     }
 
@@ -114,11 +114,11 @@ impl Builder<'_> {
             let carry = self.kernel("carry", Entry::CarryMemories, &Choices::new(), groups);
             let key = noise::seed_key(self.model.seed, stream::PAIR_START);
             self.plan.kernels[carry].constants =
-                vec![("START_STREAM_X", f64::from(key[0])), ("START_STREAM_Y", f64::from(key[1]))];
+                vec![(Constant::StartStreamX, f64::from(key[0])), (Constant::StartStreamY, f64::from(key[1]))];
             kernels.push(carry);
             kernels.push(self.kernel("settle_list", Entry::SettleList, &Choices::new(), groups));
         } else {
-            self.plan.kernels[list].renamed = vec![("neighbours_next", "neighbours")];
+            self.plan.kernels[list].renamed = vec![(Array::NeighboursNext, Array::Neighbours)];
         }
         kernels.push(self.kernel("settle", Entry::SettleParticles, &Choices::new(), groups));
         kernels
@@ -127,24 +127,24 @@ impl Builder<'_> {
     /// Buffers of particles in order of cells.
     pub(super) fn ordering_buffers(&mut self) {
         let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
-        self.plan.add_buffer("sorted", "particles in order of cells, while the list is made", PARTICLE * particles);
-        self.plan.add_buffer("cells", "where each cell begins", 4 * (cells + 1 + rows));
-        self.plan.add_buffer("counts", "particles in each cell", 4 * cells);
-        self.plan.add_buffer("ranks", "place of each particle in its cell", 4 * particles);
+        self.plan.add_buffer(Array::Sorted, PARTICLE * particles);
+        self.plan.add_buffer(Array::Cells, 4 * (cells + 1 + rows));
+        self.plan.add_buffer(Array::Counts, 4 * cells);
+        self.plan.add_buffer(Array::Ranks, 4 * particles);
         self.plan.add_row_sums(rows, cells, self.options);
     }
 
     fn list_buffers(&mut self) {
         self.ordering_buffers();
         let particles = self.particles;
-        self.plan.add_buffer("anchors", "where each particle was when the list was made", 16 * particles);
+        self.plan.add_buffer(Array::Anchors, 16 * particles);
         let pairs = self.list_capacity() * particles;
-        self.plan.add_buffer("neighbours", "pairs of each particle", 4 * (pairs + particles));
+        self.plan.add_buffer(Array::Neighbours, 4 * (pairs + particles));
         if self.force.remembers() {
-            self.plan.add_buffer("came_from", "where each particle was stored before", 4 * particles);
-            self.plan.add_buffer("neighbours_next", "the same, while the list is made", 4 * (pairs + particles));
-            self.plan.add_buffer("memories", "what the bath of each pair remembers", 8 * pairs);
-            self.plan.add_buffer("memories_next", "the same, while the list is made", 8 * pairs);
+            self.plan.add_buffer(Array::CameFrom, 4 * particles);
+            self.plan.add_buffer(Array::NeighboursNext, 4 * (pairs + particles));
+            self.plan.add_buffer(Array::Memories, 8 * pairs);
+            self.plan.add_buffer(Array::MemoriesNext, 8 * pairs);
         }
     }
 }

@@ -24,7 +24,7 @@ use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
 use crate::plan::Layout;
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Choices, Entry, couplings, grid, space};
+use crate::shaders::{Array, Choices, Constant, Entry, couplings, grid, space};
 
 /// Sums of a report without baths that remember, in the order of `shaders/core/sums.wgsl`; those of baths follow.
 const OBSERVABLES: u64 = 9;
@@ -78,7 +78,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
     // What is reported has no predicted momentum.
     let reported = Layout::new(ParticleLayout { predicted: false, ..particles });
-    Plan { reported: Some(("reported", reported)), ..plan }
+    Plan { reported: Some((Array::Reported, reported)), ..plan }
 }
 
 /// Units of the sums: those of pairs, and for the square of a bath that of the stiffest.
@@ -133,36 +133,40 @@ impl Builder<'_> {
         let mass = self.species.mass();
         let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
         self.plan.constants = vec![
-            ("UNIT_X", unit(0)),
-            ("UNIT_Y", unit(1)),
-            ("UNIT_Z", unit(2)),
-            ("CELLS_X", f64::from(self.grid.cells[0])),
-            ("CELLS_Y", f64::from(self.grid.cells[1])),
-            ("CELLS_Z", f64::from(self.grid.cells[2])),
-            ("CELLS", self.grid.count() as f64),
-            ("PARTICLES", self.particles as f64),
-            ("WORKGROUP", self.options.workgroup() as f64),
-            ("QUANTITIES", self.quantities() as f64),
-            ("SPECIES", model.species.len() as f64),
-            ("CUTOFF", cutoff),
-            ("WEIGHT_ROOT_EXPONENT", 0.5 * self.force.weight_exponent),
-            ("DISPLACEMENT_LIMIT", reach),
-            ("PAIR_ENERGY", to_force * cutoff / (2.0 * quanta.pair_energy)),
-            ("PAIR_VIRIAL", to_force / quanta.pair_energy),
-            ("GRADIENT", to_force * to_force / quanta.force_squared),
-            ("LAPLACIAN", 2.0 * to_force / quanta.curvature),
-            ("DRIFT", model.time_step * units.momentum / mass),
-            ("KINETIC", units.momentum * units.momentum / (2.0 * mass * quanta.energy)),
-            ("INVERSE_MASS", 1.0 / mass),
-            ("FRICTION_PER_LENGTH", mass / (model.time_step * units.momentum)),
-            ("BATH_SQUARE", inverse(quanta.bath_squared)),
+            (Constant::UnitX, unit(0)),
+            (Constant::UnitY, unit(1)),
+            (Constant::UnitZ, unit(2)),
+            (Constant::CellsX, f64::from(self.grid.cells[0])),
+            (Constant::CellsY, f64::from(self.grid.cells[1])),
+            (Constant::CellsZ, f64::from(self.grid.cells[2])),
+            (Constant::Cells, self.grid.count() as f64),
+            (Constant::Particles, self.particles as f64),
+            (Constant::Workgroup, self.options.workgroup() as f64),
+            (Constant::Quantities, self.quantities() as f64),
+            (Constant::Species, model.species.len() as f64),
+            (Constant::Cutoff, cutoff),
+            (Constant::WeightRootExponent, 0.5 * self.force.weight_exponent),
+            (Constant::DisplacementLimit, reach),
+            (Constant::PairEnergy, to_force * cutoff / (2.0 * quanta.pair_energy)),
+            (Constant::PairVirial, to_force / quanta.pair_energy),
+            (Constant::Gradient, to_force * to_force / quanta.force_squared),
+            (Constant::Laplacian, 2.0 * to_force / quanta.curvature),
+            (Constant::Drift, model.time_step * units.momentum / mass),
+            (Constant::Kinetic, units.momentum * units.momentum / (2.0 * mass * quanta.energy)),
+            (Constant::InverseMass, 1.0 / mass),
+            (Constant::FrictionPerLength, mass / (model.time_step * units.momentum)),
+            (Constant::BathSquare, inverse(quanta.bath_squared)),
         ];
         if !self.species.have_table() {
             let [repulsion, friction, noise] = self.pair_impulses(0, 0);
-            self.plan.constants.extend([("REPULSION", repulsion), ("FRICTION", friction), ("NOISE", noise)]);
+            self.plan.constants.extend([
+                (Constant::Repulsion, repulsion),
+                (Constant::Friction, friction),
+                (Constant::Noise, noise),
+            ]);
         }
         if let Integrator::GrootWarren { lambda } = model.integrator {
-            self.plan.constants.push(("PREDICTION", 2.0 * lambda - 1.0));
+            self.plan.constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
     }
 
@@ -240,20 +244,19 @@ impl Builder<'_> {
     /// Adds a kernel of the report, which leaves its sums in rows of its own.
     fn report_kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, workgroups: u64) {
         let kernel = self.kernel(name, entry, choices, workgroups);
-        self.plan.kernels[kernel].constants.push(("FIRST_GROUP", self.report_groups as f64));
+        self.plan.kernels[kernel].constants.push((Constant::FirstGroup, self.report_groups as f64));
         self.report_groups += u64::from(self.plan.kernels[kernel].workgroups);
         self.plan.report.push(kernel);
     }
 
     fn buffers(&mut self) {
-        self.plan.add_buffer("control", "clock, key of the step's random words, failures", 64);
-        self.plan.add_buffer("particles", "particles, in the order of the last list", PARTICLE * self.particles);
-        self.plan.add_buffer("kicks", "impulses of half a step", 16 * self.particles);
-        self.plan.add_buffer("reported", "particles of the last report by number", PARTICLE * self.particles);
+        self.plan.add_buffer(Array::Control, 64);
+        self.plan.add_buffer(Array::Particles, PARTICLE * self.particles);
+        self.plan.add_buffer(Array::Kicks, 16 * self.particles);
+        self.plan.add_buffer(Array::Reported, PARTICLE * self.particles);
         if self.species.have_table() {
             let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
-            let purpose = "coefficients of each pair of species, then of each species";
-            self.plan.add_table("coefficients", purpose, bytes);
+            self.plan.add_table(Array::Coefficients, bytes);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::noise::{self, stream};
-use crate::shaders::{Choices, Entry, baths, couplings};
+use crate::shaders::{Array, Choices, Constant, Entry, baths, couplings};
 
 impl Builder<'_> {
     pub(super) fn motion(&mut self) {
@@ -23,11 +23,7 @@ impl Builder<'_> {
         let report = choices.with_if(memory, baths::PositionReport::Observed).with_any(forces);
         self.report_kernel("observe", Entry::ObserveParticles, &report, groups);
         if self.model.has_potential() {
-            self.plan.add_buffer(
-                "forces",
-                "impulses of half a step by conservative forces, at a report",
-                16 * self.particles,
-            );
+            self.plan.add_buffer(Array::Forces, 16 * self.particles);
             self.report_kernel("square_forces", Entry::SquareForces, &Choices::new(), groups);
         }
         self.plan.operations_per_particle += 60.0;
@@ -61,21 +57,21 @@ impl Builder<'_> {
         let memory = bath.memory;
         let key = noise::seed_key(self.model.seed, stream::PARTICLE);
         self.plan.constants.extend([
-            ("POSITION_IMPULSE", self.impulse()),
-            ("POSITION_LOSS", loss),
-            ("PARTICLE_STREAM_X", f64::from(key[0])),
-            ("PARTICLE_STREAM_Y", f64::from(key[1])),
+            (Constant::PositionImpulse, self.impulse()),
+            (Constant::PositionLoss, loss),
+            (Constant::ParticleStreamX, f64::from(key[0])),
+            (Constant::ParticleStreamY, f64::from(key[1])),
         ]);
         if !self.species.have_table() && !self.model.species.is_empty() {
             let [response, noise, energy] = self.position_coefficients(0);
             self.plan.constants.extend([
-                ("POSITION_RESPONSE", response),
-                ("POSITION_NOISE", noise),
-                ("POSITION_ENERGY", energy),
+                (Constant::PositionResponse, response),
+                (Constant::PositionNoise, noise),
+                (Constant::PositionEnergy, energy),
             ]);
         }
         if memory {
-            self.plan.add_buffer("position_baths", "bath of each coordinate, by number", 16 * self.particles);
+            self.plan.add_buffer(Array::PositionBaths, 16 * self.particles);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Builder;
 use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
 use crate::families::particles::plan::law::law;
-use crate::shaders::{Choices, Entry, baths, couplings, pairs};
+use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {
     pub(super) fn pairs(&mut self) {
@@ -68,12 +68,12 @@ impl Builder<'_> {
         let step = BathStep::with_memory(scheme, 1.0, rate, self.model.time_step);
         let persistence = step.persistence;
         self.plan.constants.extend([
-            ("PERSISTENCE", persistence),
-            ("LOSS", 1.0 - persistence),
-            ("DECAY", persistence.abs().ln().max(-100.0)),
-            ("SPREAD", (1.0 - persistence * persistence).max(0.0).sqrt()),
-            ("BATH_IMPULSE", self.impulse()),
-            ("BATH_ENERGY", 0.5 * step.response() / self.plan.quanta.pair_energy),
+            (Constant::Persistence, persistence),
+            (Constant::Loss, 1.0 - persistence),
+            (Constant::Decay, persistence.abs().ln().max(-100.0)),
+            (Constant::Spread, (1.0 - persistence * persistence).max(0.0).sqrt()),
+            (Constant::BathImpulse, self.impulse()),
+            (Constant::BathEnergy, 0.5 * step.response() / self.plan.quanta.pair_energy),
         ]);
     }
 

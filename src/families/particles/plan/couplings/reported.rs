@@ -1,7 +1,7 @@
 //! What a coupled scene leaves for analyses: particles by number, as everywhere, and ordered by cell on the side.
 
 use super::{Builder, Need, Ordered, Reported};
-use crate::shaders::{Choices, Entry, pairs, space};
+use crate::shaders::{Array, Choices, Entry, pairs, space};
 
 impl Builder<'_> {
     /// The particles of a report.
@@ -9,9 +9,9 @@ impl Builder<'_> {
         Reported {
             // What is reported has no predicted momentum.
             choices: self.dimension().with(space::Particle::Plain).and(&self.species.choices()),
-            particles: "reported",
+            particles: Array::Reported,
             momenta: None,
-            forces: "reported_forces",
+            forces: Array::ReportedForces,
         }
     }
 
@@ -21,7 +21,7 @@ impl Builder<'_> {
             return None;
         }
         self.plan.force_unit = 1.0 / self.impulse();
-        self.plan.add_buffer("reported_forces", "impulses on each particle at a report", 16 * self.particles);
+        self.plan.add_buffer(Array::ReportedForces, 16 * self.particles);
         Some(pairs::ReportedForce::Kept)
     }
 
