@@ -8,6 +8,8 @@ use std::time::Duration;
 const MOST_EXTENSIONS: usize = 5;
 /// The most by which one extension lengthens the runs: what a short run says of its error is itself uncertain.
 const LARGEST_FACTOR: f64 = 8.0;
+/// A factor that is not worth another round.
+const SMALLEST_FACTOR: f64 = 1.1;
 /// More samples than the law of the inverse square asks for, so that one extension is usually enough.
 const MARGIN: f64 = 1.15;
 
@@ -55,6 +57,7 @@ pub(super) fn extension(length: &Length, worst: Option<f64>, spent: f64, average
     let allowed =
         length.budget.map_or(f64::INFINITY, |budget| if spent > 0.0 { budget / spent } else { f64::INFINITY });
     let factor = wanted.min(allowed);
+    let factor = if factor < SMALLEST_FACTOR { 1.0 } else { factor };
     Extension { factor, is_short: length.error.is_some() && allowed < wanted }
 }
 
@@ -92,6 +95,8 @@ mod tests {
         assert_eq!((found.factor, found.is_short), (2.0, true));
         let found = extension(&Length { error: None, budget: Some(20.0) }, Some(0.02), 10.0, 5.0, 0);
         assert_eq!((found.factor, found.is_short), (2.0, false));
+        let used_up = extension(&Length { error: None, budget: Some(20.0) }, Some(0.02), 19.0, 5.0, 0);
+        assert_eq!((used_up.factor, used_up.is_short), (1.0, false));
         assert_eq!(extension(&Length::default(), Some(0.5), 10.0, 5.0, 0).factor, 1.0);
     }
 }

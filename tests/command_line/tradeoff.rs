@@ -3,8 +3,12 @@
 use std::f64::consts::TAU;
 use std::fs;
 
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::{files as run_files, read_table};
-use mesoscope::tradeoff::{ChoiceState, TradeoffSummary, Verdict, files};
+use mesoscope::run::Interrupt;
+use mesoscope::tradeoff::{
+    ChoiceState, Request, TradeoffError, TradeoffEvent, TradeoffRun, TradeoffSummary, Verdict, files,
+};
 use serde_json::{Value, json};
 
 use crate::support::program::{Place, fails, listing, size, succeeds};
@@ -152,6 +156,34 @@ fn flows_are_compared_with_a_finer_run() {
     }
     let names = listing(&place.path("out"));
     assert!(names.contains(&files::plot("depth_distance")), "{names:?}");
+}
+
+/// One that is interrupted after its first run, and then goes on, measures what one measures that is not.
+#[test]
+fn an_interrupted_tradeoff_goes_on() {
+    let place = place();
+    let request = || {
+        let vary = ["time.step=0.02,0.04".to_owned()];
+        Request::load(&place.scene(), &[], &vary, &[]).unwrap().with_measures(&["pressure".to_owned()]).unwrap()
+    };
+    let whole = TradeoffRun::start(request(), place.path("whole"), false);
+    let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    let interrupt = Interrupt::default();
+    let stopped = TradeoffRun::start(request(), place.path("parts"), false).until(&interrupt);
+    let stopped = stopped.execute(&AdapterChoice::Best, &mut |event| {
+        if matches!(event, TradeoffEvent::Ended { .. }) {
+            interrupt.ask();
+        }
+    });
+    assert!(matches!(stopped, Err(TradeoffError::Interrupted { .. })), "{stopped:?}");
+    assert!(!place.path("parts").join(files::TABLE).exists());
+    let parts = TradeoffRun::resume(place.path("parts")).unwrap();
+    let parts = parts.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    assert_eq!(parts.files, whole.files);
+    for (one, other) in parts.summary.choices.iter().zip(&whole.summary.choices) {
+        assert_eq!((one.steps, &one.measured), (other.steps, &other.measured), "{}", one.label);
+    }
+    assert_eq!(parts.summary.references, whole.summary.references);
 }
 
 #[test]
