@@ -73,7 +73,7 @@ pub struct Arguments {
     target: Vec<String>,
 
     /// Write the scene of the choice that meets the targets
-    #[arg(long, value_name = "NEW.json", requires = "target")]
+    #[arg(long, value_name = "NEW.json")]
     write: Option<PathBuf>,
 
     /// Run even if it takes more than eight hours
@@ -86,7 +86,7 @@ pub struct Arguments {
 
     /// Go on with the tradeoff in this directory
     #[arg(long, value_name = "DIR", conflicts_with_all =
-        ["scene", "vary", "also", "set", "error", "budget", "reference", "finer", "measure", "target", "write", "out", "force"])]
+        ["scene", "vary", "also", "set", "error", "budget", "reference", "finer", "measure", "target", "out", "force"])]
     resume: Option<PathBuf>,
 
     #[command(flatten)]
@@ -103,8 +103,8 @@ fn part(text: &str) -> Result<f64, String> {
 fn time(text: &str) -> Result<f64, String> {
     let accepted = "accepted: seconds, minutes or hours, as in 30s, 10m, 2h";
     let units = [('s', 1.0), ('m', 60.0), ('h', 3600.0)];
-    let unit = units.into_iter().find(|(letter, _)| text.ends_with(*letter));
-    let (number, scale) = unit.map_or((text, 1.0), |(letter, scale)| (text.trim_end_matches(letter), scale));
+    let unit = units.into_iter().find_map(|(letter, scale)| Some((text.strip_suffix(letter)?, scale)));
+    let (number, scale) = unit.unwrap_or((text, 1.0));
     let value = number.trim().parse::<f64>().ok().map(|value| scale * value);
     value.filter(|value| value.is_finite() && *value > 0.0).ok_or_else(|| accepted.to_owned())
 }
@@ -117,12 +117,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let request = request(arguments)?;
         let scene = arguments.scene.as_deref().unwrap_or_default();
         let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-tradeoff", report::stem(scene)).into());
-        if let Some(path) = arguments.write.as_deref().filter(|path| path.exists()) {
-            let shown = printable::path(path);
-            return Err(Failure::input_output(format!("`{shown}` exists already: choose another name for --write")));
-        }
         (TradeoffRun::start(request, &directory, arguments.how.force), directory)
     };
+    if let Some(path) = &arguments.write {
+        check_place(path, run.request())?;
+    }
     let run = run.unless_long(arguments.yes).until(&super::interruption::interrupt());
     let mut reporter = Reporter::new(run.request().title(), arguments.how.quiet);
     let executed = run.execute(&arguments.how.adapter.choice(), &mut |event| reporter.show(event));
@@ -164,6 +163,22 @@ fn request(arguments: &Arguments) -> Result<Request, Failure> {
         Some(finer) => request.with_finer(finer)?,
         None => request,
     })
+}
+
+/// Refuses a place for the new scene that could not be written to at the end.
+fn check_place(path: &Path, request: &Request) -> Result<(), Failure> {
+    let shown = printable::path(path);
+    if !request.has_targets() {
+        return Err(Failure::usage("`--write` needs a `--target` that says which choice to write".to_owned()));
+    }
+    if path.exists() {
+        return Err(Failure::input_output(format!("`{shown}` exists already: choose another name for --write")));
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !parent.is_dir() {
+        return Err(Failure::input_output(format!("`{shown}` cannot be written: its directory does not exist")));
+    }
+    Ok(())
 }
 
 /// Writes the scene of the choice that meets the targets.
@@ -282,8 +297,15 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
             "the runs ended before all errors were as small as asked for: a larger --budget makes them longer\n",
         );
     }
+    for note in summary.notes() {
+        text.push_str(&format_note(&note));
+    }
     text.push_str(&summary.advice());
     format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))
+}
+
+fn format_note(note: &str) -> String {
+    format!("note: {note}\n")
 }
 
 fn cell(choice: &Choice, measure: &str) -> String {
@@ -322,7 +344,7 @@ mod tests {
         for wrong in ["", "0", "-1", "2", "x", "nan"] {
             assert!(part(wrong).is_err(), "{wrong}");
         }
-        for wrong in ["", "0s", "-1m", "m", "inf", "1d"] {
+        for wrong in ["", "0s", "-1m", "m", "inf", "1d", "10mm"] {
             assert!(time(wrong).is_err(), "{wrong}");
         }
     }

@@ -58,7 +58,7 @@ fn in_the_way(path: &Path, sweep: &Sweep) -> Result<Vec<PathBuf>, OutputError> {
 }
 
 /// Whether a name leads into the directory of the sweep and nowhere else.
-fn is_plain(name: &str) -> bool {
+pub(crate) fn is_plain(name: &str) -> bool {
     let mut components = Path::new(name).components();
     matches!((components.next(), components.next()), (Some(Component::Normal(_)), None))
 }

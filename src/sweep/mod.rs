@@ -49,6 +49,7 @@ mod variation;
 
 pub use averages::SeedAverage;
 pub use concurrency::default_jobs;
+pub(crate) use directory::is_plain;
 pub use error::{Mistake, SweepError};
 pub use expansion::{Sweep, Variant};
 pub use look::Look;

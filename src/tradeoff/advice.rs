@@ -20,6 +20,11 @@ pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
+/// A duration in seconds or minutes.
+pub(super) fn duration(seconds: f64) -> String {
+    if seconds < 120.0 { format!("{seconds:.0} s") } else { format!("{:.0} minutes", seconds / 60.0) }
+}
+
 /// A duration in hours or days.
 pub(super) fn hours(seconds: f64) -> String {
     let hours = seconds / 3600.0;
@@ -62,6 +67,9 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
          Costs are medians of steps timed in turns, without reports.\n",
         short(summary.stretch.equilibration)
     );
+    for note in &notes(summary) {
+        let _ = writeln!(text, "{note}\n");
+    }
     if summary.is_short {
         text.push_str(
             "**The runs ended before the errors were as small as asked for**: a larger --budget makes them longer.\n\n",
@@ -74,6 +82,28 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     }
     unstable(&mut text, summary);
     text
+}
+
+/// What to know before the numbers are trusted.
+pub(super) fn notes(summary: &TradeoffSummary) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !summary.physical_keys.is_empty() {
+        notes.push(format!(
+            "`{}` changes what is simulated, and not only how it is computed: all choices are compared with the scene as it is.",
+            summary.physical_keys.join("`, `")
+        ));
+    }
+    for choice in summary.choices.iter().chain(&summary.finer) {
+        let spoilt: Vec<&str> = choice.unequilibrated.iter().map(String::as_str).collect();
+        if spoilt.iter().any(|column| summary.measures.iter().any(|measure| measure == column)) {
+            notes.push(format!(
+                "Means of {} include the way to equilibrium ({}): set a longer time.equilibration.",
+                choice.label,
+                spoilt.join(", ")
+            ));
+        }
+    }
+    notes
 }
 
 /// The targets, and which choice meets them.
@@ -110,7 +140,7 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
         let error = choice.error(&target.measure).map_or_else(String::new, error_in_words);
         let _ = write!(
             text,
-            "{} comes nearest: its {} is off by {error}, {} times as much as it may be. ",
+            "{} comes nearest: its {} is off by {error}, with two standard errors {} times as much as it may be. ",
             choice.label,
             target.measure,
             short(factor)
@@ -126,12 +156,15 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
 fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
     let worst = |choice| {
         let choice: &Choice = choice;
-        let factors = summary.arguments.targets.iter().filter_map(|target| {
+        let factor = |target| {
+            let target: &Target = target;
             let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
             let upper = error.size() + 2.0 * error.uncertainty.unwrap_or(0.0);
             Some((choice, target, upper / target.most(reference.value, error.relative)))
-        });
-        factors.max_by(|a, b| a.2.total_cmp(&b.2))
+        };
+        // A choice that lacks a measure is not near.
+        let factors: Option<Vec<_>> = summary.arguments.targets.iter().map(factor).collect();
+        factors?.into_iter().max_by(|a, b| a.2.total_cmp(&b.2))
     };
     summary.choices.iter().filter_map(worst).min_by(|a, b| a.2.total_cmp(&b.2))
 }
@@ -159,7 +192,7 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
         }
         text.push('\n');
     }
-    text.push_str("\nErrors are relative to the reference of each measure, with their standard errors.");
+    text.push_str("\nErrors with standard errors; those in per cent are relative to the reference of the measure.");
     let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
     if let Some(largest) = distances.reduce(f64::max) {
         let _ = write!(

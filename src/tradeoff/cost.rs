@@ -51,7 +51,11 @@ struct Runner<'a> {
 ///
 /// # Errors
 /// No adapter, or one that fails.
-pub(super) fn measure(choices: &[Timed<'_>], adapter: &AdapterChoice) -> Result<Vec<Option<Cost>>, TradeoffError> {
+pub(super) fn measure(
+    choices: &[Timed<'_>],
+    adapter: &AdapterChoice,
+    proceed: &dyn Fn() -> Result<(), TradeoffError>,
+) -> Result<Vec<Option<Cost>>, TradeoffError> {
     let plans = |hardware: Hardware| choices.iter().map(move |choice| steps_of(choice, hardware, Options::default()));
     let mut requirements = Requirements::default();
     for plan in plans(Hardware::default()) {
@@ -65,11 +69,13 @@ pub(super) fn measure(choices: &[Timed<'_>], adapter: &AdapterChoice) -> Result<
     let mut steps: Vec<Option<u64>> = vec![None; choices.len()];
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); choices.len()];
     let mut ended = vec![false; choices.len()];
+    let mut options = vec![Options::default(); choices.len()];
     for round in 0..ROUNDS {
         // There and back, so that no choice is always the first.
         let order: Vec<usize> =
             if round % 2 == 0 { (0..choices.len()).collect() } else { (0..choices.len()).rev().collect() };
         for index in order.into_iter().filter(|index| !ended[*index]).collect::<Vec<_>>() {
+            proceed()?;
             let choice = &choices[index];
             let wrong = |source: EngineError| TradeoffError::Run {
                 name: choice.name.to_owned(),
@@ -77,7 +83,7 @@ pub(super) fn measure(choices: &[Timed<'_>], adapter: &AdapterChoice) -> Result<
             };
             let mut runner = match runners[index].take() {
                 Some(runner) => runner,
-                None => match open(&gpu, choice, steps[index]) {
+                None => match open(&gpu, choice, steps[index], &mut options[index]) {
                     Ok(runner) => runner,
                     Err(error) if is_a_result(&error) => {
                         ended[index] = true;
@@ -95,6 +101,11 @@ pub(super) fn measure(choices: &[Timed<'_>], adapter: &AdapterChoice) -> Result<
                 }
                 Err(error) if is_a_result(&error) => {
                     ended[index] = true;
+                    continue;
+                }
+                // The next turn begins with more room, as a run does.
+                Err(EngineError::Crowded { .. }) if options[index].has_room_left() => {
+                    options[index] = options[index].with_room(choice.state.len() as u64);
                     continue;
                 }
                 Err(error) => return Err(wrong(error)),
@@ -127,7 +138,11 @@ fn is_a_result(error: &EngineError) -> bool {
 
 /// Whether a run ended because of what it simulates.
 pub(super) fn is_unstable(error: &RunError) -> bool {
-    matches!(error, RunError::Unstable { .. } | RunError::GaveUp { .. })
+    match error {
+        RunError::Unstable { .. } | RunError::GaveUp { .. } => true,
+        RunError::Engine(error) => is_a_result(error),
+        _ => false,
+    }
 }
 
 fn steps_of(choice: &Timed<'_>, hardware: Hardware, options: Options) -> Plan {
@@ -136,13 +151,17 @@ fn steps_of(choice: &Timed<'_>, hardware: Hardware, options: Options) -> Plan {
 }
 
 /// Makes an engine for a turn, and finds how many steps fill one where that is not known.
-fn open<'a>(gpu: &'a Gpu, choice: &Timed<'_>, steps: Option<u64>) -> Result<Runner<'a>, EngineError> {
-    let mut options = Options::default();
+fn open<'a>(
+    gpu: &'a Gpu,
+    choice: &Timed<'_>,
+    steps: Option<u64>,
+    options: &mut Options,
+) -> Result<Runner<'a>, EngineError> {
     loop {
-        match try_to_open(gpu, choice, steps, options) {
+        match try_to_open(gpu, choice, steps, *options) {
             // As a run does.
             Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-                options = options.with_room(choice.state.len() as u64);
+                *options = options.with_room(choice.state.len() as u64);
             }
             opened => return opened,
         }

@@ -44,7 +44,7 @@ impl Deviation {
     /// Whether the error may as well be zero: it is within two standard errors.
     #[must_use]
     pub fn is_within_noise(&self) -> bool {
-        self.uncertainty.is_none_or(|uncertainty| self.size() <= 2.0 * uncertainty) && self.size() > 0.0
+        self.uncertainty.is_some_and(|uncertainty| self.size() <= 2.0 * uncertainty)
     }
 }
 

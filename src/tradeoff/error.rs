@@ -28,6 +28,15 @@ pub enum TradeoffError {
         /// What is wrong with it.
         source: SceneError,
     },
+    /// The summary does not fit what was asked for.
+    #[error(
+        "`{}` was changed: its runs are not those that it was asked for; restore it, or run the tradeoff again with --force",
+        crate::printable::path(path)
+    )]
+    Changed {
+        /// The summary.
+        path: PathBuf,
+    },
     /// There is no tradeoff in the directory.
     #[error("there is no tradeoff in `{}`: it has no tradeoff.json", crate::printable::path(path))]
     NoTradeoff {

@@ -61,17 +61,19 @@ pub(super) fn extension(length: &Length, worst: Option<f64>, spent: f64, average
     Extension { factor, is_short: length.error.is_some() && allowed < wanted }
 }
 
-/// The largest relative standard error among what is assessed of all choices; none where some mean has none yet.
+/// The largest relative standard error among what is assessed of all choices; none where no mean has one yet. What an analysis gives
+/// without an error never has one.
 pub(super) fn worst_error(choices: &[Choice], measures: &[String]) -> Option<f64> {
-    let mut worst = 0.0_f64;
+    let mut worst = None;
     for measured in choices.iter().flat_map(|choice| &choice.measured) {
         if !measures.contains(&measured.measure) || !measured.fluctuates {
             continue;
         }
-        let error = measured.standard_error?;
-        worst = worst.max(if measured.value == 0.0 { error } else { (error / measured.value).abs() });
+        let Some(error) = measured.standard_error else { continue };
+        let relative = if measured.value == 0.0 { error } else { (error / measured.value).abs() };
+        worst = Some(worst.map_or(relative, |worst: f64| worst.max(relative)));
     }
-    Some(worst)
+    worst
 }
 
 #[cfg(test)]

@@ -6,13 +6,15 @@ use super::measures;
 use super::reference::References;
 use super::target::Target;
 use crate::families::Model;
+use crate::output::files as run_files;
 use crate::run;
-use crate::scene::{self, Scene, nearest};
+use crate::scene::{self, AnalysisId, Scene, nearest};
 use crate::sweep::{Setting, Sweep, Variation, settings};
 use serde::{Deserialize, Serialize};
 
 /// Keys that the length of the runs is made of, and that cannot be varied for that reason.
-const LENGTHS: [&str; 4] = ["time", "time.steps", "time.equilibration", "output.energies.every"];
+const LENGTHS: [&str; 6] =
+    ["time", "time.steps", "time.equilibration", "output", "output.energies", "output.energies.every"];
 
 /// Names of the runs that give references.
 pub(super) const FINER: &str = "finer";
@@ -132,7 +134,11 @@ impl Request {
     /// [`TradeoffError::Arguments`] names those that no run has.
     pub fn with_measures(mut self, measures: &[String]) -> Result<Self, TradeoffError> {
         self.check_names("--measure", measures.iter().map(String::as_str))?;
-        self.arguments.measures = measures.to_vec();
+        for measure in measures {
+            if !self.arguments.measures.contains(measure) {
+                self.arguments.measures.push(measure.clone());
+            }
+        }
         Ok(self)
     }
 
@@ -142,9 +148,16 @@ impl Request {
     /// # Errors
     /// [`TradeoffError::Arguments`] if they are not settings, [`TradeoffError::Variant`] if they make no scene.
     pub fn with_finer(mut self, argument: &str) -> Result<Self, TradeoffError> {
-        settings(argument).map_err(|message| TradeoffError::Arguments {
-            mistakes: vec![format!("`--finer {argument}`: {message}")],
-        })?;
+        let mistake =
+            |message: String| TradeoffError::Arguments { mistakes: vec![format!("`--finer {argument}`: {message}")] };
+        for setting in settings(argument).map_err(mistake)? {
+            if LENGTHS.contains(&setting.key.as_str()) {
+                return Err(mistake(format!("`{}` follows from the choices", setting.key)));
+            }
+            if setting.key == "time.step" && setting.value.as_f64().is_none() {
+                return Err(mistake(format!("time.step: found {}; accepted: a number", setting.value)));
+            }
+        }
         self.arguments.finer = Some(argument.to_owned());
         self.finer_scenes()?;
         Ok(self)
@@ -169,6 +182,12 @@ impl Request {
         Ok([scene(FINER, step)?, scene(COARSER, 2.0 * step)?])
     }
 
+    /// Whether a choice is to reach something.
+    #[must_use]
+    pub fn has_targets(&self) -> bool {
+        !self.arguments.targets.is_empty()
+    }
+
     /// The title of the scene.
     #[must_use]
     pub fn title(&self) -> &str {
@@ -181,6 +200,17 @@ impl Request {
         &self.sweep
     }
 
+    /// Keys among those varied that change what is simulated, and not only how it is computed.
+    pub(super) fn physical_keys(&self) -> Vec<&str> {
+        let is_physical = |key: &&str| {
+            let last = key.rsplit('.').next().unwrap_or_default();
+            ["temperature", "space", "particles"].iter().any(|start| key.starts_with(start))
+                || key.starts_with("interactions")
+                    && ["repulsion", "friction", "viscosity", "stiffness"].contains(&last)
+        };
+        self.sweep.keys().into_iter().filter(is_physical).collect()
+    }
+
     /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), TradeoffError> {
         let columns = measures::names(&self.base);
@@ -189,7 +219,11 @@ impl Request {
         let mut mistakes = Vec::new();
         for name in wanted {
             let of_analysis = |part: &str| analyses.contains(&part);
-            let is_distance = name.ends_with(super::fields::DISTANCE);
+            let compared = name.strip_suffix(super::fields::DISTANCE);
+            let is_distance = compared.is_some_and(|of| {
+                let is_drawn = self.base.output.fields.is_some() && run_files::FIELDS.contains(&of);
+                is_drawn || of == AnalysisId::RadialDistribution.name() && of_analysis(of)
+            });
             if columns.iter().any(|known| known == name)
                 || is_distance
                 || name.split_once('.').is_some_and(|(analysis, _)| of_analysis(analysis))

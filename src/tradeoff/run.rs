@@ -8,6 +8,7 @@ use super::measures;
 use super::pareto;
 use super::reference;
 use super::request::{COARSER, FINER, Request};
+use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::Verdict;
 use super::{advice, charts, fields, files, table};
@@ -18,8 +19,10 @@ use crate::plot::Plotter;
 use crate::run::{self, Event, Interrupt, Progress, RunError, Simulation};
 use crate::scene::Scene;
 use crate::self_test;
+use crate::sweep::is_plain;
+use std::collections::BTreeSet;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Seconds from which on a user has to say that all runs may take so long.
@@ -28,6 +31,8 @@ const LONG: f64 = 8.0 * 3600.0;
 const PILOT_SHARE: f64 = 0.2;
 /// Particles up to which a step is compared with the float64 reference: it takes a processor seconds.
 const MOST_COMPARED: usize = 50_000;
+/// Rows of the table of energies that a pilot has at least.
+const FEWEST_ROWS: f64 = 32.0;
 /// By what the runs are made longer where a verdict is open: it halves every uncertainty.
 const FOR_A_VERDICT: f64 = 4.0;
 /// How often they are made longer for that where no budget says how long they may take.
@@ -120,6 +125,9 @@ impl TradeoffRun {
         let claimed = RunDirectory::claim(&directory)?;
         let summary = TradeoffSummary::load(&directory)?;
         let request = Request::new(summary.arguments.clone())?;
+        if !summary.is_of(&request) {
+            return Err(TradeoffError::Changed { path: directory.join(files::SUMMARY) });
+        }
         let beginning = Beginning::Interrupted { directory: claimed };
         Ok(Self { request, summary, directory, beginning, interrupt: Interrupt::default(), may_be_long: true })
     }
@@ -151,10 +159,16 @@ impl TradeoffRun {
         adapter: &AdapterChoice,
         observer: &mut dyn FnMut(TradeoffEvent<'_>),
     ) -> Result<TradeoffOutcome, TradeoffError> {
-        let runs = self.runs()?;
+        let runs = self.runs(&self.summary.stretch)?;
+        if let Beginning::New { force: false } = self.beginning
+            && let Some(path) = in_the_way(&self.directory, &runs).into_iter().next()
+        {
+            return Err(OutputError::ResultExists { path }.into());
+        }
         let seconds = self.plan_pilot(&runs, adapter)?;
+        // Steps follow from the stretch, which may be shorter now; all else stays.
         let place = match &self.beginning {
-            Beginning::New { force } => create(&self.directory, *force)?,
+            Beginning::New { .. } => create(&self.directory, &runs)?,
             Beginning::Interrupted { directory } => directory.clone(),
         };
         // Every run opens the adapter for itself, this is to know it.
@@ -167,16 +181,26 @@ impl TradeoffRun {
         });
         self.summary.save(place.path())?;
         observer(TradeoffEvent::Started { adapter: description, runs: count(&runs), seconds });
-        let mut spent = 0.0;
         loop {
             let start = Instant::now();
-            self.advance(&runs, adapter, observer)?;
-            spent += start.elapsed().as_secs_f64();
-            self.assess();
-            let extension = self.extension(spent);
+            let advanced = self.advance(&runs, adapter, observer);
+            self.summary.spent += start.elapsed().as_secs_f64();
+            self.summary.save(place.path())?;
+            advanced?;
+            self.assess()?;
+            let spent = self.summary.spent;
+            let extension = if self.summary.is_long_enough {
+                Extension { factor: 1.0, is_short: self.summary.is_short }
+            } else {
+                self.extension(spent)
+            };
             if extension.factor <= 1.0 {
                 self.summary.is_short = extension.is_short;
                 break;
+            }
+            let budget = self.request.arguments.length.budget;
+            if budget.is_none() && !self.may_be_long && spent * extension.factor > LONG {
+                return Err(TradeoffError::Long { expected: advice::hours(spent * extension.factor) });
             }
             let wanted = self.request.arguments.length.error;
             let worst = wanted.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
@@ -186,17 +210,18 @@ impl TradeoffRun {
             self.summary.is_short = extension.is_short;
             self.summary.save(place.path())?;
         }
+        self.summary.is_long_enough = true;
+        self.summary.save(place.path())?;
         observer(TradeoffEvent::Timing);
         self.time(&runs, adapter)?;
-        self.assess();
+        self.assess()?;
         self.choose();
         observer(TradeoffEvent::Finishing);
         self.finish(&place, &gpu)
     }
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
-    fn runs(&self) -> Result<Vec<(String, Scene)>, TradeoffError> {
-        let stretch = &self.summary.stretch;
+    fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Scene)>, TradeoffError> {
         let mut runs = Vec::new();
         for variant in self.request.sweep.variants() {
             runs.push((variant.name.clone(), stretch.applied(&variant.name, &variant.scene)?));
@@ -221,10 +246,25 @@ impl TradeoffRun {
         }
         let length = self.request.arguments.length;
         if let (Some(budget), Beginning::New { .. }) = (length.budget, &self.beginning) {
-            let allowed = PILOT_SHARE * budget / seconds.max(1e-9);
+            let stretch = self.summary.stretch;
+            let all = (stretch.equilibration + stretch.averaged).max(f64::MIN_POSITIVE);
+            let before = seconds * stretch.equilibration / all;
+            if before > budget {
+                let expected = advice::duration(before);
+                let mistake =
+                    format!("equilibration alone takes about {expected}: give a larger --budget, or shorten it");
+                return Err(TradeoffError::Arguments { mistakes: vec![mistake] });
+            }
+            let allowed = (PILOT_SHARE * budget - before) / (seconds - before).max(1e-9);
             if allowed < 1.0 {
-                self.summary.stretch.averaged *= allowed;
-                seconds *= allowed;
+                // Some rows at least, and a window of every analysis: what has none keeps its length.
+                let least = FEWEST_ROWS * self.request.base.output.energies.every as f64 * stretch.step;
+                let averaged = (stretch.averaged * allowed).max(least).min(stretch.averaged);
+                let shorter = Stretch { averaged, ..stretch };
+                if self.runs(&shorter).is_ok() {
+                    seconds = before + (seconds - before) * averaged / stretch.averaged;
+                    self.summary.stretch = shorter;
+                }
             }
         } else if length.budget.is_none() && !self.may_be_long && seconds > LONG {
             return Err(TradeoffError::Long { expected: advice::hours(seconds) });
@@ -257,13 +297,19 @@ impl TradeoffRun {
             let mut scene = scene.clone();
             scene.time.steps = stretch.steps(&scene);
             let ended = self.simulate(name, &scene, adapter, observer)?;
-            let directory = RunDirectory::open(self.directory.join(name))?;
             let measured = match &ended {
-                Ok(summary) => measures::of_run(summary, &scene, &directory)?,
+                Ok(summary) => {
+                    let directory = RunDirectory::open(self.directory.join(name))?;
+                    measures::of_run(summary, &scene, &directory)?
+                }
                 Err(_) => Vec::new(),
             };
             let entry = self.entry(index);
             entry.measured = measured;
+            entry.time_step = scene.time.step;
+            let spoilt = ended.as_ref().ok().and_then(|summary| summary.unequilibrated.as_ref());
+            entry.unequilibrated =
+                spoilt.map(|found| found.means.iter().map(|mean| mean.quantity.clone()).collect()).unwrap_or_default();
             match ended {
                 Ok(summary) => (entry.state, entry.steps) = (ChoiceState::Finished, summary.steps),
                 Err(error) => {
@@ -330,7 +376,11 @@ impl TradeoffRun {
         let limits = fields::distances(&place(coarser)?, &finer)?;
         let mut found = Vec::new();
         for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
-            if self.summary.choices[index].state == ChoiceState::Finished {
+            // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
+            let times =
+                [&self.summary.choices[index], &self.summary.finer[0]].map(|run| run.steps as f64 * run.time_step);
+            let at_once = (times[0] - times[1]).abs() < 1e-6 * self.summary.finer[0].time_step;
+            if self.summary.choices[index].state == ChoiceState::Finished && at_once {
                 found.push((index, fields::distances(&place(name)?, &finer)?));
             }
         }
@@ -347,7 +397,10 @@ impl TradeoffRun {
     }
 
     /// References, errors and Pareto fronts.
-    fn assess(&mut self) {
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] if a measure was asked for that no run has.
+    fn assess(&mut self) -> Result<(), TradeoffError> {
         let summary = &mut self.summary;
         let arguments = &self.request.arguments;
         if summary.measures.is_empty() {
@@ -360,6 +413,17 @@ impl TradeoffRun {
                 if !summary.measures.contains(&measure) {
                     summary.measures.push(measure);
                 }
+            }
+        }
+        let is_finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
+        if summary.choices.iter().any(|choice| is_finished(&choice)) {
+            let lacks = |measure: &&String| {
+                summary.choices.iter().filter(is_finished).all(|choice| choice.value(measure).is_none())
+            };
+            let mistake = |measure| format!("no run measured `{measure}`");
+            let mistakes: Vec<String> = summary.measures.iter().filter(lacks).map(mistake).collect();
+            if !mistakes.is_empty() {
+                return Err(TradeoffError::Arguments { mistakes });
             }
         }
         let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());
@@ -404,6 +468,7 @@ impl TradeoffRun {
                 _ => Some(Verdict::Misses),
             };
         }
+        Ok(())
     }
 
     /// Whether and by what to make all runs longer.
@@ -416,12 +481,22 @@ impl TradeoffRun {
             return found;
         }
         // A target that may or may not be met asks for more samples.
-        let is_open = summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open));
-        let fluctuates = |choice: &Choice| choice.measured.iter().any(|measured| measured.fluctuates);
+        let is_open = summary.choices.iter().filter(|choice| choice.verdict == Some(Verdict::Open)).any(|choice| {
+            self.request.arguments.targets.iter().any(|target| {
+                let (Some(error), Some(reference)) =
+                    (choice.error(&target.measure), summary.reference(&target.measure))
+                else {
+                    return false;
+                };
+                let fluctuates = choice.value(&target.measure).is_some_and(|measured| measured.fluctuates);
+                let is_known = error.uncertainty.is_some() && fluctuates;
+                is_known && target.verdict(error, reference.value) == Verdict::Open
+            })
+        });
         if asked.budget.is_none() && summary.extensions >= MOST_FOR_A_VERDICT {
             return found;
         }
-        if !is_open || !summary.choices.iter().any(fluctuates) {
+        if !is_open {
             return found;
         }
         let wanted = length::Length { error: worst.map(|worst| worst / FOR_A_VERDICT.sqrt()), ..asked };
@@ -447,8 +522,15 @@ impl TradeoffRun {
             .zip(&states)
             .map(|(index, state)| Timed { name: &runs[*index].0, scene: &runs[*index].1, state })
             .collect();
-        let costs = cost::measure(&timed, adapter)?;
+        let proceed = || {
+            let interrupted = TradeoffError::Interrupted { directory: self.directory.clone() };
+            if self.interrupt.is_asked() { Err(interrupted) } else { Ok(()) }
+        };
+        let costs = cost::measure(&timed, adapter, &proceed)?;
         for ((index, cost), state) in finished.into_iter().zip(costs).zip(&states) {
+            if self.interrupt.is_asked() {
+                return Err(TradeoffError::Interrupted { directory: self.directory.clone() });
+            }
             let choice = &mut self.summary.choices[index];
             choice.cost = cost;
             if state.len() <= MOST_COMPARED && choice.float64_distance.is_none() {
@@ -464,7 +546,11 @@ impl TradeoffRun {
     /// The cheapest choice that meets all targets.
     fn choose(&mut self) {
         let cost = |choice: &&Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
-        let meets = self.summary.choices.iter().filter(|choice| choice.verdict == Some(Verdict::Meets));
+        let meets = self
+            .summary
+            .choices
+            .iter()
+            .filter(|choice| choice.verdict == Some(Verdict::Meets) && choice.cost.is_some());
         let chosen = meets.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         self.summary.chosen = chosen.map(|choice| choice.name.clone());
     }
@@ -496,28 +582,31 @@ fn count(runs: &[(String, Scene)]) -> usize {
     runs.len() - usize::from(is_choice)
 }
 
-/// Creates the directory of a tradeoff and takes its lock. With `force` the files of an earlier one there are removed; the runs
-/// in it are replaced one by one.
-fn create(path: &std::path::Path, force: bool) -> Result<RunDirectory, TradeoffError> {
-    let mut earlier: Vec<PathBuf> = Vec::new();
-    if let Ok(entries) = fs::read_dir(path) {
-        let names = entries.flatten().map(|entry| entry.path());
-        let is_ours =
-            |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(files::is_of_a_tradeoff);
-        earlier.extend(names.filter(is_ours));
-    }
-    earlier.sort();
-    if let (false, Some(first)) = (force, earlier.first()) {
-        return Err(OutputError::ResultExists { path: first.clone() }.into());
-    }
+/// What a new tradeoff would replace: files of an earlier one, and what has the name of a run; sorted.
+fn in_the_way(path: &Path, runs: &[(String, Scene)]) -> Vec<PathBuf> {
+    let entries = fs::read_dir(path).into_iter().flatten().flatten();
+    let is_ours = |name: &str| files::is_of_a_tradeoff(name) || runs.iter().any(|(run, _)| run == name);
+    let found = entries.filter(|entry| entry.file_name().to_str().is_some_and(is_ours));
+    let mut found: Vec<PathBuf> = found.map(|entry| entry.path()).collect();
+    found.sort();
+    found
+}
+
+/// Creates the directory of a tradeoff and takes its lock. The files of an earlier one there are removed, and so are those of runs that have
+/// the name of one of the earlier or of the new; what else is in their directories stays.
+fn create(path: &Path, runs: &[(String, Scene)]) -> Result<RunDirectory, TradeoffError> {
     let before = TradeoffSummary::load(path).ok();
     let directory = RunDirectory::make(path)?;
-    let runs = before.iter().flat_map(|summary| summary.choices.iter().chain(&summary.finer));
-    for name in runs.map(|run| &run.name).filter(|name| directory.file(name).is_dir()) {
-        // A run that continued would not be that of the new scene.
-        RunDirectory::claim(directory.file(name))?.clear(true)?;
+    let earlier = before.iter().flat_map(|summary| summary.choices.iter().chain(&summary.finer));
+    let names = earlier.map(|run| run.name.as_str()).chain(runs.iter().map(|(name, _)| name.as_str()));
+    let places: BTreeSet<PathBuf> = names.filter(|name| is_plain(name)).map(|name| directory.file(name)).collect();
+    // Nothing is removed where a run is under way.
+    let claimed = places.into_iter().filter(|place| place.is_dir()).map(RunDirectory::claim);
+    let claimed = claimed.collect::<Result<Vec<_>, _>>()?;
+    for run in &claimed {
+        run.clear(true)?;
     }
-    for file in earlier {
+    for file in in_the_way(path, &[]).into_iter().filter(|file| file.is_file()) {
         fs::remove_file(&file).map_err(OutputError::io("replace", &file))?;
     }
     Ok(directory)

@@ -27,6 +27,10 @@ pub struct TradeoffSummary {
     pub adapter: Option<AdapterSummary>,
     pub(super) arguments: Arguments,
     pub(super) stretch: Stretch,
+    /// Seconds that the runs have taken so far, drawing included.
+    pub spent: f64,
+    /// Whether the runs are as long as they are going to be.
+    pub(super) is_long_enough: bool,
     /// How often the runs were made longer.
     pub extensions: usize,
     /// Whether the budget, or the number of extensions, ended before the errors were as small as they were to be.
@@ -35,6 +39,9 @@ pub struct TradeoffSummary {
     pub measures: Vec<String>,
     /// What they are compared with.
     pub references: Vec<Reference>,
+    /// Keys among those varied that change what is simulated.
+    #[serde(default)]
+    pub(super) physical_keys: Vec<String>,
     /// The choices, in order.
     pub choices: Vec<Choice>,
     /// The runs that references are taken from.
@@ -66,6 +73,9 @@ pub struct Choice {
     pub float64_distance: Option<f64>,
     /// What was measured.
     pub measured: Vec<Measured>,
+    /// Columns of the table of energies whose means include the way to equilibrium.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unequilibrated: Vec<String>,
     /// How far that is off.
     pub errors: Vec<Deviation>,
     /// Whether it meets the targets, if there are any.
@@ -97,6 +107,7 @@ impl Choice {
             cost: None,
             float64_distance: None,
             measured: Vec::new(),
+            unequilibrated: Vec::new(),
             errors: Vec::new(),
             verdict: None,
         }
@@ -128,10 +139,13 @@ impl TradeoffSummary {
             adapter: None,
             arguments: request.arguments.clone(),
             stretch: Stretch::of(&request.base),
+            spent: 0.0,
+            is_long_enough: false,
             extensions: 0,
             is_short: false,
             measures: Vec::new(),
             references: Vec::new(),
+            physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
             choices: variants.iter().map(choice).collect(),
             finer: [FINER, COARSER].map(reference).to_vec(),
             chosen: None,
@@ -142,6 +156,12 @@ impl TradeoffSummary {
     #[must_use]
     pub fn reference(&self, measure: &str) -> Option<&Reference> {
         self.references.iter().find(|reference| reference.measure == measure)
+    }
+
+    /// Whether its runs are those of a request.
+    pub(super) fn is_of(&self, request: &Request) -> bool {
+        let names = self.choices.iter().map(|choice| choice.name.as_str());
+        names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str())) && self.finer.len() == 2
     }
 
     /// The simulated time that means are taken over.
@@ -155,6 +175,12 @@ impl TradeoffSummary {
     pub fn choice(&self) -> Option<&Choice> {
         let name = self.chosen.as_ref()?;
         self.choices.iter().find(|choice| choice.name == *name)
+    }
+
+    /// What to know before the numbers are trusted, line by line.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        super::advice::notes(self)
     }
 
     /// What meets the targets, in words; nothing where there are none.

@@ -74,7 +74,8 @@ impl Target {
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
     pub(super) fn most(&self, reference: f64, relative: bool) -> f64 {
         let (own, other) = match self.amount {
-            Amount::Relative(part) => (part, part * reference.abs()),
+            // Drifts and distances are parts of something already.
+            Amount::Relative(part) => (part, if reference == 0.0 { part } else { part * reference.abs() }),
             Amount::Absolute(amount) => (amount / reference.abs(), amount),
         };
         if relative { own } else { other }

@@ -123,6 +123,11 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     for part in ["# What accuracy costs: small fluid", "Pareto front", "## Unstable", "which was given"] {
         assert!(page.contains(part), "`{part}` is not in: {page}");
     }
+    // Nor does one replace the runs of a sweep, or anything else that has the name of a run.
+    fs::create_dir_all(place.path("other/finer")).unwrap();
+    let other = place.argument("other");
+    fails(&["tradeoff", &place.scene(), "--out", &other, "--vary", "time.step=0.02,0.04"], 5, &["finer", "--force"]);
+    assert_eq!(listing(&place.path("other")), ["finer"]);
     // A second one does not replace it unless that is asked for, and nothing is left to do for one that goes on.
     fails(&borrowed(&arguments(&place, &["--vary", "time.step=0.02,0.04"])), 5, &["tradeoff", "--resume"]);
     let before = fs::read(out.join("step=0.02").join(run_files::CHECKPOINT)).unwrap();
@@ -147,13 +152,16 @@ fn flows_are_compared_with_a_finer_run() {
         "output": {"energies": {"every": 2}, "fields": {"quantities": ["depth"]},
             "plot": {"width": 640, "height": 480}},
     }));
-    succeeds(&borrowed(&arguments(&place, &["--vary", "time.step=0.01,0.02,0.04", "--quiet"])));
+    let vary = ["--vary", "time.step=0.01,0.02,0.04", "--target", "energy_drift=1%", "--quiet"];
+    succeeds(&borrowed(&arguments(&place, &vary)));
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     assert_eq!(summary.measures, ["energy_drift", "depth_distance"]);
     for measure in &summary.measures {
         let errors: Vec<f64> = summary.choices.iter().map(|choice| choice.error(measure).unwrap().size()).collect();
         assert!(errors[0] < errors[1] && errors[1] < errors[2], "{measure}: {errors:?}");
     }
+    // A percentage of a drift is one of the energy, which all of them keep that well: the largest step is the cheapest.
+    assert_eq!(summary.choice().map(|choice| choice.time_step), Some(0.04));
     let names = listing(&place.path("out"));
     assert!(names.contains(&files::plot("depth_distance")), "{names:?}");
 }
@@ -199,6 +207,9 @@ fn mistakes_are_named_before_anything_runs() {
         (&["--vary", "time.step=0.02,0.04", "--reference", "pressure=x"], 2, &["pressure=23.635+-0.005"]),
         (&["--vary", "time.steps=100,200"], 2, &["`time.steps` cannot be varied"]),
         (&["--vary", "time.step=0.02,0.04", "--finer", "integrator.type=none"], 2, &["variant `finer`"]),
+        (&["--vary", "time.step=0.02,0.04", "--finer", "time.steps=7"], 2, &["`time.steps` follows from the choices"]),
+        (&["--vary", "time.step=0.02,0.04", "--measure", "depth_distance"], 2, &["no run of this scene measures that"]),
+        (&["--vary", "time.step=0.02,0.04", "--write", "new.json"], 2, &["`--write` needs a `--target`"]),
         (&["--vary", "time.stepp=0.02,0.04"], 2, &["did you mean `step`?"]),
         (&["--vary", "time.step=0.02,0.04", "--error", "2"], 2, &["0.002"]),
         (&["--vary", "time.step=0.02,0.04", "--budget", "soon"], 2, &["30s, 10m, 2h"]),
