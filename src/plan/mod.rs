@@ -410,7 +410,8 @@ impl Kernel {
     ///
     /// ```
     /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options, plan};
+    /// use mesoscope::plan::{Hardware, Options};
+    /// use mesoscope::run::plan;
     /// use mesoscope::shaders::{Array, Entry};
     ///
     /// let asked = r#"output.viscosity={"every":10,"window":50}"#.to_owned();
