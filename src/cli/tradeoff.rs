@@ -5,7 +5,7 @@ use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use mesoscope::numbers::{prefixed, short};
+use mesoscope::numbers::{prefixed, with_error};
 use mesoscope::printable;
 use mesoscope::tradeoff::{
     Choice, ChoiceState, Length, References, Request, Target, TradeoffError, TradeoffEvent, TradeoffOutcome,
@@ -257,11 +257,10 @@ impl Reporter {
             }
             TradeoffEvent::Extended { factor, worst } => {
                 self.ended = 0;
-                let why = match worst {
-                    Some(worst) => format!("the largest standard error is {} %", short(100.0 * worst)),
-                    None => "to decide".to_owned(),
-                };
-                self.say(&format!("{why}: {} times as long", short(factor)));
+                let why = worst.map_or_else(String::new, |worst| {
+                    format!("the largest standard error is {} %: ", with_error(100.0 * worst, None))
+                });
+                self.say(&format!("{why}means are taken over {factor:.1} times the time"));
             }
             TradeoffEvent::Timing => self.say("timing steps in turns"),
             TradeoffEvent::Finishing => {
@@ -285,7 +284,7 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
         if choice.state == ChoiceState::Unstable {
             row.push("unstable".to_owned());
         } else {
-            row.push(choice.cost.map_or_else(String::new, |cost| short(cost.seconds_per_time)));
+            row.push(choice.cost.map_or_else(String::new, |cost| with_error(cost.seconds_per_time, None)));
             row.extend(summary.measures.iter().map(|measure| cell(choice, measure)));
         }
         rows.push(row);

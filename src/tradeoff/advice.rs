@@ -122,7 +122,7 @@ fn targets(text: &mut String, summary: &TradeoffSummary) {
 pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, indent]: [&str; 2]) {
     if let Some(choice) = summary.choice() {
         let cost = choice.cost.map_or_else(String::new, |cost| {
-            format!(", at {} s a unit of simulated time", short(cost.seconds_per_time))
+            format!(", at {} s a unit of simulated time", with_error(cost.seconds_per_time, None))
         });
         let _ = writeln!(
             text,
@@ -184,7 +184,7 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
     text.push_str(&"--:|".repeat(summary.measures.len()));
     text.push('\n');
     for choice in &summary.choices {
-        let cost = choice.cost.map_or_else(|| "—".to_owned(), |cost| short(cost.seconds_per_time));
+        let cost = choice.cost.map_or_else(|| "—".to_owned(), |cost| with_error(cost.seconds_per_time, None));
         let _ = write!(text, "| {} | {cost} |", choice.label);
         for measure in &summary.measures {
             let error = choice.error(measure).map_or_else(|| "—".to_owned(), error_in_words);
