@@ -143,7 +143,7 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
             "{} comes nearest: its {} is off by {error}, with two standard errors {} times as much as it may be. ",
             choice.label,
             target.measure,
-            short(factor)
+            with_error(factor, None)
         );
     }
     if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open)) {
@@ -198,7 +198,7 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
         let _ = write!(
             text,
             " One step of the device is off from float64 by {} of what the step changes, at most.",
-            short(largest)
+            with_error(largest, None)
         );
     }
     text.push_str("\n\n");
@@ -225,8 +225,13 @@ fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
     text.push_str("The Pareto front, from the cheapest on:\n\n");
     for (choice, error) in &front {
         let noise = if error.is_within_noise() { " (within its statistical error)" } else { "" };
-        let _ =
-            writeln!(text, "- {}: {} s, off by {}{noise}", choice.label, short(cost(choice)), error_in_words(error));
+        let _ = writeln!(
+            text,
+            "- {}: {} s, off by {}{noise}",
+            choice.label,
+            with_error(cost(choice), None),
+            error_in_words(error)
+        );
     }
     text.push('\n');
     for bound in ROUND_ERRORS {
