@@ -296,15 +296,9 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
             "the runs ended before all errors were as small as asked for: a larger --budget makes them longer\n",
         );
     }
-    for note in summary.notes() {
-        text.push_str(&format_note(&note));
-    }
+    text.extend(summary.notes().iter().map(|note| format!("note: {note}\n")));
     text.push_str(&summary.advice());
     format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))
-}
-
-fn format_note(note: &str) -> String {
-    format!("note: {note}\n")
 }
 
 fn cell(choice: &Choice, measure: &str) -> String {

@@ -1,5 +1,6 @@
 //! Cells no narrower than the cutoff, and the windows of the prefilter.
 
+use crate::shaders::Constant;
 use crate::state::Units;
 
 /// The cell grid of a scene.
@@ -72,6 +73,22 @@ impl Grid {
     #[must_use]
     pub fn count(&self) -> u64 {
         self.rows() * u64::from(self.cells[0])
+    }
+
+    /// What kernels that find particles by their cells have to know: the length of a unit of positions and the cells on each axis, and
+    /// the number of all cells.
+    pub(crate) fn constants(&self, units: &Units) -> [(Constant, f64); 7] {
+        let unit = |axis: usize| units.lengths[axis] / 2_f64.powi(32);
+        let cells = |axis: usize| f64::from(self.cells[axis]);
+        [
+            (Constant::UnitX, unit(0)),
+            (Constant::UnitY, unit(1)),
+            (Constant::UnitZ, unit(2)),
+            (Constant::CellsX, cells(0)),
+            (Constant::CellsY, cells(1)),
+            (Constant::CellsZ, cells(2)),
+            (Constant::Cells, self.count() as f64),
+        ]
     }
 
     /// Whether rows are framed by copies of their last and first cell.

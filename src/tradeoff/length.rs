@@ -2,7 +2,6 @@
 
 use super::summary::Choice;
 use serde::{Deserialize, Serialize};
-use std::time::Duration;
 
 /// How often the runs are made longer, at most: each time by what is known from the last.
 const MOST_EXTENSIONS: usize = 5;
@@ -22,14 +21,6 @@ pub struct Length {
     pub budget: Option<f64>,
 }
 
-impl Length {
-    /// Runs of at most this duration.
-    #[must_use]
-    pub fn within(self, budget: Duration) -> Self {
-        Self { budget: Some(budget.as_secs_f64()), ..self }
-    }
-}
-
 /// What an extension of all runs is to be, and whether the budget allows no more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extension {
@@ -40,7 +31,8 @@ pub(super) struct Extension {
 }
 
 /// By what to lengthen all runs so that the worst relative standard error falls from `worst` to what is asked for, within the
-/// budget. `spent` are the seconds of all steps so far, `averaged` and `all` the time that means are taken over and all time.
+/// budget. `spent` are the seconds of all runs so far, `averaged` the simulated time that means are taken over, `rounds` how often the runs
+/// were made longer.
 pub(super) fn extension(length: &Length, worst: Option<f64>, spent: f64, averaged: f64, rounds: usize) -> Extension {
     let wanted = match (length.error, worst) {
         (Some(error), Some(worst)) if worst > error => ((worst / error).powi(2) * MARGIN).min(LARGEST_FACTOR),

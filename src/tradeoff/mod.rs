@@ -32,9 +32,11 @@
 //! ```
 
 mod advice;
+mod assessment;
 mod charts;
 mod cost;
 mod deviation;
+mod directory;
 mod error;
 mod fields;
 pub mod files;

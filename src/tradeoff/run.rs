@@ -1,12 +1,10 @@
 //! A tradeoff from its first run to its page.
 
 use super::cost::{self, Timed};
-use super::deviation::Deviation;
+use super::directory::{create, in_the_way};
 use super::error::TradeoffError;
 use super::length::{self, Extension};
 use super::measures;
-use super::pareto;
-use super::reference;
 use super::request::{COARSER, FINER, Request};
 use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
@@ -19,10 +17,7 @@ use crate::plot::Plotter;
 use crate::run::{self, Event, Interrupt, Progress, RunError, Simulation};
 use crate::scene::Scene;
 use crate::self_test;
-use crate::sweep::is_plain;
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Seconds from which on a user has to say that all runs may take so long.
@@ -187,7 +182,7 @@ impl TradeoffRun {
             self.summary.spent += start.elapsed().as_secs_f64();
             self.summary.save(place.path())?;
             advanced?;
-            self.assess()?;
+            self.summary.assess(&self.request)?;
             let spent = self.summary.spent;
             let extension = if self.summary.is_long_enough {
                 Extension { factor: 1.0, is_short: self.summary.is_short }
@@ -214,7 +209,7 @@ impl TradeoffRun {
         self.summary.save(place.path())?;
         observer(TradeoffEvent::Timing);
         self.time(&runs, adapter)?;
-        self.assess()?;
+        self.summary.assess(&self.request)?;
         self.choose();
         observer(TradeoffEvent::Finishing);
         self.finish(&place, &gpu)
@@ -396,81 +391,6 @@ impl TradeoffRun {
         Ok(())
     }
 
-    /// References, errors and Pareto fronts.
-    ///
-    /// # Errors
-    /// [`TradeoffError::Arguments`] if a measure was asked for that no run has.
-    fn assess(&mut self) -> Result<(), TradeoffError> {
-        let summary = &mut self.summary;
-        let arguments = &self.request.arguments;
-        if summary.measures.is_empty() {
-            let finished = summary.choices.iter().find(|choice| choice.state == ChoiceState::Finished);
-            let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
-            summary.measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
-            let further = arguments.targets.iter().map(|target| target.measure.clone());
-            let further = further.chain(arguments.references.measures().map(str::to_owned));
-            for measure in further {
-                if !summary.measures.contains(&measure) {
-                    summary.measures.push(measure);
-                }
-            }
-        }
-        let is_finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
-        if summary.choices.iter().any(|choice| is_finished(&choice)) {
-            let lacks = |measure: &&String| {
-                summary.choices.iter().filter(is_finished).all(|choice| choice.value(measure).is_none())
-            };
-            let mistake = |measure| format!("no run measured `{measure}`");
-            let mistakes: Vec<String> = summary.measures.iter().filter(lacks).map(mistake).collect();
-            if !mistakes.is_empty() {
-                return Err(TradeoffError::Arguments { mistakes });
-            }
-        }
-        let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());
-        let (finer, coarser) = (measured(0), measured(1));
-        let reference = |measure: &String| {
-            let given = arguments.references.find(measure).cloned();
-            let predicted = || reference::predicted(measure, &self.request.base);
-            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, finer, coarser))
-        };
-        summary.references = summary.measures.iter().filter_map(reference).collect();
-        for choice in &mut summary.choices {
-            let error = |reference: &super::Reference| {
-                let measured = choice.measured.iter().find(|found| found.measure == reference.measure)?;
-                Some(Deviation::new(measured, reference))
-            };
-            choice.errors = summary.references.iter().filter_map(error).collect();
-        }
-        for measure in &summary.measures {
-            let pair = |choice: &Choice| {
-                let error = choice.error(measure).map_or(f64::NAN, Deviation::size);
-                [choice.cost.map_or(f64::NAN, |cost| cost.seconds_per_time), error]
-            };
-            let front = pareto::front(&summary.choices.iter().map(pair).collect::<Vec<_>>());
-            for (choice, on_front) in summary.choices.iter_mut().zip(front) {
-                if let Some(error) = choice.errors.iter_mut().find(|error| error.measure == *measure) {
-                    error.on_front = on_front;
-                }
-            }
-        }
-        let targets = &arguments.targets;
-        for choice in &mut summary.choices {
-            let verdict = |target: &super::Target| {
-                let reference = summary.references.iter().find(|known| known.measure == target.measure)?;
-                Some(
-                    target
-                        .verdict(choice.errors.iter().find(|error| error.measure == target.measure)?, reference.value),
-                )
-            };
-            choice.verdict = match choice.state {
-                _ if targets.is_empty() => None,
-                ChoiceState::Finished => targets.iter().map(|target| verdict(target).unwrap_or(Verdict::Open)).max(),
-                _ => Some(Verdict::Misses),
-            };
-        }
-        Ok(())
-    }
-
     /// Whether and by what to make all runs longer.
     fn extension(&self, spent: f64) -> Extension {
         let summary = &self.summary;
@@ -580,34 +500,4 @@ impl TradeoffRun {
 fn count(runs: &[(String, Scene)]) -> usize {
     let is_choice = runs.split_last().is_some_and(|((_, last), others)| others.iter().any(|(_, other)| other == last));
     runs.len() - usize::from(is_choice)
-}
-
-/// What a new tradeoff would replace: files of an earlier one, and what has the name of a run; sorted.
-fn in_the_way(path: &Path, runs: &[(String, Scene)]) -> Vec<PathBuf> {
-    let entries = fs::read_dir(path).into_iter().flatten().flatten();
-    let is_ours = |name: &str| files::is_of_a_tradeoff(name) || runs.iter().any(|(run, _)| run == name);
-    let found = entries.filter(|entry| entry.file_name().to_str().is_some_and(is_ours));
-    let mut found: Vec<PathBuf> = found.map(|entry| entry.path()).collect();
-    found.sort();
-    found
-}
-
-/// Creates the directory of a tradeoff and takes its lock. The files of an earlier one there are removed, and so are those of runs that have
-/// the name of one of the earlier or of the new; what else is in their directories stays.
-fn create(path: &Path, runs: &[(String, Scene)]) -> Result<RunDirectory, TradeoffError> {
-    let before = TradeoffSummary::load(path).ok();
-    let directory = RunDirectory::make(path)?;
-    let earlier = before.iter().flat_map(|summary| summary.choices.iter().chain(&summary.finer));
-    let names = earlier.map(|run| run.name.as_str()).chain(runs.iter().map(|(name, _)| name.as_str()));
-    let places: BTreeSet<PathBuf> = names.filter(|name| is_plain(name)).map(|name| directory.file(name)).collect();
-    // Nothing is removed where a run is under way.
-    let claimed = places.into_iter().filter(|place| place.is_dir()).map(RunDirectory::claim);
-    let claimed = claimed.collect::<Result<Vec<_>, _>>()?;
-    for run in &claimed {
-        run.clear(true)?;
-    }
-    for file in in_the_way(path, &[]).into_iter().filter(|file| file.is_file()) {
-        fs::remove_file(&file).map_err(OutputError::io("replace", &file))?;
-    }
-    Ok(directory)
 }

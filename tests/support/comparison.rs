@@ -53,10 +53,19 @@ pub fn totals(state: &State) -> ([i64; 3], i64, i64) {
     (state.total_momentum(), masses, energies)
 }
 
-/// Observables of a fluid on the device are those of the reference of the very same state: momentum to the bit, the others to single
-/// precision, and the Laplacian also to what single precision may make of `jump`, the second derivative at the cutoff.
+/// Observables of a fluid on the device are those of the reference of the very same state: momentum to the bit, the others as
+/// [`same_energies`] has it.
 #[track_caller]
 pub fn same_observables(measured: &Observables, expected: &Observables, jump: f64, changes: &[&str]) {
+    same_energies(measured, expected, jump, &format!("{changes:?}"));
+    assert_eq!(measured.momentum, expected.momentum, "({changes:?})");
+}
+
+/// Energies, virials and derivatives of the potential on the device are those of the reference of the very same state to single
+/// precision, and the Laplacian also to what single precision may make of `jump`, the second derivative at the cutoff. Bath energies
+/// are zero in both where there are no baths.
+#[track_caller]
+pub fn same_energies(measured: &Observables, expected: &Observables, jump: f64, scene: &str) {
     for (name, a, b) in [
         ("kinetic energy", measured.kinetic_energy, expected.kinetic_energy),
         ("potential energy", measured.potential_energy, expected.potential_energy),
@@ -64,12 +73,13 @@ pub fn same_observables(measured: &Observables, expected: &Observables, jump: f6
         ("virial", measured.total_virial, expected.total_virial),
         ("gradient", measured.gradient_squared, expected.gradient_squared),
         ("laplacian", measured.laplacian, expected.laplacian),
+        ("bath energy", measured.bath_energy, expected.bath_energy),
+        ("bath square", measured.bath_square, expected.bath_square),
     ] {
         let scale = b.abs().max(expected.kinetic_energy.abs()).max(1e-3);
         let allowed = 2e-4 * scale + if name == "laplacian" { jump } else { 0.0 };
-        assert!((a - b).abs() <= allowed, "{name}: {a} on the device, {b} in the reference ({changes:?})");
+        assert!((a - b).abs() <= allowed, "{name}: {a} on the device, {b} in the reference ({scene})");
     }
-    assert_eq!(measured.momentum, expected.momentum, "({changes:?})");
 }
 
 /// The largest difference of any momentum or position, in integer units.

@@ -148,18 +148,10 @@ impl Builder<'_> {
         let cutoff = self.force.cutoff;
         let Quanta { energy, pair_energy, force_squared, curvature, .. } = self.plan.quanta;
         let to_force = units.momentum / half;
-        let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         let exponent = self.force.weight_exponent;
         let capacity = self.frame_capacity();
-        let mut constants = Vec::new();
+        let mut constants = self.grid.constants(&units).to_vec();
         constants.extend([
-            (Constant::UnitX, unit(0)),
-            (Constant::UnitY, unit(1)),
-            (Constant::UnitZ, unit(2)),
-            (Constant::CellsX, f64::from(self.grid.cells[0])),
-            (Constant::CellsY, f64::from(self.grid.cells[1])),
-            (Constant::CellsZ, f64::from(self.grid.cells[2])),
-            (Constant::Cells, self.grid.count() as f64),
             (Constant::WindowX, f64::from(self.grid.windows[0])),
             (Constant::WindowY, f64::from(self.grid.windows[1])),
             (Constant::WindowZ, f64::from(self.grid.windows[2])),

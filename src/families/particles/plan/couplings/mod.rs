@@ -128,18 +128,11 @@ impl Builder<'_> {
         let half = 0.5 * model.time_step;
         let to_force = units.momentum / half;
         let cutoff = self.force.cutoff;
-        let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         let reach = self.reach();
         let mass = self.species.mass();
         let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
-        self.plan.constants = vec![
-            (Constant::UnitX, unit(0)),
-            (Constant::UnitY, unit(1)),
-            (Constant::UnitZ, unit(2)),
-            (Constant::CellsX, f64::from(self.grid.cells[0])),
-            (Constant::CellsY, f64::from(self.grid.cells[1])),
-            (Constant::CellsZ, f64::from(self.grid.cells[2])),
-            (Constant::Cells, self.grid.count() as f64),
+        let mut constants = self.grid.constants(&units).to_vec();
+        constants.extend([
             (Constant::Particles, self.particles as f64),
             (Constant::Workgroup, self.options.workgroup() as f64),
             (Constant::Quantities, self.quantities() as f64),
@@ -156,7 +149,8 @@ impl Builder<'_> {
             (Constant::InverseMass, 1.0 / mass),
             (Constant::FrictionPerLength, mass / (model.time_step * units.momentum)),
             (Constant::BathSquare, inverse(quanta.bath_squared)),
-        ];
+        ]);
+        self.plan.constants = constants;
         if !self.species.have_table() {
             let [repulsion, friction, noise] = self.pair_impulses(0, 0);
             self.plan.constants.extend([

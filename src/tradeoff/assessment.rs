@@ -1,0 +1,86 @@
+//! From what was measured to errors, Pareto fronts and verdicts.
+
+use super::deviation::Deviation;
+use super::error::TradeoffError;
+use super::reference::{self, Reference};
+use super::request::{FINER, Request};
+use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::target::{Target, Verdict};
+use super::{measures, pareto};
+
+impl TradeoffSummary {
+    /// References, errors and Pareto fronts.
+    ///
+    /// # Errors
+    /// [`TradeoffError::Arguments`] if a measure was asked for that no run has.
+    pub(super) fn assess(&mut self, request: &Request) -> Result<(), TradeoffError> {
+        let summary = self;
+        let arguments = &request.arguments;
+        if summary.measures.is_empty() {
+            let finished = summary.choices.iter().find(|choice| choice.state == ChoiceState::Finished);
+            let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
+            summary.measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
+            let further = arguments.targets.iter().map(|target| target.measure.clone());
+            let further = further.chain(arguments.references.measures().map(str::to_owned));
+            for measure in further {
+                if !summary.measures.contains(&measure) {
+                    summary.measures.push(measure);
+                }
+            }
+        }
+        let is_finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
+        if summary.choices.iter().any(|choice| is_finished(&choice)) {
+            let lacks = |measure: &&String| {
+                summary.choices.iter().filter(is_finished).all(|choice| choice.value(measure).is_none())
+            };
+            let mistake = |measure| format!("no run measured `{measure}`");
+            let mistakes: Vec<String> = summary.measures.iter().filter(lacks).map(mistake).collect();
+            if !mistakes.is_empty() {
+                return Err(TradeoffError::Arguments { mistakes });
+            }
+        }
+        let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());
+        let (finer, coarser) = (measured(0), measured(1));
+        let reference = |measure: &String| {
+            let given = arguments.references.find(measure).cloned();
+            let predicted = || reference::predicted(measure, &request.base);
+            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, finer, coarser))
+        };
+        summary.references = summary.measures.iter().filter_map(reference).collect();
+        for choice in &mut summary.choices {
+            let error = |reference: &Reference| {
+                let measured = choice.measured.iter().find(|found| found.measure == reference.measure)?;
+                Some(Deviation::new(measured, reference))
+            };
+            choice.errors = summary.references.iter().filter_map(error).collect();
+        }
+        for measure in &summary.measures {
+            let pair = |choice: &Choice| {
+                let error = choice.error(measure).map_or(f64::NAN, Deviation::size);
+                [choice.cost.map_or(f64::NAN, |cost| cost.seconds_per_time), error]
+            };
+            let front = pareto::front(&summary.choices.iter().map(pair).collect::<Vec<_>>());
+            for (choice, on_front) in summary.choices.iter_mut().zip(front) {
+                if let Some(error) = choice.errors.iter_mut().find(|error| error.measure == *measure) {
+                    error.on_front = on_front;
+                }
+            }
+        }
+        let targets = &arguments.targets;
+        for choice in &mut summary.choices {
+            let verdict = |target: &Target| {
+                let reference = summary.references.iter().find(|known| known.measure == target.measure)?;
+                Some(
+                    target
+                        .verdict(choice.errors.iter().find(|error| error.measure == target.measure)?, reference.value),
+                )
+            };
+            choice.verdict = match choice.state {
+                _ if targets.is_empty() => None,
+                ChoiceState::Finished => targets.iter().map(|target| verdict(target).unwrap_or(Verdict::Open)).max(),
+                _ => Some(Verdict::Misses),
+            };
+        }
+        Ok(())
+    }
+}
