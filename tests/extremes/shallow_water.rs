@@ -3,12 +3,15 @@
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::families::reference::{ShallowWaterReference, Unstable};
 use mesoscope::families::{Instability, Model, ShallowWater};
+use mesoscope::gpu::AdapterKind;
 use mesoscope::plan::{Options, Storage, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
-use crate::support::{EVERY_STEP, GYRO, ROTATE, WHITE, engine, in_eights, largest_difference, series, start, water};
+use crate::support::{
+    EVERY_STEP, GYRO, ROTATE, WHITE, engine, gpu, in_eights, largest_difference, series, start, water,
+};
 
 const WARM: &str = "temperature=4e-4";
 const UNSMOOTHED: &str = r#"interactions.0.smoothing={"length":0}"#;
@@ -628,7 +631,14 @@ fn more_particles_in_a_cell_than_an_adapter_makes_turns_are_all_seen_or_the_run_
                 assert_eq!(total, shallow_water(&scene).total_mass());
             }
             Err(error) => {
-                assert!(matches!(error, EngineError::GaveUp { step: 0, .. }), "{traversal:?}: {error}");
+                // Software adapters leave such loops; plans for any GPU do not count turns and see what comes of it.
+                let software = gpu().description().kind == AdapterKind::Software;
+                let named = match error {
+                    EngineError::GaveUp { step: 0, .. } => true,
+                    EngineError::Unstable(failure) => failure.step == 0 && software && !gpu().serial_memory(),
+                    _ => false,
+                };
+                assert!(named, "{traversal:?}: {error}");
             }
         }
     }
