@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 21] = [
+const LAYERS: [&str; 22] = [
     "printable",
     "numbers",
     "table",
@@ -27,6 +27,7 @@ const LAYERS: [&str; 21] = [
     "self_test",
     "sweep",
     "tradeoff",
+    "stability",
 ];
 
 /// Rust files of a directory and those below it.

@@ -54,6 +54,7 @@ pub mod run;
 pub mod scene;
 pub mod self_test;
 pub mod shaders;
+pub mod stability;
 pub mod state;
 pub mod sweep;
 pub mod table;

@@ -15,6 +15,7 @@ mod run_arguments;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod stability;
 mod sweep;
 mod sweep_report;
 mod table;
@@ -45,6 +46,7 @@ Examples:
   mesoscope sweep dpd-fluid --vary seed=1,2   compare variants of a scene
   mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04
                                               what accuracy costs, and what to choose
+  mesoscope stability dpd-fluid               how far its time step can go
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 
@@ -62,6 +64,7 @@ enum Command {
     Resume(resume::Arguments),
     Sweep(sweep::Arguments),
     Tradeoff(tradeoff::Arguments),
+    Stability(stability::Arguments),
     Plot(plot::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
@@ -80,6 +83,7 @@ pub fn main() -> ExitCode {
         Command::Resume(arguments) => resume::execute(&arguments),
         Command::Sweep(arguments) => sweep::execute(&arguments),
         Command::Tradeoff(arguments) => tradeoff::execute(&arguments),
+        Command::Stability(arguments) => stability::execute(&arguments),
         Command::Plot(arguments) => plot::execute(&arguments),
         Command::Scenes(arguments) => scenes::execute(&arguments),
         Command::Schema(arguments) => schema::execute(&arguments),

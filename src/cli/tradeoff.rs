@@ -93,7 +93,7 @@ pub struct Arguments {
     how: RunArguments,
 }
 
-fn part(text: &str) -> Result<f64, String> {
+pub(super) fn part(text: &str) -> Result<f64, String> {
     let accepted = "accepted: a part of one, as in 0.002, or 0.2%";
     let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
     let value = number.trim().parse::<f64>().ok().map(|value| scale * value);

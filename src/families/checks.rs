@@ -7,13 +7,24 @@ use crate::state::State;
 /// Particles up to which a start is tried where a scene is checked; a start of more is looked at when a run makes it.
 const MOST_TRIED: u64 = 20_000;
 
+/// Whether a time step that cannot be stable is a mistake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StepCheck {
+    /// It is refused.
+    Refuse,
+    /// It is what somebody wants to see.
+    Allow,
+}
+
 /// All problems of a scene that makes sense otherwise.
-pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
+pub(crate) fn check(scene: &Scene, step: StepCheck, problems: &mut Problems) {
     let model = Model::new(scene);
     if model.physics().may_refuse_starts() && model.particle_count() <= MOST_TRIED {
         model.physics().check_start(scene, &model, &initial_state(scene, &model), problems);
     }
-    model.physics().check_step(scene, &model, problems);
+    if step == StepCheck::Refuse {
+        model.physics().check_step(scene, &model, problems);
+    }
 }
 
 /// Refuses a start of more particles than a check of the scene tries.

@@ -10,6 +10,7 @@ pub(crate) mod conservation;
 mod field;
 mod fit;
 mod instability;
+mod limits;
 mod model;
 mod observables;
 pub mod particles;
@@ -25,12 +26,13 @@ mod warnings;
 
 pub use crate::document::NETWORK_VISCOSITY;
 pub use bath::BathStep;
-pub(crate) use checks::check;
 pub use checks::check_start;
+pub(crate) use checks::{StepCheck, check};
 pub use column::Column;
 pub use conservation::{KeptQuantity, KeptSum};
 pub use field::{Field, FieldError};
 pub use instability::Instability;
+pub use limits::{Beyond, Limit, limits};
 pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables};
 pub use particles::Particles;
@@ -113,6 +115,9 @@ pub(crate) trait Physics {
     fn has_thermostat(&self, _: &Model) -> bool {
         false
     }
+
+    /// The laws that bound a scene, and how near to their bounds it is. Those without meaning for the scene have a share of 0.
+    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit>;
 
     /// Warnings about a scene without mistakes.
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;

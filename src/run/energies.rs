@@ -1,11 +1,11 @@
-//! The table of energies of a run, and the means of its columns.
+//! The table of energies of a run: its file, and what a summary says of it.
 
 use super::RunError;
+use super::energy_rows::EnergyRows;
 use super::sections::{Sections, bytes, samples};
 use super::settling;
-use crate::families::{Column, Model, column};
+use crate::families::Model;
 use crate::measure::Observables;
-use crate::measure::statistics::{Estimate, estimate};
 use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, read_table};
 use crate::scene::Scene;
 use crate::table::Table;
@@ -22,11 +22,7 @@ pub(super) const SECTION: &str = "configuration";
 /// The rows so far, on disk and in memory.
 pub(super) struct EnergyRecorder {
     file: EnergiesFile,
-    columns: Vec<Column>,
-    rows: Vec<Vec<f64>>,
-    /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
-    configuration: Vec<[f64; 2]>,
-    time_step: f64,
+    rows: EnergyRows,
     equilibration: u64,
     /// Whether means are meant to be those of equilibrium.
     is_about_equilibrium: bool,
@@ -68,12 +64,11 @@ impl EnergyRecorder {
         sections: &Sections<'_>,
     ) -> Result<Self, RunError> {
         let step = sections.step;
-        let (time_step, equilibration) = (scene.time.step, scene.time.equilibration);
+        let equilibration = scene.time.equilibration;
         let kept = samples(scene.output.energies.every, equilibration, step);
         let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
         let configuration = configuration.as_chunks().0.to_vec();
-        let columns = model.physics().columns(model);
-        let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+        let names: Vec<&str> = model.physics().columns(model).into_iter().map(|column| column.name).collect();
         let (file, rows) = match written {
             None => (EnergiesFile::create(path, &names)?, Vec::new()),
             Some(written) => match EnergiesFile::resume(path, &names, written) {
@@ -88,21 +83,18 @@ impl EnergyRecorder {
             },
         };
         let is_about_equilibrium = settling::is_about_equilibrium(scene, model);
-        Ok(Self { file, columns, rows, configuration, time_step, equilibration, is_about_equilibrium })
+        let rows = EnergyRows::continued(scene, model, rows, configuration);
+        Ok(Self { file, rows, equilibration, is_about_equilibrium })
     }
 
     /// What a checkpoint has to keep besides the table itself.
     pub(super) fn section(&self) -> Vec<u8> {
-        bytes(self.configuration.iter().flatten().copied())
+        bytes(self.rows.configuration().iter().flatten().copied())
     }
 
     pub(super) fn add(&mut self, observables: &Observables) -> Result<(), RunError> {
-        let cells: Vec<f64> = self.columns.iter().map(|column| (column.value)(observables, self.time_step)).collect();
+        let cells = self.rows.add(observables);
         self.file.append(observables.step, &cells)?;
-        self.rows.push(std::iter::once(observables.step as f64).chain(cells).collect());
-        if observables.step >= self.equilibration {
-            self.configuration.push([observables.gradient_squared, observables.laplacian]);
-        }
         Ok(())
     }
 
@@ -126,23 +118,15 @@ impl EnergyRecorder {
 
     /// Kinetic temperature of the last row.
     pub(super) fn temperature(&self) -> Option<f64> {
-        let column = 1 + self.columns.iter().position(|column| column.name == "temperature")?;
-        self.rows.last().map(|row| row[column]).filter(|temperature| temperature.is_finite())
+        self.rows.last("temperature").filter(|temperature| temperature.is_finite())
     }
 
     /// Adds the means after equilibration to a summary.
     pub(super) fn summarise(&self, summary: &mut Summary) {
-        for (index, Column { name, .. }) in self.columns.iter().enumerate().filter(|(_, column)| column.name != "time")
-        {
-            let mean = if *name == column::CONFIGURATIONAL_TEMPERATURE.name {
-                ratio_of_means(&self.configuration)
-            } else {
-                let rows = self.rows.iter().filter(|row| row[0] >= self.equilibration as f64);
-                estimate(&rows.map(|row| row[index + 1]).collect::<Vec<_>>())
-            };
+        for (name, mean) in self.rows.means() {
             summary.add_mean(name, mean.as_ref());
         }
-        if self.rows.iter().all(|row| row[0] < self.equilibration as f64) {
+        if self.rows.are_before_equilibration() {
             let text = format!("`{}` has no row after equilibration, so there are no means", files::ENERGIES);
             summary.warnings.push(text);
         }
@@ -154,36 +138,6 @@ impl EnergyRecorder {
 
     /// The table for a plot.
     pub(super) fn table(&self) -> Table {
-        let names = std::iter::once("step").chain(self.columns.iter().map(|column| column.name));
-        Table::new(names, self.rows.clone())
-    }
-}
-
-/// ⟨a⟩/⟨b⟩. Its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩, which blocking gives.
-fn ratio_of_means(pairs: &[[f64; 2]]) -> Option<Estimate> {
-    let total = |index: usize| pairs.iter().map(|pair| pair[index]).sum::<f64>();
-    let mean_below = total(1) / pairs.len() as f64;
-    let ratio = total(0) / total(1);
-    if !ratio.is_finite() {
-        return None;
-    }
-    let deviations: Vec<f64> = pairs.iter().map(|[above, below]| (above - ratio * below) / mean_below).collect();
-    estimate(&deviations).map(|error| Estimate { mean: ratio, ..error })
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    #[test]
-    fn a_mean_ratio_weighs_by_its_denominator() {
-        let found = ratio_of_means(&[[1.0, 1.0], [9.0, 3.0]]).unwrap();
-        assert_eq!(found.mean, 2.5);
-        // Deviations (1 - 2.5)/2 and (9 - 7.5)/2: ±0.75, whose mean has the error 0.75.
-        assert!((found.standard_error.unwrap() - 0.75).abs() < 1e-15);
-        assert_eq!(found.samples, 2);
-        assert_eq!(ratio_of_means(&[]), None);
-        assert_eq!(ratio_of_means(&[[0.0, 0.0]]), None);
+        self.rows.table()
     }
 }

@@ -38,6 +38,7 @@ mod analyses;
 mod colour_ranges;
 mod conservation;
 mod energies;
+mod energy_rows;
 mod error;
 mod execution;
 mod interrupt;
@@ -53,6 +54,7 @@ mod simulation;
 mod sizes;
 mod tally;
 mod task;
+mod trial;
 
 pub use adapter::adapter_for;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
@@ -66,6 +68,7 @@ pub use pilot::{ExpectedTime, expected_time};
 pub use plan::plan;
 pub use simulation::Simulation;
 pub use sizes::Sizes;
+pub(crate) use trial::{Stop, Trial};
 
 use crate::gpu::AdapterDescription;
 use std::time::Duration;

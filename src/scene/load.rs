@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::families;
+use crate::families::{self, StepCheck};
 
 use super::path::related;
 use super::shape::Substitute;
@@ -151,13 +151,31 @@ pub fn parse_for(
     overrides: &[String],
     steps: Option<u64>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
+    parse_checked(name, text, overrides, steps, StepCheck::Refuse)
+}
+
+/// Like [`parse`], but a time step that no scheme is stable with is accepted: to see what becomes of it.
+///
+/// # Errors
+/// As [`parse`], for all other mistakes.
+pub(crate) fn parse_any_step(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow)?.0)
+}
+
+fn parse_checked(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+    steps: Option<u64>,
+    step: StepCheck,
+) -> Result<(Scene, Vec<Warning>), SceneError> {
     let reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
     if reading.problems.is_empty() {
         let scene = reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
         if problems.is_empty() {
-            families::check(&scene, &mut problems);
+            families::check(&scene, step, &mut problems);
         }
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
     }

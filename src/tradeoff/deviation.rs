@@ -21,7 +21,7 @@ pub struct Deviation {
 
 impl Deviation {
     /// The deviation of what was measured. It is relative unless the reference is zero.
-    pub(super) fn new(measured: &Measured, reference: &Reference) -> Self {
+    pub(crate) fn new(measured: &Measured, reference: &Reference) -> Self {
         let relative = reference.value != 0.0;
         let scale = if relative { reference.value.abs() } else { 1.0 };
         let uncertainty =

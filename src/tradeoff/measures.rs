@@ -6,10 +6,11 @@ use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
 use crate::scene::Scene;
 use crate::sweep::numbers_of;
+use crate::table::Table;
 use serde::{Deserialize, Serialize};
 
 /// How far the total energy has gone from its first value at most, as a part of it.
-pub(super) const ENERGY_DRIFT: &str = "energy_drift";
+pub(crate) const ENERGY_DRIFT: &str = "energy_drift";
 
 /// Columns that are assessed where nobody says which, if a run has them.
 const USUAL: [&str; 4] = ["temperature", "configurational_temperature", "pressure", "potential_energy"];
@@ -40,18 +41,24 @@ pub(super) fn of_run(
         .collect();
     if drifts(scene) {
         let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
-        let energies = table.column("total_energy").unwrap_or_default();
-        if let Some(first) = energies.first().copied().filter(|first| *first != 0.0 && first.is_finite()) {
-            let value = energies.iter().map(|energy| ((energy - first) / first).abs()).fold(0.0, f64::max);
-            let standard_error = Some(0.0);
-            measured.push(Measured { measure: ENERGY_DRIFT.to_owned(), value, standard_error, fluctuates: false });
-        }
+        measured.extend(energy_drift(&table));
     }
     Ok(measured)
 }
 
+/// How far the total energy of a table has gone from its first value; none where that is zero or one is not a number.
+pub(crate) fn energy_drift(table: &Table) -> Option<Measured> {
+    let energies = table.column("total_energy")?;
+    let first = energies.first().copied().filter(|first| *first != 0.0)?;
+    if energies.iter().any(|energy| !energy.is_finite()) {
+        return None;
+    }
+    let value = energies.iter().map(|energy| ((energy - first) / first).abs()).fold(0.0, f64::max);
+    Some(Measured { measure: ENERGY_DRIFT.to_owned(), value, standard_error: Some(0.0), fluctuates: false })
+}
+
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.
-pub(super) fn drifts(scene: &Scene) -> bool {
+pub(crate) fn drifts(scene: &Scene) -> bool {
     let model = Model::new(scene);
     let columns = run::quantities(&model);
     columns.contains(&"total_energy") && model.physics().is_conservative(&model)

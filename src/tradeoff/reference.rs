@@ -79,13 +79,13 @@ impl References {
     }
 
     /// The measures that have one.
-    pub(super) fn measures(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn measures(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|reference| reference.measure.as_str())
     }
 }
 
 /// The value that a measure has if equations of motion are solved exactly, where that is known.
-pub(super) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
+pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
     let (value, law) = match measure {
         ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant".to_owned()),
         "temperature" | "configurational_temperature" if has_thermostat(scene) => {

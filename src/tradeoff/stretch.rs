@@ -10,7 +10,7 @@ const WRITTEN: [&str; 4] = ["checkpoint", "snapshot", "trajectory", "fields"];
 
 /// A stretch of simulated time: what passes before means are taken, and what they are taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Stretch {
+pub(crate) struct Stretch {
     /// Time of equilibration.
     pub equilibration: f64,
     /// Time that means are taken over.
@@ -21,7 +21,7 @@ pub(super) struct Stretch {
 
 impl Stretch {
     /// That of a scene as it is.
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let time = &scene.time;
         let equilibration = time.equilibration.min(time.steps);
         Self {

@@ -344,12 +344,18 @@ fn resume_completes_what_is_missing() {
     let out = place.path("out");
     let resume = ["resume", &place.argument("out"), "--quiet"];
 
-    // A disk on which tables have room and pictures have not, at the last snapshot or at the first plot.
+    // A disk on which tables have room and pictures have not, at the last snapshot or at the first plot. SwiftShader keeps its code in
+    // files and is killed under such a limit, by whatever makes a kernel, also where nothing is written.
+    let limited = "trap '' XFSZ; ulimit -f 24";
+    let output = |mut command: Command| ended(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap());
+    let driver_works = output(after(limited, &["check", &scene])).0.is_some();
     for (number, further) in [&["--set", "output.snapshot.width=64"][..], &[]].into_iter().enumerate() {
         let out = place.argument(&format!("full{number}"));
         let run = [&["run", &scene, "--out", &out, "--quiet"], further].concat();
-        let child = after("trap '' XFSZ; ulimit -f 24", &run);
-        let (code, said) = ended({ child }.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap());
+        if !driver_works {
+            continue;
+        }
+        let (code, said) = output(after(limited, &run));
         assert_eq!(code, Some(5), "{said}");
         assert!(
             said.contains(".png`: File too large") && said.contains("the last good checkpoint, of step 100"),

@@ -13,6 +13,7 @@ mod output;
 mod particles;
 mod schema;
 mod shallow_water;
+mod stability;
 mod sweep;
 mod terminal;
 mod tradeoff;

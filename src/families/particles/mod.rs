@@ -17,8 +17,8 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Model, Observables, PairForce, Physics,
-    PositionBath, Species, units,
+    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Limit, Model, Observables, PairForce,
+    Physics, PositionBath, Species, units,
 };
 use crate::document::{BondPotential, Interaction, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -126,6 +126,10 @@ impl Physics for Particles {
 
     fn has_thermostat(&self, model: &Model) -> bool {
         conservation::has_thermostat(model)
+    }
+
+    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit> {
+        stability::limits(self, scene, model)
     }
 
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {

@@ -9,7 +9,7 @@
 use crate::document::{
     Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning,
 };
-use crate::families::{Alike, BathStep, Bond, BondKind, Bonds, Model};
+use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, FRICTION_LIMIT, Limit, Model, Particles};
 use std::f64::consts::PI;
 
 /// B + W beyond which nothing is stable.
@@ -82,6 +82,23 @@ pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
         two_digits(advisable)
     );
     Some(Warning { path: "time.step".to_owned(), message })
+}
+
+/// The laws that bound the time step, those of what is there at times included.
+pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Limit> {
+    let step = scene.time.step;
+    let network = model.bonds().and_then(|bonds| Network::of(scene, model, bonds));
+    let mut strains = certain(scene, model, network.as_ref(), step);
+    strains.extend(possible(scene, model, network.as_ref(), step));
+    let strain = worst(&strains).map_or(0.0, |strain| strain.sum);
+    let pairs = particles.pair_force.as_ref();
+    let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
+    let frequency = pairs.map_or(0.0, |force| model.largest_repulsion_frequency(force).0);
+    vec![
+        Limit { law: "B + W = 4", share: strain / LIMIT, beyond: Beyond::Unstable },
+        Limit { law: "oscillation ω dt = 2", share: 0.5 * frequency * step, beyond: Beyond::Unstable },
+        Limit { law: "friction Γ dt = 1/4", share: friction * step / FRICTION_LIMIT, beyond: Beyond::Biased },
+    ]
 }
 
 fn worst(strains: &[Strain]) -> Option<Strain> {

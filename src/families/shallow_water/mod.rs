@@ -20,8 +20,8 @@ pub use plan::smoothing;
 use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
-    Column, KeptQuantity, KeptSum, MaterialLoops, Model, Observables, Physics, PictureKind, ShallowWater, Species,
-    conservation,
+    Beyond, Column, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables, Physics, PictureKind,
+    ShallowWater, Species, conservation,
 };
 use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::numbers::{grouped, with_error};
@@ -61,6 +61,15 @@ impl Physics for ShallowWater {
 
     fn has_specific_momenta(&self) -> bool {
         true
+    }
+
+    fn limits(&self, scene: &Scene, _: &Model) -> Vec<Limit> {
+        let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
+        let share = self.stability(&scene.integrator, lengths, scene.time.step);
+        vec![
+            Limit { law: "p = 1, water spread evenly", share, beyond: Beyond::Unstable },
+            Limit { law: "p at random places", share: share / self.clean_share(), beyond: Beyond::Unstable },
+        ]
     }
 
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {

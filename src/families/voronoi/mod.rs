@@ -17,7 +17,7 @@ pub use layout::CellLayout;
 use super::pictures::{CellValues, EnergyChart};
 use super::reference::Stepper;
 use super::{
-    Column, KeptQuantity, KeptSum, Model, NETWORK_VISCOSITY, Observables, Physics, PictureKind, Species, Tally,
+    Column, KeptQuantity, KeptSum, Limit, Model, NETWORK_VISCOSITY, Observables, Physics, PictureKind, Species, Tally,
     Voronoi, conservation, units,
 };
 use crate::document::{InitialMasses, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
@@ -56,6 +56,10 @@ impl Physics for Voronoi {
 
     fn changes_masses(&self) -> bool {
         self.exchanges_mass()
+    }
+
+    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit> {
+        warnings::limits(self, scene, model)
     }
 
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {

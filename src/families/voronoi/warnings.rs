@@ -3,7 +3,7 @@
 use crate::document::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
 use crate::document::{shear_waves, voronoi};
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{Model, Voronoi};
+use crate::families::{Beyond, Limit, Model, Voronoi};
 
 /// All warnings about a scene.
 pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Warning> {
@@ -43,16 +43,60 @@ const LARGEST_REYNOLDS: f64 = 4.0;
 
 const MOST_MOLECULES: f64 = 20.0;
 
-/// Warns of a time step that is too long for Voronoi cells.
-fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, warnings: &mut Vec<Warning>) {
-    let step = scene.time.step;
-    let present = || model.species.iter().filter(|species| species.count > 0);
-    let lightest = present().map(|species| species.mass).fold(f64::INFINITY, f64::min);
+/// The laws that bound the time step.
+pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit> {
+    let (sound, size) = sound_and_size(scene, model, cells);
+    let friction = cells.viscosity * scene.time.step / lightest(model);
+    let (law, friction) = if scene.integrator == (Integrator::Euler {}) {
+        ("2 % of heat of Euler's scheme", EULER_EXCESS * friction / HOT)
+    } else {
+        ("friction dt η/M = 1/20", friction / FRICTION_OF_CELLS)
+    };
+    let heat = random_heat(scene, model, cells).unwrap_or(0.0);
+    let cut = if cells.exchange_limit > 0.0 { RARELY * heat / cells.exchange_limit } else { 0.0 };
+    vec![
+        Limit {
+            law: "sound through a fifth of a cell",
+            share: sound * scene.time.step / (SOUND_LIMIT * size),
+            beyond: Beyond::Biased,
+        },
+        Limit { law, share: friction, beyond: Beyond::Biased },
+        Limit { law: "conduction cut by its limit", share: cut, beyond: Beyond::Biased },
+    ]
+}
+
+/// The mass of the lightest cell.
+fn lightest(model: &Model) -> f64 {
+    let present = model.species.iter().filter(|species| species.count > 0);
+    present.map(|species| species.mass).fold(f64::INFINITY, f64::min)
+}
+
+/// The speed of sound and the width of a cell.
+fn sound_and_size(scene: &Scene, model: &Model, cells: &Voronoi) -> (f64, f64) {
     let size = (model.units.volume() / model.particle_count().max(1) as f64).sqrt();
     let hottest = scene.interactions.iter().map(|each| each.bath_temperature(scene.temperature)).fold(0.0, f64::max);
     // Sound of an ideal gas in two dimensions, with the heat it makes or without.
     let stiffness = if cells.keeps_energy() { 2.0 } else { 1.0 };
-    let sound = (stiffness * hottest / cells.molecular_mass).sqrt();
+    ((stiffness * hottest / cells.molecular_mass).sqrt(), size)
+}
+
+/// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.
+fn random_heat(scene: &Scene, model: &Model, cells: &Voronoi) -> Option<f64> {
+    let voronoi = voronoi(scene)?;
+    // Hot cells have fewer molecules at the same pressure.
+    let thinned = match voronoi.initial_masses {
+        InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
+        InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
+    };
+    let fewest = lightest(model) / cells.molecular_mass;
+    Some((2.0 * cells.conductivity? * scene.time.step).sqrt() * thinned / fewest)
+}
+
+/// Warns of a time step that is too long for Voronoi cells.
+fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, warnings: &mut Vec<Warning>) {
+    let step = scene.time.step;
+    let lightest = lightest(model);
+    let (sound, size) = sound_and_size(scene, model, cells);
     if sound * step > SOUND_LIMIT * size {
         let message = format!(
             "sound of speed {sound:.3} passes {:.2} of a cell of width {size:.3} in one step of {step}; up to \
@@ -116,13 +160,7 @@ fn warn_of_fluid(
         );
         warn(warnings, format!("{path}.molecular_mass"), message);
     }
-    if let Some(conductivity) = cells.conductivity {
-        // Hot cells have fewer molecules at the same pressure.
-        let thinned = match voronoi.initial_masses {
-            InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
-            InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
-        };
-        let random = (2.0 * conductivity * scene.time.step).sqrt() * thinned / fewest;
+    if let Some(random) = random_heat(scene, model, cells) {
         if RARELY * random > cells.exchange_limit {
             let message = format!(
                 "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \

@@ -1,0 +1,112 @@
+//! The rows of the table of energies, and the means of its columns.
+
+use crate::families::{Column, Model, column};
+use crate::measure::Observables;
+use crate::measure::statistics::{Estimate, estimate};
+use crate::scene::Scene;
+use crate::table::Table;
+
+/// All rows of a run so far.
+pub(super) struct EnergyRows {
+    columns: Vec<Column>,
+    rows: Vec<Vec<f64>>,
+    /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
+    configuration: Vec<[f64; 2]>,
+    time_step: f64,
+    equilibration: u64,
+}
+
+impl EnergyRows {
+    /// No rows yet.
+    pub(super) fn new(scene: &Scene, model: &Model) -> Self {
+        Self::continued(scene, model, Vec::new(), Vec::new())
+    }
+
+    /// The rows of a run that goes on, and the sums behind the configurational temperature.
+    pub(super) fn continued(scene: &Scene, model: &Model, rows: Vec<Vec<f64>>, configuration: Vec<[f64; 2]>) -> Self {
+        let columns = model.physics().columns(model);
+        Self { columns, rows, configuration, time_step: scene.time.step, equilibration: scene.time.equilibration }
+    }
+
+    /// Adds a row, and gives its numbers without the step.
+    pub(super) fn add(&mut self, observables: &Observables) -> Vec<f64> {
+        let cells: Vec<f64> = self.columns.iter().map(|column| (column.value)(observables, self.time_step)).collect();
+        self.rows.push(std::iter::once(observables.step as f64).chain(cells.iter().copied()).collect());
+        if observables.step >= self.equilibration {
+            self.configuration.push([observables.gradient_squared, observables.laplacian]);
+        }
+        cells
+    }
+
+    /// The sums behind the configurational temperature, row by row after equilibration.
+    pub(super) fn configuration(&self) -> &[[f64; 2]] {
+        &self.configuration
+    }
+
+    /// The last value of a column.
+    pub(super) fn last(&self, name: &str) -> Option<f64> {
+        let column = 1 + self.columns.iter().position(|column| column.name == name)?;
+        self.rows.last().map(|row| row[column])
+    }
+
+    /// The step of the last row.
+    pub(super) fn last_step(&self) -> Option<u64> {
+        self.rows.last().map(|row| row[0] as u64)
+    }
+
+    /// The means of all columns after equilibration.
+    pub(super) fn means(&self) -> Vec<(&'static str, Option<Estimate>)> {
+        let columns = self.columns.iter().enumerate().filter(|(_, column)| column.name != "time");
+        columns
+            .map(|(index, Column { name, .. })| {
+                let mean = if *name == column::CONFIGURATIONAL_TEMPERATURE.name {
+                    ratio_of_means(&self.configuration)
+                } else {
+                    let rows = self.rows.iter().filter(|row| row[0] >= self.equilibration as f64);
+                    estimate(&rows.map(|row| row[index + 1]).collect::<Vec<_>>())
+                };
+                (*name, mean)
+            })
+            .collect()
+    }
+
+    /// Whether no row is after equilibration.
+    pub(super) fn are_before_equilibration(&self) -> bool {
+        self.rows.iter().all(|row| row[0] < self.equilibration as f64)
+    }
+
+    /// All rows as a table.
+    pub(super) fn table(&self) -> Table {
+        let names = std::iter::once("step").chain(self.columns.iter().map(|column| column.name));
+        Table::new(names, self.rows.clone())
+    }
+}
+
+/// ⟨a⟩/⟨b⟩. Its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩, which blocking gives.
+fn ratio_of_means(pairs: &[[f64; 2]]) -> Option<Estimate> {
+    let total = |index: usize| pairs.iter().map(|pair| pair[index]).sum::<f64>();
+    let mean_below = total(1) / pairs.len() as f64;
+    let ratio = total(0) / total(1);
+    if !ratio.is_finite() {
+        return None;
+    }
+    let deviations: Vec<f64> = pairs.iter().map(|[above, below]| (above - ratio * below) / mean_below).collect();
+    estimate(&deviations).map(|error| Estimate { mean: ratio, ..error })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_mean_ratio_weighs_by_its_denominator() {
+        let found = ratio_of_means(&[[1.0, 1.0], [9.0, 3.0]]).unwrap();
+        assert_eq!(found.mean, 2.5);
+        // Deviations (1 - 2.5)/2 and (9 - 7.5)/2: ±0.75, whose mean has the error 0.75.
+        assert!((found.standard_error.unwrap() - 0.75).abs() < 1e-15);
+        assert_eq!(found.samples, 2);
+        assert_eq!(ratio_of_means(&[]), None);
+        assert_eq!(ratio_of_means(&[[0.0, 0.0]]), None);
+    }
+}

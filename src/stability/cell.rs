@@ -1,0 +1,152 @@
+//! One scene of a map: run until it is plain what becomes of it.
+
+use super::verdict::{Verdict, verdict};
+use crate::gpu::{AdapterChoice, GpuError};
+use crate::run::{self, Interrupt, RunError, Stop, Trial};
+use crate::scene::Scene;
+use crate::tradeoff::{self, Deviation, ENERGY_DRIFT, Measured, Reference, References};
+use serde::{Deserialize, Serialize};
+
+/// Parts of the averaged time after which a verdict that is certain ends a run.
+const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
+
+/// What became of one scene of a map.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// The value of the key along its row.
+    pub value: f64,
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Whether its errors are certain enough for that.
+    pub is_certain: bool,
+    /// Steps that it ran.
+    pub steps: u64,
+    /// Its time step; none where it was refused.
+    pub time_step: Option<f64>,
+    /// How far measures are off.
+    pub errors: Vec<Deviation>,
+    /// Why it was refused, or became unstable.
+    pub reason: Option<String>,
+}
+
+impl Cell {
+    /// A scene that is none.
+    pub(super) fn refused(value: f64, reason: String) -> Self {
+        let (verdict, is_certain) = (Verdict::Refused, true);
+        Self { value, verdict, is_certain, steps: 0, time_step: None, errors: Vec::new(), reason: Some(reason) }
+    }
+
+    /// The error of a measure.
+    #[must_use]
+    pub fn error(&self, measure: &str) -> Option<&Deviation> {
+        self.errors.iter().find(|error| error.measure == measure)
+    }
+}
+
+/// What is compared with what.
+pub(super) struct Comparison<'a> {
+    pub measures: &'a [String],
+    pub references: &'a References,
+    pub tolerance: f64,
+}
+
+/// Runs a scene; none if it was asked to stop.
+///
+/// # Errors
+/// [`RunError`] for what says nothing about the scene.
+pub(super) fn evaluate(
+    value: f64,
+    scene: &Scene,
+    comparison: &Comparison<'_>,
+    adapter: &AdapterChoice,
+    interrupt: &Interrupt,
+) -> Result<Option<Cell>, RunError> {
+    match run(value, scene, comparison, adapter, interrupt) {
+        Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(value, error.to_string()))),
+        ended => ended,
+    }
+}
+
+/// Whether an error says that there can be no such run here.
+fn is_of_the_scene(error: &RunError) -> bool {
+    matches!(error, RunError::Scene(_) | RunError::TooLarge { .. } | RunError::Gpu(GpuError::TooSmall { .. }))
+}
+
+fn run(
+    value: f64,
+    scene: &Scene,
+    comparison: &Comparison<'_>,
+    adapter: &AdapterChoice,
+    interrupt: &Interrupt,
+) -> Result<Option<Cell>, RunError> {
+    let gpu = run::adapter_for(scene, adapter)?;
+    let mut trial = Trial::new(&gpu, scene)?;
+    let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
+    let averaged = scene.time.steps.saturating_sub(equilibration);
+    let mut cell = Cell {
+        value,
+        verdict: Verdict::Right,
+        is_certain: true,
+        steps: 0,
+        time_step: Some(scene.time.step),
+        errors: Vec::new(),
+        reason: None,
+    };
+    for part in PARTS {
+        let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
+        match trial.advance(equilibration.saturating_add(more), interrupt)? {
+            Stop::Interrupted => return Ok(None),
+            Stop::Unstable(reason) => {
+                cell.errors.clear();
+                return Ok(Some(Cell {
+                    verdict: Verdict::Unstable,
+                    is_certain: true,
+                    reason: Some(reason),
+                    steps: trial.step(),
+                    ..cell
+                }));
+            }
+            Stop::Reached => {}
+        }
+        cell.steps = trial.step();
+        (cell.errors, cell.reason) = compare(&trial, scene, comparison);
+        (cell.verdict, cell.is_certain) = verdict(&cell.errors, comparison.tolerance);
+        if cell.reason.is_some() {
+            (cell.verdict, cell.is_certain) = (Verdict::Biased, true);
+        }
+        if cell.is_certain && !comparison.measures.is_empty() {
+            break;
+        }
+    }
+    Ok(Some(cell))
+}
+
+/// How far measures are off, and which are not numbers.
+fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Vec<Deviation>, Option<String>) {
+    let means = trial.means();
+    let (mut errors, mut lost) = (Vec::new(), Vec::new());
+    for measure in comparison.measures {
+        let Some(reference) = reference(measure, scene, comparison.references) else { continue };
+        let measured = if measure == ENERGY_DRIFT {
+            tradeoff::energy_drift(&trial.table())
+        } else {
+            let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
+            estimate.map(|found| Measured {
+                measure: measure.clone(),
+                value: found.mean,
+                standard_error: found.standard_error,
+                fluctuates: true,
+            })
+        };
+        match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {
+            Some(error) => errors.push(error),
+            None => lost.push(format!("`{measure}`")),
+        }
+    }
+    let reason = (!lost.is_empty()).then(|| format!("{} has no number", lost.join(", ")));
+    (errors, reason)
+}
+
+fn reference(measure: &str, scene: &Scene, given: &References) -> Option<Reference> {
+    given.find(measure).cloned().or_else(|| tradeoff::predicted(measure, scene))
+}

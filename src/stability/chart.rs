@@ -1,0 +1,124 @@
+//! The picture of a map: verdicts over the two keys, with edges and bounds; of a single row, errors over its key.
+
+use super::range::Spacing;
+use super::request::Request;
+use super::summary::{Row, StabilitySummary};
+use super::verdict::Verdict;
+use crate::numbers::short;
+use crate::plot::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
+use crate::sweep::readable;
+
+/// The place of an edge on its axis: the middle between two neighbours.
+fn middle(summary: &StabilitySummary, low: f64, high: f64) -> f64 {
+    summary.spacing.middle(low, high)
+}
+
+fn axis(label: &str, spacing: Spacing) -> Axis {
+    match spacing {
+        Spacing::Log => Axis::log(label),
+        Spacing::Linear => Axis::linear(label),
+    }
+}
+
+/// The chart of a map.
+pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
+    let percent = format!("{} %", short(100.0 * summary.tolerance()));
+    let measures: Vec<String> = summary.measures.iter().map(|measure| measure.replace('_', " ")).collect();
+    let compared = if measures.is_empty() { "nothing is compared".to_owned() } else { measures.join(", ") };
+    let subtitle = format!("right: {compared} within {percent}");
+    let panel = if summary.rows.len() == 1 { of_a_row(summary) } else { of_rows(summary, request, &percent) };
+    Chart { title: format!("{}: stability", request.title()), subtitle, panels: vec![panel] }
+}
+
+/// Verdicts, edges and bounds of all rows.
+fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Panel {
+    let key = request.row_key().unwrap_or_default();
+    let numbers = request.row_numbers();
+    let y = match &numbers {
+        Some((_, spacing)) => axis(&request.short(key), *spacing),
+        None => {
+            let name = |row: &Row| row.setting.as_ref().map_or_else(String::new, |setting| readable(&setting.value));
+            Axis::categories(&request.short(key), summary.rows.iter().map(name).collect())
+        }
+    };
+    let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);
+    let rows = || summary.rows.iter().enumerate();
+    let mut panel = Panel { x: axis(&summary.key, summary.spacing), y, ..Panel::default() };
+    // Lines go from row to row; where a row has none they end.
+    let line = |name: &str, place: &dyn Fn(&Row) -> Option<f64>, pattern: usize| {
+        let points: Vec<[f64; 2]> =
+            rows().map(|(row, found)| [place(found).unwrap_or(f64::NAN), height(row)]).collect();
+        let alone = points.iter().filter(|[place, _]| place.is_finite()).count() < 2;
+        let style = if alone { SeriesStyle::LineMarkers } else { SeriesStyle::Line };
+        Series { style, ..Series::line(name, points) }.with_ink(SeriesInk::Ink { pattern })
+    };
+    for (number, law) in laws(summary).into_iter().enumerate() {
+        let bound = |row: &Row| row.bounds.iter().find(|bound| bound.law == law).map(|bound| bound.at);
+        panel.series.push(line(&format!("law: {law}"), &bound, number));
+    }
+    for (number, verdict) in Verdict::ALL.into_iter().enumerate() {
+        let of_row = |(row, found): (usize, &Row)| -> Vec<[f64; 2]> {
+            let own = found.cells.iter().filter(|cell| cell.verdict == verdict);
+            own.map(|cell| [cell.value, height(row)]).collect()
+        };
+        let points: Vec<[f64; 2]> = rows().flat_map(of_row).collect();
+        if points.is_empty() {
+            continue;
+        }
+        let name = match verdict {
+            Verdict::Right => format!("right within {percent}"),
+            other => other.name().to_owned(),
+        };
+        panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(number)));
+    }
+    panel
+}
+
+/// The laws that bound some row, in the order in which they are met.
+fn laws(summary: &StabilitySummary) -> Vec<String> {
+    let mut laws: Vec<String> = Vec::new();
+    for bound in summary.rows.iter().flat_map(|row| &row.bounds) {
+        if !laws.contains(&bound.law) {
+            laws.push(bound.law.clone());
+        }
+    }
+    laws
+}
+
+/// Errors over the key, the tolerance, and where runs end.
+fn of_a_row(summary: &StabilitySummary) -> Panel {
+    let mut panel = Panel { x: axis(&summary.key, summary.spacing), y: Axis::log("error (%)"), ..Panel::default() };
+    let Some(row) = summary.rows.first() else { return panel };
+    let tolerance = 100.0 * summary.tolerance();
+    let mut ends = [tolerance, tolerance];
+    for measure in &summary.measures {
+        let of_cell = |cell: &super::Cell| {
+            let error = cell.error(measure)?;
+            // What is zero by chance lies at its uncertainty: a logarithm has no zero.
+            let size =
+                if error.size() > 0.0 { error.size() } else { error.uncertainty.filter(|error| *error > 0.0)? };
+            Some(([cell.value, 100.0 * size], 100.0 * error.uncertainty.unwrap_or(0.0)))
+        };
+        let (points, bars): (Vec<[f64; 2]>, Vec<f64>) = row.cells.iter().filter_map(of_cell).unzip();
+        for [_, size] in &points {
+            ends = [ends[0].min(*size), ends[1].max(*size)];
+        }
+        let series = Series { style: SeriesStyle::LineMarkers, ..Series::line(&measure.replace('_', " "), points) };
+        panel.series.push(series.with_errors(bars));
+    }
+    let lost: Vec<[f64; 2]> =
+        row.cells.iter().filter(|cell| cell.verdict >= Verdict::Unstable).map(|cell| [cell.value, ends[1]]).collect();
+    if !lost.is_empty() {
+        panel.series.push(Series::markers("unstable", lost));
+    }
+    let vertical = |name: &str, at: f64, pattern: usize| {
+        Series::line(name, ends.map(|end| [at, end]).to_vec()).with_ink(SeriesInk::Ink { pattern })
+    };
+    for (number, bound) in row.bounds.iter().enumerate() {
+        panel.series.push(vertical(&format!("law: {}", bound.law), bound.at, number + 1));
+    }
+    if let Some((Some(low), high)) = row.unstable_from() {
+        panel.series.push(vertical("first unstable", middle(summary, low, high), 0));
+    }
+    panel.with_reference("tolerance", tolerance)
+}

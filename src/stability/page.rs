@@ -1,0 +1,156 @@
+//! The page of a map, in words: how far a scene may go, and where laws and measurement part.
+
+use super::request::Request;
+use super::summary::{Row, StabilitySummary};
+use super::verdict::Verdict;
+use crate::numbers::short;
+use std::fmt::Write as _;
+
+/// A law and a measured edge are said to part if they differ by more than this factor.
+const APART: f64 = 1.25;
+
+/// A number in three digits.
+fn number(value: f64) -> String {
+    short(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
+/// A duration in hours or days.
+pub(super) fn hours(seconds: f64) -> String {
+    let hours = seconds / 3600.0;
+    if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
+}
+
+/// Up to where a row is right, in words.
+pub(super) fn right_in_words(row: &Row) -> String {
+    match row.right() {
+        None => "nowhere".to_owned(),
+        Some((first, last, is_bounded)) => {
+            let from = row.cells.first().is_some_and(|cell| cell.value < first);
+            let from = if from { format!("{} to ", number(first)) } else { String::new() };
+            let beyond = if is_bounded { "" } else { " and beyond" };
+            format!("{from}{}{beyond}", number(last))
+        }
+    }
+}
+
+/// From where on a row is unstable, in words.
+pub(super) fn unstable_in_words(row: &Row) -> String {
+    match row.unstable_from() {
+        None => "not seen".to_owned(),
+        Some((None, high)) => format!("{} or less", number(high)),
+        Some((Some(_), high)) => number(high),
+    }
+}
+
+/// What laws say of a row, in words.
+fn bounds_in_words(row: &Row) -> String {
+    let words = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, number(bound.at)));
+    let words: Vec<String> = words.collect();
+    if words.is_empty() { "none in this range".to_owned() } else { words.join("; ") }
+}
+
+/// Where laws of stability and the first unstable scenes part, law by law.
+fn differences(summary: &StabilitySummary) -> Vec<String> {
+    let mut found: Vec<(&str, Vec<f64>)> = Vec::new();
+    for row in &summary.rows {
+        let Some(bound) = row.bounds.iter().find(|bound| bound.is_of_stability) else { continue };
+        let Some((Some(low), high)) = row.unstable_from() else { continue };
+        let ratio = summary.spacing.middle(low, high) / bound.at;
+        if (1.0 / APART..=APART).contains(&ratio) {
+            continue;
+        }
+        match found.iter_mut().find(|(law, _)| *law == bound.law) {
+            Some((_, ratios)) => ratios.push(ratio),
+            None => found.push((&bound.law, vec![ratio])),
+        }
+    }
+    let words = |(law, mut ratios): (&str, Vec<f64>)| {
+        ratios.sort_by(f64::total_cmp);
+        let (least, most) = (number(ratios[0]), number(ratios[ratios.len() - 1]));
+        let (where_to, rows) = if ratios.len() == 1 {
+            (format!("at {least} times"), "the first unstable run is".to_owned())
+        } else {
+            (format!("at {least} to {most} times"), format!("in {} rows the first unstable runs are", ratios.len()))
+        };
+        format!("{rows} {where_to} what the law {law} says")
+    };
+    found.into_iter().map(words).collect()
+}
+
+/// The result, line by line.
+pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
+    let mut lines = differences(summary);
+    let cells = || summary.rows.iter().flat_map(|row| &row.cells);
+    let open = cells().filter(|cell| !cell.is_certain).count();
+    if open > 0 && !summary.measures.is_empty() {
+        lines.push(format!(
+            "{open} of {} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them",
+            cells().count()
+        ));
+    }
+    let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
+    let mut reasons: Vec<(&str, usize)> = Vec::new();
+    for reason in refused.filter_map(|cell| cell.reason.as_deref()).filter_map(|reason| reason.lines().next()) {
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, count)) => *count += 1,
+            None => reasons.push((reason, 1)),
+        }
+    }
+    lines.extend(reasons.into_iter().map(|(reason, count)| format!("{count} refused: {reason}")));
+    if summary.measures.is_empty() {
+        lines.push("nothing is compared: no law says what this scene measures, so what runs to its end counts as right; --reference MEASURE=VALUE gives a value".to_owned());
+    }
+    lines
+}
+
+/// The page.
+pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
+    let key = request.short(&summary.key);
+    let measures: Vec<String> = summary.measures.iter().map(|measure| format!("`{measure}`")).collect();
+    let right = if measures.is_empty() {
+        "What runs to its end counts as right.".to_owned()
+    } else {
+        format!("Right means that {} are within {} %.", measures.join(", "), short(100.0 * summary.tolerance()))
+    };
+    let mut text = format!("# {}: how far it may go\n\n`{}` is varied. {right}", request.title(), summary.key);
+    if let Some(adapter) = &summary.adapter {
+        let _ = write!(text, " Run on {} ({}) by version {}.", adapter.name, adapter.driver, summary.mesoscope_version);
+    }
+    let _ = write!(text, "\n\n| row | right: {key} up to | unstable from | laws |\n|---|---|---|---|\n");
+    for row in &summary.rows {
+        let label = if row.label.is_empty() { "the scene" } else { &row.label };
+        let _ = writeln!(
+            text,
+            "| {label} | {} | {} | {} |",
+            right_in_words(row),
+            unstable_in_words(row),
+            bounds_in_words(row)
+        );
+    }
+    let findings = findings(summary);
+    if !findings.is_empty() {
+        text.push('\n');
+        for line in findings {
+            let _ = writeln!(text, "- {line}");
+        }
+    }
+    text
+}
+
+impl StabilitySummary {
+    /// The result of a row in words: its label, up to where it is right, and from where on it is unstable.
+    #[must_use]
+    pub fn in_words(&self) -> Vec<[String; 4]> {
+        let words = |row: &Row| {
+            let label = if row.label.is_empty() { "the scene".to_owned() } else { row.label.clone() };
+            [label, right_in_words(row), unstable_in_words(row), bounds_in_words(row)]
+        };
+        self.rows.iter().map(words).collect()
+    }
+
+    /// What else was found, line by line.
+    #[must_use]
+    pub fn findings(&self) -> Vec<String> {
+        findings(self)
+    }
+}

@@ -1,0 +1,346 @@
+//! What a map of stability is asked for.
+
+use super::error::StabilityError;
+use super::range::{Range, Spacing, number_of};
+use crate::families::Model;
+use crate::output::Id;
+use crate::run;
+use crate::scene::{self, Scene, SceneError, nearest};
+use crate::sweep::{Setting, readable, short_keys};
+use crate::tradeoff::{ENERGY_DRIFT, References, Stretch};
+use serde::{Deserialize, Serialize};
+
+/// Keys that the length of the runs is made of.
+const LENGTHS: [&str; 6] =
+    ["time", "time.steps", "time.equilibration", "output", "output.energies", "output.energies.every"];
+
+/// The key that is varied where nobody says which.
+const STEP: &str = "time.step";
+
+/// From a quarter of the time step of the scene to sixteen times.
+const USUAL: ([f64; 2], usize) = ([0.25, 16.0], 7);
+
+/// Measures that are compared where nobody says which, if a law says what they should be.
+const COMPARED: [&str; 3] = ["temperature", "configurational_temperature", ENERGY_DRIFT];
+
+/// Steps that means are taken over, at least.
+const FEWEST_STEPS: f64 = 256.0;
+/// Rows of the table of energies in them, at least.
+const FEWEST_ROWS: u64 = 64;
+
+/// A scene, what of it to vary, and what is right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    pub(super) arguments: Arguments,
+    /// The scene before anything is varied.
+    pub(super) base: Scene,
+    /// The key along rows, and the numbers of the grid.
+    pub(super) along: Along,
+    /// The key of rows; none for a single row.
+    rows: Option<Range>,
+}
+
+/// A request as it is written into the summary, and read from there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Arguments {
+    /// The name of the scene in messages.
+    pub scene: String,
+    /// Its text.
+    pub text: String,
+    /// Overrides of all runs.
+    pub set: Vec<String>,
+    /// Keys and their values, one or two.
+    pub vary: Vec<String>,
+    /// The largest error of what is right.
+    pub tolerance: f64,
+    /// References of the user.
+    pub references: References,
+    /// Measures to compare; the usual ones if empty.
+    pub measures: Vec<String>,
+    /// How often the distance of neighbours in a row is halved at an edge.
+    pub bisections: u32,
+}
+
+/// A key whose numbers increase along rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Along {
+    pub key: String,
+    pub values: Vec<f64>,
+    pub spacing: Spacing,
+}
+
+impl Request {
+    /// Varies the scene in a file, or a built-in one.
+    ///
+    /// Each of `vary` is a key with a range, `key=low..high/points`, or with values, `key=value,value,…`. One of them makes a
+    /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is.
+    ///
+    /// # Errors
+    /// [`StabilityError::Arguments`] with all mistakes at once, [`StabilityError::Scene`] where no scene of the map is accepted.
+    pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StabilityError> {
+        let (scene, text) = scene::read(source)?;
+        Self::new(Arguments {
+            scene,
+            text,
+            set: set.to_vec(),
+            vary: vary.to_vec(),
+            tolerance: 0.05,
+            references: References::default(),
+            measures: Vec::new(),
+            bisections: 3,
+        })
+    }
+
+    pub(super) fn new(arguments: Arguments) -> Result<Self, StabilityError> {
+        let mut mistakes = Vec::new();
+        let mut ranges = Vec::new();
+        for argument in &arguments.vary {
+            match Range::parse(argument) {
+                Ok(range) if LENGTHS.contains(&range.key.as_str()) => mistakes.push(format!(
+                    "`{}` cannot be varied: all runs cover the same simulated time; --set time.steps=N says how much",
+                    range.key
+                )),
+                Ok(range) if ranges.iter().any(|known: &Range| known.key == range.key) => {
+                    mistakes.push(format!("`{}` is varied twice", range.key));
+                }
+                Ok(range) => ranges.push(range),
+                Err(message) => mistakes.push(format!("`--vary {argument}`: {message}")),
+            }
+        }
+        if arguments.vary.len() > 2 {
+            mistakes.push(format!("{} keys are varied; accepted: one for a row, two for a map", arguments.vary.len()));
+        }
+        let base = scene::parse_any_step(&arguments.scene, &arguments.text, &arguments.set)?;
+        if ranges.is_empty() && mistakes.is_empty() {
+            let ([low, high], points) = USUAL;
+            let step = base.time.step;
+            ranges.extend(Range::parse(&format!("{STEP}={}..{}/{points}", low * step, high * step)));
+        }
+        if !mistakes.is_empty() {
+            return Err(StabilityError::Arguments { mistakes });
+        }
+        let place = ranges.iter().position(|range| range.key == STEP).unwrap_or(ranges.len().saturating_sub(1));
+        let along = ranges.remove(place);
+        let Some(values) = along.numbers() else {
+            let mistake = format!(
+                "`{}` is varied along rows, which takes numbers that increase; accepted: key=low..high/points",
+                along.key
+            );
+            return Err(StabilityError::Arguments { mistakes: vec![mistake] });
+        };
+        let along = Along { key: along.key, values, spacing: along.spacing };
+        let request = Self { arguments, base, along, rows: ranges.pop() };
+        // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
+        let mut first = None;
+        let all = (0..request.row_count()).flat_map(|row| request.along.values.iter().map(move |value| (row, *value)));
+        for (row, value) in all {
+            match request.scene(row, value) {
+                Ok(_) => return Ok(request),
+                Err(error) => first = first.or(Some(error)),
+            }
+        }
+        Err(first.map_or_else(|| StabilityError::Arguments { mistakes: Vec::new() }, StabilityError::Scene))
+    }
+
+    /// The same, in which errors up to this part are right.
+    ///
+    /// # Errors
+    /// [`StabilityError::Arguments`] unless it is a number above zero.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StabilityError> {
+        if !(tolerance.is_finite() && tolerance > 0.0) {
+            return Err(StabilityError::Arguments {
+                mistakes: vec![format!("a tolerance of {tolerance}; accepted: a number above zero")],
+            });
+        }
+        self.arguments.tolerance = tolerance;
+        Ok(self)
+    }
+
+    /// The same, in which edges are located to a part 2⁻ⁿ of the distance between neighbours in a row.
+    #[must_use]
+    pub fn with_bisections(mut self, bisections: u32) -> Self {
+        self.arguments.bisections = bisections.min(20);
+        self
+    }
+
+    /// The same with measures to compare, and what they should be where no law says it.
+    ///
+    /// # Errors
+    /// [`StabilityError::Arguments`] names those that no run has, and those that there is nothing to compare with.
+    pub fn with_measures(mut self, measures: &[String], references: References) -> Result<Self, StabilityError> {
+        let known = self.known_measures();
+        let mut mistakes = Vec::new();
+        for measure in measures.iter().map(String::as_str).chain(references.measures()) {
+            if !known.iter().any(|known| known == measure) {
+                let near = nearest(measure, known.iter().map(String::as_str));
+                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                mistakes
+                    .push(format!("no run of this scene measures `{measure}`{near}; accepted: {}", known.join(", ")));
+            } else if references.find(measure).is_none() && crate::tradeoff::predicted(measure, &self.base).is_none() {
+                mistakes.push(format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`"));
+            }
+        }
+        if !mistakes.is_empty() {
+            return Err(StabilityError::Arguments { mistakes });
+        }
+        self.arguments.measures = measures.to_vec();
+        self.arguments.references = references;
+        Ok(self)
+    }
+
+    fn known_measures(&self) -> Vec<String> {
+        let columns = run::quantities(&Model::new(&self.base)).into_iter().map(str::to_owned);
+        columns.chain(crate::tradeoff::drifts(&self.base).then(|| ENERGY_DRIFT.to_owned())).collect()
+    }
+
+    /// The measures that are compared.
+    pub(super) fn measures(&self) -> Vec<String> {
+        let Arguments { measures, references, .. } = &self.arguments;
+        let known = self.known_measures();
+        let usual = || {
+            let usual = COMPARED.iter().filter(|name| known.iter().any(|known| known == *name));
+            usual
+                .map(|name| (*name).to_owned())
+                .filter(|name| crate::tradeoff::predicted(name, &self.base).is_some())
+                .collect()
+        };
+        let mut all: Vec<String> = if measures.is_empty() { usual() } else { measures.clone() };
+        let given = references.measures().map(str::to_owned).collect::<Vec<_>>();
+        all.extend(given.into_iter().filter(|name| !measures.contains(name)));
+        all.dedup();
+        all
+    }
+
+    /// The title of the scene.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.base.title
+    }
+
+    /// Scenes of the grid.
+    #[must_use]
+    pub fn cell_count(&self) -> usize {
+        self.row_count() * self.along.values.len()
+    }
+
+    pub(super) fn row_count(&self) -> usize {
+        self.rows.as_ref().map_or(1, |rows| rows.values.len())
+    }
+
+    /// The key of rows.
+    pub(super) fn row_key(&self) -> Option<&str> {
+        self.rows.as_ref().map(|rows| rows.key.as_str())
+    }
+
+    /// The numbers of the rows and how they are spread, if they are numbers.
+    pub(super) fn row_numbers(&self) -> Option<(Vec<f64>, Spacing)> {
+        let rows = self.rows.as_ref()?;
+        Some((rows.numbers()?, rows.spacing))
+    }
+
+    /// The setting of a row.
+    pub(super) fn setting(&self, row: usize) -> Option<Setting> {
+        let rows = self.rows.as_ref()?;
+        Some(Setting { key: rows.key.clone(), value: rows.values.get(row)?.clone() })
+    }
+
+    /// What a row is called: `friction = 4.5`.
+    pub(super) fn row_label(&self, row: usize) -> String {
+        self.setting(row)
+            .map_or_else(String::new, |setting| format!("{} = {}", self.short(&setting.key), readable(&setting.value)))
+    }
+
+    /// The short name of a key that is varied.
+    pub(super) fn short(&self, key: &str) -> String {
+        let keys: Vec<&str> = self.row_key().into_iter().chain([self.along.key.as_str()]).collect();
+        let place = keys.iter().position(|known| *known == key);
+        place.and_then(|place| short_keys(&keys).into_iter().nth(place)).unwrap_or_else(|| key.to_owned())
+    }
+
+    /// The overrides of a scene of the map.
+    pub(super) fn overrides(&self, row: usize, value: f64) -> Vec<String> {
+        let along = Setting { key: self.along.key.clone(), value: number_of(value) };
+        let settings = self.setting(row).into_iter().chain([along]);
+        self.arguments.set.iter().cloned().chain(settings.map(|setting| setting.argument())).collect()
+    }
+
+    /// A scene of the map, over the common stretch of time.
+    pub(super) fn scene(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
+        let Arguments { scene, text, .. } = &self.arguments;
+        let mut found = scene::parse_any_step(scene, text, &self.overrides(row, value))?;
+        let stretch = Stretch::of(&self.base);
+        let step = found.time.step;
+        // However long the steps, there are enough of them to see what becomes of the scene.
+        let averaged = (stretch.averaged / step).ceil().max(FEWEST_STEPS) as u64;
+        let before = if stretch.equilibration > 0.0 { FEWEST_STEPS } else { 0.0 };
+        found.time.equilibration = (stretch.equilibration / step).round().max(before) as u64;
+        found.time.steps = found.time.equilibration.saturating_add(averaged);
+        let every = (self.base.output.energies.every as f64 * self.base.time.step / step).round() as u64;
+        found.output.energies.every = every.clamp(1, (averaged / FEWEST_ROWS).max(1));
+        Ok(found)
+    }
+
+    /// What tells this map from others.
+    pub(super) fn id(&self) -> Id {
+        let all = (0..self.row_count()).flat_map(|row| self.along.values.iter().map(move |value| (row, *value)));
+        Id::of_sweep(all.filter_map(|(row, value)| self.scene(row, value).ok()).map(|scene| Id::of_run(&scene)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn request(vary: &[&str]) -> Result<Request, StabilityError> {
+        let vary: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
+        Request::load("dpd-fluid", &["space.box=[5,5,5]".to_owned()], &vary)
+    }
+
+    #[test]
+    fn the_time_step_is_varied_along_rows() {
+        let alone = request(&[]).unwrap();
+        let step = alone.base.time.step;
+        assert_eq!((alone.along.key.as_str(), alone.row_count(), alone.cell_count()), ("time.step", 1, 7));
+        assert_eq!((alone.along.values[0], alone.along.values[6]), (0.25 * step, 16.0 * step));
+        let map = request(&["time.step=0.01..0.1/3", "interactions.0.friction=1..100/5"]).unwrap();
+        assert_eq!(
+            (map.along.key.as_str(), map.row_key(), map.cell_count()),
+            ("time.step", Some("interactions.0.friction"), 15)
+        );
+        assert_eq!(map.row_label(1), "friction = 3.162");
+        let other = request(&["integrator.type=splitting,groot-warren", "temperature=0.5..2/3"]).unwrap();
+        assert_eq!((other.along.key.as_str(), other.row_label(1).as_str()), ("temperature", "type = groot-warren"));
+    }
+
+    #[test]
+    fn all_runs_cover_the_time_of_the_scene_with_enough_steps() {
+        let map = request(&["time.step=1e-3..10/9"]).unwrap();
+        let time = |scene: &Scene| (scene.time.steps - scene.time.equilibration) as f64 * scene.time.step;
+        let wanted = time(&map.base);
+        for value in &map.along.values {
+            let scene = map.scene(0, *value).unwrap();
+            let averaged = scene.time.steps - scene.time.equilibration;
+            assert!(averaged >= 256 && averaged / scene.output.energies.every >= 64, "{value}");
+            assert!(time(&scene) >= wanted * (1.0 - 1e-12), "{value}");
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named_all_at_once() {
+        let text = request(&["time.steps=1..100/3", "a=1..2/10000000", "b"]).unwrap_err().to_string();
+        assert_eq!(text.lines().count(), 4, "{text}");
+        let text = request(&["time.setp=0.01..0.1/3"]).unwrap_err().to_string();
+        assert!(text.contains("did you mean `step`?"), "{text}");
+        let text = request(&["time.step=0.1,0.05"]).unwrap_err().to_string();
+        assert!(text.contains("numbers that increase"), "{text}");
+        let measures = |names: &[&str]| {
+            let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+            request(&[]).unwrap().with_measures(&names, References::default())
+        };
+        let text = measures(&["presure", "pressure"]).unwrap_err().to_string();
+        assert!(text.contains("did you mean `pressure`?") && text.contains("--reference pressure=VALUE"), "{text}");
+        assert_eq!(measures(&["temperature"]).unwrap().measures(), ["temperature"]);
+        assert_eq!(request(&[]).unwrap().measures(), ["temperature", "configurational_temperature"]);
+    }
+}

@@ -1,0 +1,206 @@
+//! The summary of a map of stability, `stability.json`.
+
+use super::bounds::Bound;
+use super::cell::Cell;
+use super::error::StabilityError;
+use super::files;
+use super::range::Spacing;
+use super::request::{Arguments, Request};
+use super::verdict::Verdict;
+use crate::output::summary::AdapterSummary;
+use crate::output::{Id, OutputError, write_atomically};
+use crate::sweep::Setting;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Edges of a row that are located.
+const MOST_EDGES: usize = 3;
+
+/// What was asked, and what became of every scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StabilitySummary {
+    /// Version of the program.
+    pub mesoscope_version: String,
+    /// The id of the map, made of those of its scenes.
+    pub stability_id: Id,
+    /// The adapter it last computed on; none before it began.
+    pub adapter: Option<AdapterSummary>,
+    pub(super) arguments: Arguments,
+    /// The key whose value increases along rows.
+    pub key: String,
+    /// How its values are spread.
+    pub spacing: Spacing,
+    /// Measures that are compared.
+    pub measures: Vec<String>,
+    /// Seconds that it took so far.
+    pub spent: f64,
+    /// The rows, in order.
+    pub rows: Vec<Row>,
+}
+
+/// Scenes that differ in one number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// What it is called; empty for a single row.
+    pub label: String,
+    /// What distinguishes it; none for a single row.
+    pub setting: Option<Setting>,
+    /// Its scenes so far, by their value.
+    pub cells: Vec<Cell>,
+    /// Where laws put its edges.
+    pub bounds: Vec<Bound>,
+}
+
+/// Where one verdict ends and another begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// The verdict below.
+    pub below: Verdict,
+    /// The verdict above.
+    pub above: Verdict,
+    /// The largest value that has the verdict below.
+    pub low: f64,
+    /// The smallest value that has the verdict above.
+    pub high: f64,
+}
+
+impl Row {
+    /// Its edges, by their value.
+    #[must_use]
+    pub fn edges(&self) -> Vec<Edge> {
+        let differ = self.cells.windows(2).filter(|pair| pair[0].verdict != pair[1].verdict);
+        differ
+            .map(|pair| Edge {
+                below: pair[0].verdict,
+                above: pair[1].verdict,
+                low: pair[0].value,
+                high: pair[1].value,
+            })
+            .collect()
+    }
+
+    /// The first scenes that are right and follow each other: the smallest and the largest value, and whether there are others above.
+    #[must_use]
+    pub fn right(&self) -> Option<(f64, f64, bool)> {
+        let first = self.cells.iter().position(|cell| cell.verdict == Verdict::Right)?;
+        let run = self.cells[first..].iter().take_while(|cell| cell.verdict == Verdict::Right).count();
+        Some((self.cells[first].value, self.cells[first + run - 1].value, first + run < self.cells.len()))
+    }
+
+    /// Where the first scenes become unstable: the largest value before, and the value at which it is seen.
+    #[must_use]
+    pub fn unstable_from(&self) -> Option<(Option<f64>, f64)> {
+        let first = self.cells.iter().position(|cell| cell.verdict == Verdict::Unstable)?;
+        Some((first.checked_sub(1).map(|before| self.cells[before].value), self.cells[first].value))
+    }
+
+    /// Adds a scene in its place.
+    pub(super) fn add(&mut self, cell: Cell) {
+        let place = self.cells.partition_point(|known| known.value < cell.value);
+        self.cells.insert(place, cell);
+    }
+
+    /// Values at which to look next: in the middle of edges that are not located to `nearest` yet.
+    pub(super) fn next(&self, spacing: Spacing, nearest: f64) -> Vec<f64> {
+        let edges = self.edges();
+        let wide = edges.iter().filter(|edge| spacing.distance(edge.low, edge.high) > nearest);
+        let middle = |edge: &Edge| super::range::rounded(spacing.middle(edge.low, edge.high));
+        let new = |value: &f64| self.cells.iter().all(|cell| cell.value != *value);
+        wide.take(MOST_EDGES).map(middle).filter(new).collect()
+    }
+}
+
+impl StabilitySummary {
+    /// Before anything was run.
+    pub(super) fn before(request: &Request) -> Self {
+        let row = |row: usize| Row {
+            label: request.row_label(row),
+            setting: request.setting(row),
+            cells: Vec::new(),
+            bounds: super::bounds::bounds(request, row),
+        };
+        Self {
+            mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            stability_id: request.id(),
+            adapter: None,
+            arguments: request.arguments.clone(),
+            key: request.along.key.clone(),
+            spacing: request.along.spacing,
+            measures: request.measures(),
+            spent: 0.0,
+            rows: (0..request.row_count()).map(row).collect(),
+        }
+    }
+
+    /// The largest error of what is right.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.arguments.tolerance
+    }
+
+    /// Whether it is one of a request.
+    pub(super) fn is_of(&self, request: &Request) -> bool {
+        self.stability_id == request.id() && self.rows.len() == request.row_count()
+    }
+
+    pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {
+        let path = directory.join(files::SUMMARY);
+        let text =
+            serde_json::to_string_pretty(self).map_err(|source| OutputError::Json { path: path.clone(), source })?;
+        write_atomically(&path, |writer| writeln!(writer, "{text}"))
+    }
+
+    /// Reads the summary in the directory of a map.
+    ///
+    /// # Errors
+    /// [`StabilityError::NoMap`] when there is none, [`StabilityError::Output`] when it cannot be read or is no summary.
+    pub fn load(directory: &Path) -> Result<Self, StabilityError> {
+        let path = directory.join(files::SUMMARY);
+        let text = match std::fs::read(&path) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Err(StabilityError::NoMap { path: directory.to_path_buf() });
+            }
+            read => read.map_err(OutputError::io("read", &path))?,
+        };
+        let summary = serde_json::from_slice(&text).map_err(|error| OutputError::Line {
+            path,
+            line: error.line() as u64,
+            problem: error.to_string(),
+        })?;
+        Ok(summary)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(verdicts: &[(f64, Verdict)]) -> Row {
+        let mut row = Row { label: String::new(), setting: None, cells: Vec::new(), bounds: Vec::new() };
+        for (value, verdict) in verdicts {
+            row.add(Cell { verdict: *verdict, ..Cell::refused(*value, String::new()) });
+        }
+        row
+    }
+
+    #[test]
+    fn edges_lie_between_neighbours_that_differ() {
+        use Verdict::{Biased, Right, Unstable};
+        let found = row(&[(4.0, Biased), (1.0, Right), (16.0, Unstable), (2.0, Right), (8.0, Biased)]);
+        assert_eq!(
+            found.edges(),
+            [
+                Edge { below: Right, above: Biased, low: 2.0, high: 4.0 },
+                Edge { below: Biased, above: Unstable, low: 8.0, high: 16.0 }
+            ]
+        );
+        assert_eq!(found.right(), Some((1.0, 2.0, true)));
+        assert_eq!(found.unstable_from(), Some((Some(8.0), 16.0)));
+        let factor_of_two = 2.0_f64.ln();
+        assert_eq!(found.next(Spacing::Log, 0.9 * factor_of_two), [2.828, 11.31]);
+        assert!(found.next(Spacing::Log, 1.1 * factor_of_two).is_empty());
+        assert_eq!(found.next(Spacing::Linear, 3.0), [12.0]);
+        assert_eq!(row(&[(1.0, Right)]).right(), Some((1.0, 1.0, false)));
+        assert_eq!((row(&[(1.0, Biased)]).right(), row(&[(1.0, Unstable)]).unstable_from()), (None, Some((None, 1.0))));
+    }
+}

@@ -1,0 +1,63 @@
+//! The table of a map, `stability.csv`: a row for every scene that was run.
+
+use super::cell::Cell;
+use super::files;
+use super::summary::{Row, StabilitySummary};
+use crate::numbers::push_exact;
+use crate::output::{OutputError, quoted, write_atomically};
+use std::path::Path;
+
+pub(super) fn write(directory: &Path, summary: &StabilitySummary) -> Result<(), OutputError> {
+    let text = text(summary);
+    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))
+}
+
+fn text(summary: &StabilitySummary) -> String {
+    let key = summary.rows.first().and_then(|row| row.setting.as_ref()).map(|setting| setting.key.clone());
+    let mut header: Vec<String> = key.into_iter().chain([summary.key.clone()]).collect();
+    header.extend(["verdict", "certain", "steps", "time_step"].map(str::to_owned));
+    for measure in &summary.measures {
+        header.extend(["_error", "_error_uncertainty"].map(|end| format!("{measure}{end}")));
+    }
+    header.push("reason".to_owned());
+    let mut text = line(&header);
+    for row in &summary.rows {
+        for cell in &row.cells {
+            text.push_str(&line(&cells(summary, row, cell)));
+        }
+    }
+    text
+}
+
+fn cells(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<String> {
+    let setting = row
+        .setting
+        .as_ref()
+        .map(|setting| setting.value.as_str().map_or_else(|| setting.value.to_string(), str::to_owned));
+    let mut cells: Vec<String> = setting.into_iter().collect();
+    cells.extend([
+        number(Some(cell.value)),
+        cell.verdict.name().to_owned(),
+        cell.is_certain.to_string(),
+        cell.steps.to_string(),
+    ]);
+    cells.push(number(cell.time_step));
+    for measure in &summary.measures {
+        let error = cell.error(measure);
+        cells.push(number(error.map(|error| error.error)));
+        cells.push(number(error.and_then(|error| error.uncertainty)));
+    }
+    cells.push(cell.reason.clone().unwrap_or_default().replace('\n', "; "));
+    cells
+}
+
+fn number(value: Option<f64>) -> String {
+    let mut text = Vec::new();
+    push_exact(&mut text, value.unwrap_or(f64::NAN));
+    String::from_utf8(text).unwrap_or_default()
+}
+
+fn line(cells: &[String]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| quoted(cell).into_owned()).collect();
+    format!("{}\n", cells.join(","))
+}

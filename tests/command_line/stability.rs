@@ -1,0 +1,172 @@
+//! `mesoscope stability` as its user meets it: verdicts, edges, laws, messages and exit codes.
+
+use std::fs;
+
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::output::OutputError;
+use mesoscope::run::Interrupt;
+use mesoscope::stability::{Request, StabilityError, StabilityEvent, StabilityRun, StabilitySummary, Verdict, files};
+use serde_json::json;
+
+use crate::support::program::{Place, fails, listing, size, succeeds};
+
+/// Oscillators of frequency 4 with a bath, of which Cotter and Reich's schemes know every variance.
+fn place() -> Place {
+    Place::of(json!({
+        "title": "oscillators",
+        "space": {"box": [20, 20, 20]},
+        "time": {"step": 0.05, "steps": 240, "equilibration": 40},
+        "temperature": 1,
+        "integrator": {"type": "cotter-reich"},
+        "particles": [{"species": "oscillator", "count": 1000}],
+        "interactions": [
+            {"type": "tether", "stiffness": 16},
+            {"type": "langevin", "friction": 1, "bath": {"type": "memory", "rate": 2, "scheme": "exponential"}},
+        ],
+        "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}},
+    }))
+}
+
+fn arguments<'a>(place: &'a Place, further: &[&'a str]) -> Vec<String> {
+    let own = ["stability".to_owned(), place.scene(), "--out".to_owned(), place.argument("out")];
+    own.into_iter().chain(further.iter().map(|argument| (*argument).to_owned())).collect()
+}
+
+fn borrowed(arguments: &[String]) -> Vec<&str> {
+    arguments.iter().map(String::as_str).collect()
+}
+
+/// With λₑ = γ/τ the mean square of q is (kT/K)(4 - B)/(4 - B - W): an excess of W/(4 - B - W), and no scheme is stable beyond B + W = 4,
+/// which is at dt = .4714 here.
+#[test]
+fn a_row_is_right_biased_and_unstable_where_theory_says() {
+    let place = place();
+    let further = ["--vary", "time.step=0.02..0.8/6", "--bisections", "3", "--tolerance", "10%"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    for part in ["RIGHT: time.step UP TO", "B + W = 4 at 0.47", "stability.png", "more to locate edges"] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    let out = place.path("out");
+    let summary = StabilitySummary::load(&out).unwrap();
+    let row = &summary.rows[0];
+    let verdicts: Vec<Verdict> = row.cells.iter().map(|cell| cell.verdict).collect();
+    assert!(verdicts.is_sorted(), "{verdicts:?}");
+    // Neighbours are a factor of 40^(1/5) apart, an eighth of that after three bisections: 1.097.
+    let factor = 1.1;
+    let limit = (4.0_f64 / (16.0 + 2.0)).sqrt();
+    let bound = &row.bounds[0];
+    assert!((bound.at / limit - 1.0).abs() < 1e-3 && bound.is_of_stability, "{bound:?}");
+    let edges = row.edges();
+    let last = edges.last().unwrap();
+    assert_eq!((last.below, last.above), (Verdict::Biased, Verdict::Unstable));
+    // Beyond the limit a mode grows by |μ| each step; at 1.05 of it by e^(2·√.1) = 1.9, which 256 steps show.
+    assert!(last.high / last.low < factor && last.low < limit * factor && last.high > limit, "{last:?} {limit}");
+    // 10 % are reached at W/(4 - B - W) = .1, and with an error of 5 % of the mean of 3 000 squares over 50 rows or more, taken as
+    // independent every quarter of a period, it lies within a factor 1.3 of that.
+    let biased = (0.1 * 4.0 / (16.0 + 0.1 * 18.0)).sqrt();
+    let (_, right, is_bounded) = row.right().unwrap();
+    assert!(is_bounded && right > biased / 1.3 && right < biased * 1.3, "{right} {biased}");
+    // The configurational temperature is that of q; it is what is off.
+    for cell in row.cells.iter().filter(|cell| cell.verdict == Verdict::Biased) {
+        let error = |measure: &str| cell.error(measure).map_or(f64::NAN, |error| error.error);
+        assert!(error("configurational_temperature") > 0.0 && error("temperature").abs() < 0.1, "{cell:?}");
+    }
+    // The table has a row for every scene.
+    let table = fs::read_to_string(out.join(files::TABLE)).unwrap();
+    assert_eq!(table.lines().count(), row.cells.len() + 1);
+    assert!(table.starts_with("time.step,verdict,certain,steps,time_step,temperature_error,"), "{table}");
+    assert_eq!(size(&out.join(files::PLOT)), [640, 480]);
+    let page = fs::read_to_string(out.join(files::PAGE)).unwrap();
+    assert!(page.contains("| the scene | 0.") && page.contains("B + W = 4 at 0.47"), "{page}");
+    assert_eq!(listing(&out), [files::TABLE, files::SUMMARY, files::PAGE, files::PLOT]);
+}
+
+/// Of the same scene the scheme named `cotter-reich` has another λₑ, that falls as the step grows, and a later edge.
+#[test]
+fn a_map_has_rows_of_any_key() {
+    let place = place();
+    let further = [
+        "--vary",
+        "interactions.1.bath.scheme=cotter-reich,exponential",
+        "--vary",
+        "time.step=0.1..0.9/3:linear",
+        "--measure",
+        "temperature",
+        "--bisections",
+        "0",
+        "--jobs",
+        "2",
+    ];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("scheme = cotter-reich") && !said.contains("locate"), "{said}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    assert_eq!(summary.measures, ["temperature"]);
+    for row in &summary.rows {
+        let found: Vec<(f64, Verdict)> = row.cells.iter().map(|cell| (cell.value, cell.verdict)).collect();
+        let expected = [(0.1, Verdict::Right), (0.5, Verdict::Unstable), (0.9, Verdict::Unstable)];
+        assert_eq!(found, expected, "{}", row.label);
+        assert_eq!(row.bounds.len(), 1, "{:?}", row.bounds);
+    }
+    let [first, second] = [0, 1].map(|row: usize| summary.rows[row].bounds[0].at);
+    assert!(first > second, "{first} {second}");
+}
+
+#[test]
+fn an_interrupted_map_goes_on() {
+    let place = place();
+    let request =
+        || Request::load(&place.scene(), &[], &["time.step=0.05..0.4/4".to_owned()]).unwrap().with_bisections(1);
+    let whole = StabilityRun::start(request(), place.path("whole"), false);
+    let whole = whole.execute(&AdapterChoice::Best, Some(1), &mut |_| {}).unwrap();
+    let interrupt = Interrupt::default();
+    let out = place.path("out");
+    let stopped = StabilityRun::start(request(), &out, false).until(&interrupt).execute(
+        &AdapterChoice::Best,
+        Some(1),
+        &mut |event| {
+            if let StabilityEvent::Ended { cell, .. } = event
+                && cell.value > 0.1
+            {
+                interrupt.request();
+            }
+        },
+    );
+    assert!(matches!(stopped, Err(StabilityError::Interrupted { .. })));
+    let before = StabilitySummary::load(&out).unwrap();
+    assert!((1..4).contains(&before.rows[0].cells.len()));
+    // A map that is not finished is in the way of another.
+    let again = StabilityRun::start(request(), &out, false).execute(&AdapterChoice::Best, Some(1), &mut |_| {});
+    assert!(matches!(again, Err(StabilityError::Output(OutputError::ResultExists { .. }))));
+    let said = succeeds(&["stability", "--resume", &place.argument("out")]);
+    assert!(said.contains("RIGHT: time.step UP TO"), "{said}");
+    let after = StabilitySummary::load(&out).unwrap();
+    assert_eq!(after.rows, whole.summary.rows);
+    let tables = ["whole", "out"].map(|name| fs::read(place.path(name).join(files::TABLE)).unwrap());
+    assert!(tables[0] == tables[1]);
+    // One that was changed is none of ours.
+    let path = out.join(files::SUMMARY);
+    let text = fs::read_to_string(&path).unwrap().replace("\"time.step=0.05..0.4/4\"", "\"time.step=0.05..0.4/5\"");
+    fs::write(&path, text).unwrap();
+    fails(&["stability", "--resume", &place.argument("out")], 5, &["was changed"]);
+}
+
+#[test]
+fn mistakes_are_named_before_anything_runs() {
+    let place = place();
+    let wrong: [(&[&str], &[&str]); 8] = [
+        (&["--vary", "time.setp=0.1..1/3"], &["did you mean `step`?"]),
+        (&["--vary", "time.step=1..0.1/3"], &["1 is not below 0.1"]),
+        (&["--vary", "time.step=0.1..1"], &["key=low..high/points"]),
+        (&["--vary", "time.step=0.1..1/10000000"], &["accepted: 2 to 200"]),
+        (&["--vary", "time.steps=10..1000/3"], &["all runs cover the same simulated time"]),
+        (&["--vary", "time.step=0.1..1/3", "--vary", "seed=1,2", "--vary", "temperature=1,2"], &["3 keys are varied"]),
+        (&["--measure", "presure"], &["no run of this scene measures `presure`", "accepted: temperature"]),
+        (&["--measure", "kinetic_energy"], &["--reference kinetic_energy=VALUE"]),
+    ];
+    for (further, parts) in wrong {
+        fails(&borrowed(&arguments(&place, further)), 2, parts);
+    }
+    fails(&borrowed(&arguments(&place, &["--set", "time.steps=900000000000"])), 2, &["--yes"]);
+    fails(&["stability", "--resume", &place.argument("nothing")], 5, &["there is no map of stability"]);
+    assert!(!place.path("out").exists());
+}
