@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 22] = [
+const LAYERS: [&str; 23] = [
     "printable",
     "numbers",
     "table",
@@ -28,6 +28,7 @@ const LAYERS: [&str; 22] = [
     "sweep",
     "tradeoff",
     "stability",
+    "calibration",
 ];
 
 /// Rust files of a directory and those below it.

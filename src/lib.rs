@@ -36,6 +36,7 @@
 //!
 //! A program that may come to run on the software adapter begins with [`gpu::prepare_environment`].
 
+pub mod calibration;
 mod document;
 pub mod engine;
 pub mod families;

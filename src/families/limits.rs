@@ -46,3 +46,72 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     limits.retain(|limit| limit.share > 0.0);
     limits
 }
+
+/// The largest time step that a law allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestStep {
+    /// The law, in a few words.
+    pub law: &'static str,
+    /// The largest time step.
+    pub step: f64,
+    /// What lies beyond.
+    pub beyond: Beyond,
+}
+
+/// The largest time steps that the laws allow a scene, the smallest first.
+///
+/// ```
+/// use mesoscope::{families, scene};
+///
+/// // Oscillators of frequency 1 with B = dt² tanh(dt/2)/(dt/2).
+/// let scene = scene::load("gle-oscillator", &[])?;
+/// let largest = families::largest_steps(&scene)[0];
+/// let dt = largest.step;
+/// assert!((dt * dt * (1.0 + (0.5 * dt).tanh() / (0.5 * dt)) - 4.0).abs() < 1e-3, "{}", largest.law);
+/// # Ok::<(), scene::SceneError>(())
+/// ```
+#[must_use]
+pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
+    let share = |law: &str, step: f64| {
+        let mut other = scene.clone();
+        other.time.step = step;
+        limits(&other).iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
+    };
+    let largest = |limit: Limit| {
+        let step = largest_step(scene.time.step, limit.share, &|step| share(limit.law, step))?;
+        Some(LargestStep { law: limit.law, step, beyond: limit.beyond })
+    };
+    let mut found: Vec<LargestStep> = limits(scene).into_iter().filter_map(largest).collect();
+    found.sort_by(|a, b| a.step.total_cmp(&b.step));
+    found
+}
+
+/// Where a share that grows with the step is 1, from one step; none where that is nowhere near.
+fn largest_step(step: f64, share: f64, share_of: &dyn Fn(f64) -> f64) -> Option<f64> {
+    // An interval around it; shares grow no slower than the root of the step.
+    let (mut low, mut high) = (step, step);
+    let mut at_low = share;
+    for _ in 0..60 {
+        if at_low < 1.0 {
+            break;
+        }
+        low *= if at_low.is_finite() { (0.5 / at_low).clamp(0.05, 0.5) } else { 0.5 };
+        at_low = share_of(low);
+    }
+    let mut at_high = if low < high { f64::INFINITY } else { share };
+    for _ in 0..60 {
+        if at_high >= 1.0 {
+            break;
+        }
+        high *= (2.0 / at_high).clamp(2.0, 20.0);
+        at_high = share_of(high);
+    }
+    if at_low >= 1.0 || at_high < 1.0 {
+        return None;
+    }
+    while high > 1.0002 * low {
+        let middle = (low * high).sqrt();
+        if share_of(middle) < 1.0 { low = middle } else { high = middle }
+    }
+    Some(low)
+}

@@ -32,7 +32,7 @@ pub use column::Column;
 pub use conservation::{KeptQuantity, KeptSum};
 pub use field::{Field, FieldError};
 pub use instability::Instability;
-pub use limits::{Beyond, Limit, limits};
+pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables};
 pub use particles::Particles;

@@ -114,7 +114,11 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     };
     let mut text = format!("# {}: how far it may go\n\n`{}` is varied. {right}", request.title(), summary.key);
     if let Some(adapter) = &summary.adapter {
-        let _ = write!(text, " Run on {} ({}) by version {}.", adapter.name, adapter.driver, summary.mesoscope_version);
+        let _ = write!(
+            text,
+            " {}, {} ({}), version {}.",
+            summary.date, adapter.name, adapter.driver, summary.mesoscope_version
+        );
     }
     let _ = write!(text, "\n\n| row | right: {key} up to | unstable from | laws |\n|---|---|---|---|\n");
     for row in &summary.rows {

@@ -21,6 +21,8 @@ const MOST_EDGES: usize = 3;
 pub struct StabilitySummary {
     /// Version of the program.
     pub mesoscope_version: String,
+    /// The day it was begun, as year, month and day.
+    pub date: String,
     /// The id of the map, made of those of its scenes.
     pub stability_id: Id,
     /// The adapter it last computed on; none before it began.
@@ -121,6 +123,7 @@ impl StabilitySummary {
         };
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
             stability_id: request.id(),
             adapter: None,
             arguments: request.arguments.clone(),

@@ -21,6 +21,9 @@ use std::path::Path;
 pub struct TradeoffSummary {
     /// Version of the program.
     pub mesoscope_version: String,
+    /// The day it was begun, as year, month and day.
+    #[serde(default)]
+    pub date: String,
     /// The id of the tradeoff, made of those of its runs.
     pub tradeoff_id: Id,
     /// The adapter it last computed on; none before it began.
@@ -135,6 +138,7 @@ impl TradeoffSummary {
         let reference = |name: &str| Choice::new(name, name, &[], 0.0);
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
             tradeoff_id: Id::of_sweep(variants.iter().map(|variant| Id::of_run(&variant.scene))),
             adapter: None,
             arguments: request.arguments.clone(),
@@ -175,6 +179,13 @@ impl TradeoffSummary {
     pub fn choice(&self) -> Option<&Choice> {
         let name = self.chosen.as_ref()?;
         self.choices.iter().find(|choice| choice.name == *name)
+    }
+
+    /// The scene of a choice: its name in messages, its text, and the overrides that make the choice.
+    pub(crate) fn scene_of(&self, choice: &Choice) -> (&str, &str, Vec<String>) {
+        let settings = choice.settings.iter().map(Setting::argument);
+        let overrides = self.arguments.set.iter().cloned().chain(settings).collect();
+        (&self.arguments.scene, &self.arguments.text, overrides)
     }
 
     /// What to know before the numbers are trusted, line by line.

@@ -2,6 +2,7 @@
 
 mod files;
 mod kernels;
+mod predictions;
 
 use std::fmt::Write as _;
 
@@ -22,6 +23,10 @@ use super::{AdapterArgument, Failure, SceneArguments, print};
 #[command(after_help = "\
 The time is an estimate: a few steps are run on the adapter and timed, of the scene itself if it is small. That takes about a
 quarter of a second, and the adapter has to start and compile the kernels first; without an adapter there is no estimate.
+
+`stable` and `reliable` are what theory and experience say of the time step, `accuracy` what was measured of a scene of the same
+physics and is shipped with the program. `mesoscope stability SCENE` measures how far a scene of your own may go, `mesoscope
+tradeoff` how far off it is.
 
 Exit code 0 means that the adapter (the one named, else the best) can run the scene.
 
@@ -70,7 +75,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Err(_) => "none that can run it; this is the plan for any adapter".to_owned(),
     };
     let sizes = Sizes::of(&scene, &model, &plan);
-    let mut text = overview(&scene, &model, &plan, &adapter, time, &sizes);
+    let mut rows = overview(&scene, &model, &plan, &adapter, time, &sizes);
+    rows.extend(predictions::rows(&scene, &model, &plan, hardware));
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
+    let mut text = format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "));
     text.push_str(&files::outputs(&scene, &model, &sizes));
     if arguments.kernels {
         kernels::kernels(&mut text, &plan)?;
@@ -122,7 +130,15 @@ fn two_digits(value: f64) -> String {
     if value < 0.1 { format!("{value:.1e}") } else { format!("{value:.1}") }
 }
 
-fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Option<String>, sizes: &Sizes) -> String {
+/// The rows of the overview: names and what is to be said of them.
+fn overview(
+    scene: &Scene,
+    model: &Model,
+    plan: &Plan,
+    adapter: &str,
+    time: Option<String>,
+    sizes: &Sizes,
+) -> Vec<(&'static str, String)> {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
@@ -147,8 +163,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, adapter: &str, time: Opti
     rows.extend(model.description(scene, plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);
     rows.push(("arithmetic", format!("about {operations} operations a particle and step")));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
-    format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "))
+    rows
 }
 
 /// How often something is done.

@@ -1,0 +1,89 @@
+//! What can be said of a run before it: how long its steps may be, how far off its results will be, and what it pays for without need.
+
+use mesoscope::calibration;
+use mesoscope::families::{self, BathStep, Beyond, LargestStep, Model};
+use mesoscope::numbers::short;
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
+use mesoscope::scene::{Bath, Interaction, Scene};
+
+/// Reports that take more than this part of the time are worth a word.
+const MUCH: f64 = 0.2;
+
+/// A memory of which a step leaves less than this is no memory.
+const FORGOTTEN: f64 = 1e-3;
+
+/// A number in three digits.
+fn number(value: f64) -> String {
+    short(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
+/// Rows of the overview.
+pub fn rows(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Vec<(&'static str, String)> {
+    let steps = families::largest_steps(scene);
+    let largest = |beyond: Beyond| steps.iter().find(|largest| largest.beyond == beyond);
+    let words = |largest: &LargestStep| format!("up to a step of {} ({})", number(largest.step), largest.law);
+    let mut rows = Vec::new();
+    rows.extend(largest(Beyond::Unstable).map(|largest| ("stable", format!("by theory {}", words(largest)))));
+    rows.extend(largest(Beyond::Biased).map(|largest| ("reliable", format!("by experience {}", words(largest)))));
+    rows.extend(calibration::expected(scene).map(|expected| ("accuracy", expected.to_string())));
+    rows.extend(unneeded(scene, model, plan, hardware).into_iter().map(|what| ("pays for", what)));
+    rows
+}
+
+/// What takes time and is not needed, or not needed so often.
+fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Vec<String> {
+    let mut found = Vec::new();
+    // A report visits everything once more.
+    let reports: f64 = plan.samplers.iter().map(|sampler| 1.0 / sampler.every as f64).sum();
+    let part = reports / (1.0 + reports);
+    if part > MUCH {
+        let often = plan.samplers.iter().min_by_key(|sampler| sampler.every).map_or(1, |sampler| sampler.every);
+        found.push(format!(
+            "reports: about {:.0} % of the time, for samples every {often} steps at the most frequent",
+            100.0 * part
+        ));
+    }
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let (bath, friction) = match interaction {
+            Interaction::Dpd(dpd) => (&dpd.bath, dpd.friction),
+            Interaction::Bonds(bonds) => (&bonds.bath, bonds.friction),
+            Interaction::Langevin(langevin) => (&langevin.bath, langevin.friction),
+            _ => continue,
+        };
+        if let Bath::Memory { rate, .. } = bath
+            && BathStep::of(bath, friction, scene.time.step).persistence.abs() < FORGOTTEN
+        {
+            let without = without_memory(scene, index);
+            let other = run::plan(&Model::new(&without), 0, &without.output, hardware, Options::default());
+            let (own, less) = (plan.operations_per_particle, other.operations_per_particle);
+            let cheaper = if less < own {
+                format!(", which takes {:.0} % less arithmetic", 100.0 * (1.0 - less / own))
+            } else {
+                String::new()
+            };
+            found.push(format!(
+                "the memory of interactions[{index}]: at a rate of {rate} a step leaves nothing of it, and a bath without memory does the same{cheaper}"
+            ));
+        }
+    }
+    let idle: Vec<&str> =
+        model.species.iter().filter(|species| species.count == 0).map(|species| species.name.as_str()).collect();
+    if !idle.is_empty() {
+        found.push(format!("species without particles: {}", idle.join(", ")));
+    }
+    found
+}
+
+/// The scene with a bath of no memory in an interaction.
+fn without_memory(scene: &Scene, index: usize) -> Scene {
+    let mut other = scene.clone();
+    let bath = match other.interactions.get_mut(index) {
+        Some(Interaction::Dpd(dpd)) => &mut dpd.bath,
+        Some(Interaction::Bonds(bonds)) => &mut bonds.bath,
+        Some(Interaction::Langevin(langevin)) => &mut langevin.bath,
+        _ => return other,
+    };
+    *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
+    other
+}
