@@ -213,7 +213,15 @@ impl Layout<'_> {
             .map(|(index, prepared)| below(prepared) + rows(index, &rough[index]))
             .sum();
         let height = ((frame.height() - fixed) / count).max(4.0);
-        let y_ticks: Vec<Ticks> = self.prepared.iter().map(|prepared| ticks(&prepared.y, y_count(height))).collect();
+        let named = |names: &[String], room: f64| Ticks {
+            major: names.iter().enumerate().map(|(at, name)| (at as f64, shortened(name, room, &text_width))).collect(),
+            ..Ticks::default()
+        };
+        let of_y = |prepared: &Prepared<'_>| match prepared.panel.y.categories.as_slice() {
+            [] => ticks(&prepared.y, y_count(height)),
+            names => named(names, 0.3 * frame.width()),
+        };
+        let y_ticks: Vec<Ticks> = self.prepared.iter().map(of_y).collect();
 
         // Widths: one left edge for all panels.
         let widest =
@@ -235,9 +243,7 @@ impl Layout<'_> {
             if !prepared.panel.x.categories.is_empty() {
                 let names = &prepared.panel.x.categories;
                 let room = width / names.len() as f64 - 0.6 * label;
-                let named =
-                    names.iter().enumerate().map(|(place, name)| (place as f64, shortened(name, room, &text_width)));
-                all.push(Ticks { major: named.collect(), ..Ticks::default() });
+                all.push(named(names, room));
                 continue;
             }
             // Labels of many digits need more room than the first guess gave them.

@@ -35,10 +35,10 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
     let key = request.row_key().unwrap_or_default();
     let numbers = request.row_numbers();
     let y = match &numbers {
-        Some((_, spacing)) => axis(&request.short(key), *spacing),
+        Some((_, spacing)) => axis(key, *spacing),
         None => {
             let name = |row: &Row| row.setting.as_ref().map_or_else(String::new, |setting| readable(&setting.value));
-            Axis::categories(&request.short(key), summary.rows.iter().map(name).collect())
+            Axis::categories(key, summary.rows.iter().map(name).collect())
         }
     };
     let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);

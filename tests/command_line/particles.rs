@@ -350,6 +350,30 @@ fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
 }
 
 #[test]
+fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
+    let said = succeeds(&["check", "dpd-fluid"]);
+    for part in [
+        "by theory up to a step of 0.195 (oscillation ω dt = 2)",
+        "by experience up to a step of 0.133 (friction Γ dt = 1/4)",
+        "as measured with a step of 0.04 (DPD fluid, 20",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    assert!(!said.contains("pays for"), "{said}");
+    // B + W = dt²(1 + 1000 tanh(500 dt)/(500 dt)), which is 4 at dt = 1.236.
+    let forgotten = ["interactions.1.bath.rate=1000", "output.energies.every=1"];
+    let said = succeeds(&["check", "gle-oscillator", "--set", forgotten[0], "--set", forgotten[1]]);
+    for part in [
+        "by theory up to a step of 1.24 (B + W = 4)",
+        "reports: about 50 % of the time",
+        "the memory of interactions[1]: at a rate of 1000 a step leaves nothing of it",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+    assert!(!said.contains("accuracy"), "nothing like it was measured: {said}");
+}
+
+#[test]
 fn check_prints_the_plan() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     let short = succeeds(&["check", &place.scene()]);
