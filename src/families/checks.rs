@@ -1,6 +1,6 @@
 //! What can be checked only in a scene without any other mistake: whether its time step can be stable, and its start.
 
-use super::{Model, initial_state};
+use super::{Model, initial_state, speeds};
 use crate::document::{Problems, Scene, SceneError};
 use crate::state::State;
 
@@ -24,6 +24,7 @@ pub(crate) fn check(scene: &Scene, step: StepCheck, problems: &mut Problems) {
     }
     if step == StepCheck::Refuse {
         model.physics().check_step(scene, &model, problems);
+        speeds::check(scene, &model, problems);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Why a run became unstable, in words.
 
 use super::Model;
+use super::speeds::{brief_step, round_down};
 use crate::plan::{Failure, FailureKind, Plan};
 
 /// A run that left the range where its numbers mean anything.
@@ -55,16 +56,9 @@ fn node(plan: &Plan, node: u32) -> String {
     format!("mesh node ({k}, {l}), where x = {:.4} and y = {:.4}", place(k, 0, columns), place(l, 1, rows))
 }
 
-/// The largest number of one digit not above `value`.
-fn round_down(value: f64) -> f64 {
-    let magnitude = 10_f64.powf(value.log10().floor());
-    let rounded = (value / magnitude).floor() * magnitude;
-    format!("{rounded:.0e}").parse().unwrap_or(rounded)
-}
-
 fn advice(suggested_step: Option<f64>) -> String {
     match suggested_step {
-        Some(step) => format!("try a time step of {step} or less"),
+        Some(step) => format!("try a time step of {} or less", brief_step(step)),
         None => {
             "no time step helps: give more particles a cell, a smoothing of another length, or the five-point symbol"
                 .to_owned()

@@ -18,6 +18,7 @@ pub(crate) mod pictures;
 pub mod reference;
 mod registry;
 pub mod shallow_water;
+mod speeds;
 mod start;
 mod tally;
 mod units;
@@ -77,6 +78,20 @@ pub(crate) trait Physics {
     /// Value of one unit of integer momentum; a power of two.
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64;
 
+    /// How far along an axis a particle may move in a step, without which a run ends.
+    fn reach(&self, model: &Model) -> f64;
+
+    /// What goes as far as that, in words.
+    fn reach_in_words(&self) -> &'static str;
+
+    /// Mass of the particles of a group; their mean where masses differ.
+    fn mean_mass(&self, group: &ParticleGroup) -> f64 {
+        group.mass
+    }
+
+    /// The longest time step worth trying after one that failed.
+    fn longest_step(&self, model: &Model) -> f64;
+
     /// Value of one unit of integer mass, where particles have masses of their own.
     fn mass_unit(&self) -> Option<f64> {
         None
@@ -118,6 +133,11 @@ pub(crate) trait Physics {
 
     /// The laws that bound a scene, and how near to their bounds it is. Those without meaning for the scene have a share of 0.
     fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit>;
+
+    /// Whether heat baths take what moves to their temperature, sooner or later.
+    fn is_heated(&self, model: &Model) -> bool {
+        self.has_thermostat(model)
+    }
 
     /// Warnings about a scene without mistakes.
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;

@@ -2,7 +2,7 @@
 
 use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PictureKind,
-    PositionBath, ShallowWater, Voronoi,
+    PositionBath, ShallowWater, Voronoi, speeds,
 };
 use crate::document::{Distribution, Generator, Integrator, Scene, Warning};
 use crate::noise;
@@ -41,6 +41,8 @@ pub struct Model {
     pub distribution: Distribution,
     /// Integrator.
     pub integrator: Integrator,
+    /// The largest velocity along an axis that is expected of a particle, of which thermal ones have the standard deviation.
+    pub(crate) expected_velocity: f64,
     /// What belongs to its family.
     pub family: Family,
 }
@@ -76,6 +78,7 @@ impl Model {
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         let family = Family::of(scene, &mut species);
         let momentum = family.physics().momentum_unit(scene, &species);
+        let expected_velocity = speeds::expected(scene, &species, family.physics());
         Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
             species,
@@ -85,6 +88,7 @@ impl Model {
             generator: scene.noise.generator,
             distribution: scene.noise.distribution,
             integrator: scene.integrator.clone(),
+            expected_velocity,
             family,
         }
     }
@@ -160,7 +164,9 @@ impl Model {
             cells,
             seed_key: noise::seed_key(self.seed, stream),
             time_step: self.time_step,
-            suggested_step: (0.25 * self.time_step).min(self.pair_step()),
+            suggested_step: (0.25 * self.time_step)
+                .min(speeds::longest_step(self))
+                .min(self.physics().longest_step(self)),
             ..Plan::new(self.units, layout, quanta)
         }
     }

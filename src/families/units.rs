@@ -65,7 +65,7 @@ pub(super) fn momentum_unit(
 
 /// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
 /// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
-fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
+pub(super) fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
     let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
     noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
 }

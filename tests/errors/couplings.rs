@@ -434,3 +434,21 @@ fn steps_near_the_edge_are_warned_of() {
     );
     assert!(CHAINS.warnings(&[single, langevin, "time.step=0.0083"]).is_empty());
 }
+
+#[test]
+fn springs_too_weak_or_too_stiff_for_the_box_are_warned_of() {
+    let springs = |stiffness: &str| {
+        format!(r#"interactions=[{{"type":"bonds","potential":{{"type":"harmonic","stiffness":{stiffness}}}}}]"#)
+    };
+    let warned = |stiffness: &str, more: &[&str], expected: &str| {
+        let changes = springs(stiffness);
+        let found = CHAINS.warnings(&[&[changes.as_str()], more].concat());
+        assert!(found.iter().any(|warning| warning.contains(expected)), "{found:?}");
+    };
+    assert_eq!(CHAINS.warnings(&[&springs("1")]), Vec::<String>::new());
+    // √(kT/K) is 10 in half a box of 5.
+    warned("0.01", &[], "heat stretches these springs by √(kT/K) = 10.000 about their length at rest of 0.000");
+    // And 1e-5, where the box is resolved to 2e-5.
+    let wide = ["space.box=[100000,100000,100000]", "time.step=1e-6"];
+    warned("1e10", &wide, "positions are resolved to 2.33e-5");
+}

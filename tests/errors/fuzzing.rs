@@ -456,7 +456,7 @@ fn sizes_and_known_mistakes_cost_nothing() {
                 ("/space/box", json!([100_000])),
             ],
         ),
-        changed("dpd-fluid", &[("/particles/0/number_density", json!(400_000))]),
+        changed("dpd-fluid", &[("/particles/0/number_density", json!(400_000)), ("/time/step", json!(1e-6))]),
         changed("voronoi-energy", &[("/particles/0/count", json!(200_000_000))]),
     ];
     let count = refused.len();

@@ -235,6 +235,42 @@ fn lengths_and_durations() {
 }
 
 #[test]
+fn steps_that_take_particles_too_far_are_refused() {
+    FLUID.parse(&["temperature=9900", "interactions.0.friction=0"]).unwrap();
+    FLUID.refused_with(
+        &["temperature=1e12"],
+        &[
+            "time.step: found 0.01, in which thermal velocities of 1.00e6 take particles[0] 10000.000 far",
+            "a step that takes them no further than the cutoff, 1.000: 1e-7 or less",
+        ],
+    );
+    let rest = r#"particles=[{"species":"A","count":300,"velocities":{"type":"rest"}}]"#;
+    // A bath would heat them, and without one they stay as they are.
+    FLUID.refused_with(&[rest, "temperature=1e12"], &["thermal velocities"]);
+    FLUID.parse(&[rest, "temperature=1e12", "interactions.0.friction=0"]).unwrap();
+    let listed = r#"particles=[{"species":"A","placement":{"type":"listed","positions":[[1,1,1],[3,3,3]]},
+        "velocities":{"type":"listed","velocities":[[0,101,0],[0,-101,0]]}}]"#;
+    FLUID.refused_with(&[listed], &["velocities of 101.000 take particles[0] 1.010 far"]);
+}
+
+#[test]
+fn friction_far_beyond_the_step_is_refused() {
+    let explicit = r#"integrator={"type":"groot-warren"}"#;
+    let strong = "interactions.0.friction=1e30";
+    FLUID.refused_with(&[explicit, strong], &["friction relaxes the velocities of `water` 8.38e26 times over"]);
+    // Pairs relax exactly, at any friction, and where neighbours are few nothing else happens.
+    FLUID.parse(&[strong]).unwrap();
+    FLUID.refused_with(&[strong, "particles.0.count=3000"], &["times over; accepted: at most "]);
+}
+
+#[test]
+fn particles_in_one_place_are_warned_of() {
+    let listed = r#"particles=[{"species":"A","placement":{"type":"listed","positions":[[1,1,1],[3,3,3],[1,1,1]]}}]"#;
+    let found = FLUID.warnings(&[listed]);
+    assert!(found.len() == 1 && found[0].contains("1 particles start where another one is"), "{found:?}");
+}
+
+#[test]
 fn warnings_name_place_and_remedy() {
     let warned = |overrides: &[&str], expected: &str| {
         let warnings = FLUID.warnings(overrides);

@@ -11,7 +11,7 @@ use mesoscope::state::State;
 
 use crate::support::{
     COTTER_REICH, EVERY_STEP, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, hardware,
-    largest_difference, observables, reference, same_observables, series, start, traversals,
+    largest_difference, observables, reference, same_observables, series, start, step_in_words, traversals,
 };
 
 const TWO_DIMENSIONS: &str = "space.box=[5,5]";
@@ -231,7 +231,8 @@ fn friction_from_none_to_too_much() {
     agrees(&[GROOT_WARREN, "interactions.0.friction=0"], 3, 100);
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
         agrees_in_turn(number, &[integrator, "interactions.0.friction=1e-12"], 3, 100);
-        let friction = ["1e4", "1e30"][number % 2];
+        // Short of what is refused.
+        let friction = if *integrator == SPLITTING { "1e4" } else { "200" };
         unstable(number / 2, &fluid(&[integrator, &format!("interactions.0.friction={friction}")]), 50);
     }
 }
@@ -253,7 +254,7 @@ fn unstable(number: usize, scene: &Scene, batch: u64) {
             assert!(suggested_step > 0.0 && suggested_step < scene.time.step, "{error}");
             let message = error.to_string();
             assert!(message.contains(&format!("at step {step}")), "{message}");
-            assert!(message.contains(&suggested_step.to_string()), "{message}");
+            assert!(message.contains(&step_in_words(suggested_step)), "{message}");
         }
         other => panic!("{other:?} instead of an unstable run"),
     }
@@ -267,12 +268,14 @@ fn unstable(number: usize, scene: &Scene, batch: u64) {
 #[test]
 fn an_exploding_time_step_is_caught_within_a_batch() {
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
-        let step = ["0.5", "1e6"][number % 2];
+        let step = ["0.5", "0.9"][number % 2];
         unstable(number / 2, &fluid(&[integrator, &format!("time.step={step}")]), 50);
     }
-    unstable(1, &fluid(&[SPLITTING, "time.step=1e6"]), 50);
-    // A step that would be fine, for a particle that is too fast.
-    let scene = fluid(&[GROOT_WARREN, &listed("[[1,1,1],[3,3,3]]", "[[200,0,0],[0,0,0]]")]);
+    unstable(1, &fluid(&[SPLITTING, "time.step=0.9"]), 50);
+    // A step that would be fine, for a particle that is too fast: refused, but for a program that goes on without a check.
+    let fast = listed("[[1,1,1],[3,3,3]]", "[[200,0,0],[0,0,0]]");
+    let mut scene = fluid(&[GROOT_WARREN, &fast, "time.step=0.004"]);
+    scene.time.step = 0.04;
     (0..2).for_each(|number| unstable(number, &scene, 4));
 }
 

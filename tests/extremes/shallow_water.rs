@@ -10,7 +10,7 @@ use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
 use crate::support::{
-    EVERY_STEP, GYRO, ROTATE, WHITE, engine, gpu, in_eights, largest_difference, series, start, water,
+    EVERY_STEP, GYRO, ROTATE, WHITE, engine, gpu, in_eights, largest_difference, series, start, step_in_words, water,
 };
 
 const WARM: &str = "temperature=4e-4";
@@ -431,7 +431,7 @@ fn a_time_step_far_beyond_stability_is_caught_and_the_suggested_one_works() {
                 assert!(at < steps && !quantity.is_empty(), "{error}");
                 let message = error.to_string();
                 assert!(
-                    message.contains(&format!("at step {at}: ")) && message.contains(&suggested.to_string()),
+                    message.contains(&format!("at step {at}: ")) && message.contains(&step_in_words(suggested)),
                     "{message}"
                 );
                 suggestions.push(suggested);

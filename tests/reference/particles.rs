@@ -349,8 +349,10 @@ fn what_does_not_fit_the_state_is_an_error() {
         assert_eq!(run.run(5), Err(Unstable::Momentum { step: 0, particle: 0 }), "{integrator}");
         assert_eq!(run.state(), &before);
         changes["interactions"] = json!([]);
-        changes["time"] = json!({"step": 6.0, "steps": 1});
-        let mut run = reference(&changes);
+        // A check of the scene would refuse such a step.
+        let (mut model, state) = start(&changes);
+        model.time_step = 6.0;
+        let mut run = Reference::new(model, state);
         let before = run.state().clone();
         assert_eq!(run.run(5), Err(Unstable::Drift { step: 0, particle: 0 }), "{integrator}");
         assert_eq!(run.state(), &before);

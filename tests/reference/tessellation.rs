@@ -18,7 +18,7 @@ type Places = Vec<[u32; 3]>;
 fn cells(lengths: [f64; 2], count: usize) -> Scene {
     let [x, y] = lengths;
     scene(&format!(
-        r#"{{"title": "cells", "space": {{"box": [{x}, {y}]}}, "time": {{"step": 0.01, "steps": 1}}, "temperature": 1,
+        r#"{{"title": "cells", "space": {{"box": [{x}, {y}]}}, "time": {{"step": 0.0001, "steps": 1}}, "temperature": 1,
         "particles": [{{"species": "A", "count": {count}}}], "interactions": [{{"type": "voronoi"}}]}}"#
     ))
 }

@@ -180,7 +180,9 @@ fn what_is_missing_is_refused() {
 /// A failing step leaves the state as it was.
 #[test]
 fn a_step_that_does_not_fit_is_refused() {
-    let scene = cells(25, 5.0, &["time.step=40"]);
+    // A check of the scene would refuse it.
+    let mut scene = cells(25, 5.0, &[]);
+    scene.time.step = 40.0;
     let mut run = begin(&scene, WARM);
     let before = run.state().clone();
     assert!(matches!(run.run(10), Err(Unstable::Drift { .. })));

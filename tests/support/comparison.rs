@@ -96,3 +96,8 @@ pub fn largest_difference(a: &State, b: &State) -> (i64, i64) {
     }
     (momentum, position)
 }
+
+/// A suggested time step as messages have it.
+pub fn step_in_words(step: f64) -> String {
+    if step < 1e-4 { format!("{step:e}") } else { step.to_string() }
+}

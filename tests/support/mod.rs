@@ -26,7 +26,9 @@ use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
-pub use comparison::{largest_difference, predictions_agree, same_energies, same_observables, totals, units_of_a_step};
+pub use comparison::{
+    largest_difference, predictions_agree, same_energies, same_observables, step_in_words, totals, units_of_a_step,
+};
 pub use implementations::{Device, Implementation};
 pub use scenes::{
     COTTER_REICH, ENERGY, EVERY_STEP, GROOT_WARREN, GYRO, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, ROTATE,

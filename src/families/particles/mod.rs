@@ -98,6 +98,23 @@ impl Physics for Particles {
         units::momentum_unit(scene, species, self.pair_force.as_ref(), self.chains.as_ref(), 24.0)
     }
 
+    fn reach(&self, model: &Model) -> f64 {
+        match &self.pair_force {
+            Some(force) => force.cutoff,
+            // Nothing but a pair force tells, but it must not go round the box.
+            None if self.are_coupled => 0.4 * model.units.shortest_length(),
+            None => PairForce::none(&model.units, model.species.len()).cutoff,
+        }
+    }
+
+    fn reach_in_words(&self) -> &'static str {
+        if self.pair_force.is_some() { "the cutoff" } else { "what is safe in this box" }
+    }
+
+    fn longest_step(&self, model: &Model) -> f64 {
+        model.pair_step()
+    }
+
     fn has_potential(&self) -> bool {
         let bonds = self.bonds.as_ref();
         self.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0)
@@ -152,6 +169,8 @@ impl Physics for Particles {
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
         if self.are_coupled {
             stability::check(scene, model, problems);
+        } else {
+            stability::check_friction(scene, model, problems);
         }
     }
 

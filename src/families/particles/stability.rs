@@ -7,7 +7,7 @@
 //! unstable, and refused.
 
 use crate::document::{
-    Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning,
+    Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
 use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, FRICTION_LIMIT, Limit, Model, Particles};
 use std::f64::consts::PI;
@@ -17,6 +17,12 @@ const LIMIT: f64 = 4.0;
 
 /// B + W from which on a warning is due: positions are a third off their temperature where there is no potential but this.
 const CLEAN: f64 = 1.0;
+
+/// Times that friction may relax velocities over in a step of `splitting`, and the neighbours that it takes: one pair relaxes
+/// exactly at any friction, but many at once do not. The standard fluid ends within ten steps at 125 times, and is far off its
+/// temperature long before.
+const MOST_RELAXATION: f64 = 250.0;
+const NEIGHBOURS: f64 = 3.0;
 
 /// Bonds that an estimate looks at: the largest eigenvalue of a part is not above that of the whole.
 const MOST_BONDS: usize = 10_000;
@@ -45,7 +51,8 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     if worst.sum < LIMIT {
         return;
     }
-    let found = format!("found {step}, at which B + W is {:.4} for {}", worst.sum, worst.what);
+    let sum = if worst.sum < 1e6 { format!("{:.4}", worst.sum) } else { brief(worst.sum) };
+    let found = format!("found {step}, at which B + W is {sum} for {}", worst.what);
     let mut accepted = format!(
         "at most {}, so that B + W = (λₑ + K)dt²/m stays below {LIMIT}, beyond which no scheme is stable",
         two_digits(largest_step(scene, model, network.as_ref(), worst.sum))
@@ -59,6 +66,30 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
             accepted = format!("{accepted}; or a {key} of at most {most} in interactions[{}]", worst.place);
         }
     }
+    problems.push(Problem::new("time.step", found, accepted));
+}
+
+/// Refuses a time step in which the friction of pairs that do not relax is certainly unstable: B is 2Γ dt on average, for a mean
+/// friction rate Γ, and half of that is certain.
+pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Problems) {
+    let Some(force) = model.pair_force() else { return };
+    let (rate, index) = model.largest_friction_rate(force);
+    let most = if model.splits() { MOST_RELAXATION } else { LIMIT };
+    let step = scene.time.step;
+    let sparse = model.splits() && model.mean_neighbours(force) < NEIGHBOURS;
+    if rate * step < most || sparse {
+        return;
+    }
+    let found = format!(
+        "found {step}, in which friction relaxes the velocities of `{}` {} times over",
+        model.species[index].name,
+        brief(rate * step)
+    );
+    let accepted = format!(
+        "at most {}, beyond which no such step is stable, and {:.2e} for reliable temperatures; or less friction",
+        two_digits(most / rate),
+        FRICTION_LIMIT / rate
+    );
     problems.push(Problem::new("time.step", found, accepted));
 }
 

@@ -1,7 +1,9 @@
 //! What is allowed of particles but deserves a second look.
 
 use super::stability;
-use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Warning, brief};
+use crate::document::{
+    BondPotential, ColouredNoiseInteraction, Interaction, NoiseProcess, Placement, Scene, Warning, brief,
+};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, Particles, Species};
 
@@ -23,8 +25,10 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
             _ => {}
         }
     }
+    warn_of_places(scene, &mut warnings);
     if particles.are_coupled {
         warnings.extend(stability::warn(scene, model));
+        warn_of_springs(scene, &mut warnings);
         warn_of_loose_chains(scene, &mut warnings);
     }
     warn_of_momentum(scene, &mut warnings);
@@ -36,6 +40,83 @@ const FEWEST_UNITS: f64 = 1000.0;
 
 /// Impulses of fewer units of momentum are rounded by more than a thousandth.
 const COARSE_IMPULSE: f64 = 500.0;
+
+/// Thermal extensions within which nearly all springs stay.
+const NEARLY_ALL: f64 = 4.0;
+
+/// Part of the thermal extension of a spring to which positions have to be resolved.
+const FINE_PLACES: f64 = 1e-3;
+
+/// Springs that heat stretches to half the box pull towards the next image of their end, and those that it hardly stretches are
+/// lost in the rounding of positions.
+fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let half = 0.5 * scene.space.shortest_length();
+    let resolution = scene.space.lengths.iter().copied().fold(0.0, f64::max) / 4_294_967_296.0;
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let [stiffness, length] = match interaction {
+            Interaction::Tether(spring) => [spring.stiffness, 0.0],
+            Interaction::Bonds(bonds) => match bonds.potential {
+                Some(BondPotential::Harmonic { stiffness, length }) => [stiffness, length],
+                _ => continue,
+            },
+            // Half the box is checked with their spacing.
+            Interaction::HarmonicChain(chain) => [chain.stiffness, 0.0],
+            _ => continue,
+        };
+        let temperature = interaction.bath_temperature(scene.temperature);
+        let extension = (temperature / stiffness).sqrt();
+        if !extension.is_finite() || extension == 0.0 {
+            continue;
+        }
+        let path = format!("interactions[{index}]");
+        let chains = matches!(interaction, Interaction::HarmonicChain(_));
+        if length + NEARLY_ALL * extension > half && !chains {
+            let message = format!(
+                "heat stretches these springs by √(kT/K) = {} about their length at rest of {}, and beyond {}, half the shortest \
+                 edge of the box, they pull towards the next image: take stiffer springs, a lower temperature or a larger box",
+                brief(extension),
+                brief(length),
+                brief(half)
+            );
+            warn(warnings, path, message);
+        } else if resolution > FINE_PLACES * extension {
+            let message = format!(
+                "heat stretches these springs by √(kT/K) = {}, and positions are resolved to {}, a 2³²nd of the longest edge of the \
+                 box: rounding heats them; take a smaller box",
+                brief(extension),
+                brief(resolution)
+            );
+            warn(warnings, path, message);
+        }
+    }
+}
+
+/// Particles in one place have no direction to push each other in.
+fn warn_of_places(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
+    if !scene.interactions.iter().any(pairs) {
+        return;
+    }
+    let lists = scene.particles.iter().enumerate().filter_map(|(index, group)| match &group.placement {
+        Placement::Listed { positions } => Some((index, positions)),
+        _ => None,
+    });
+    let mut places: Vec<(Vec<u64>, usize)> = lists
+        .flat_map(|(index, positions)| {
+            // Zero has two signs.
+            positions.iter().map(move |place| (place.iter().map(|part| (part + 0.0).to_bits()).collect(), index))
+        })
+        .collect();
+    places.sort_unstable();
+    let shared = places.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    let Some(group) = shared.clone().map(|pair| pair[1].1).min() else { return };
+    let message = format!(
+        "{} particles start where another one is: without a direction between them no force of a pair acts, and those that start \
+         with the same velocity never part; put them some distance apart",
+        shared.count()
+    );
+    warn(warnings, format!("particles[{group}].placement.positions"), message);
+}
 
 /// Chains that no bond holds together are nothing but a way to place particles.
 fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
@@ -99,9 +180,11 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     let thermal = |species: &Species| units((species.mass * model.pair_temperature()).sqrt());
     let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
     let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
+    let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
+    let cold = mobile.map(thermal).fold(0.0, f64::max) < FEWEST_UNITS;
     let alike = model.species.iter().all(|species| species.mass == lightest.mass);
-    let advice = if alike {
-        "choose units in which masses, temperature and repulsion are nearer to 1"
+    let advice = if alike || cold {
+        "choose a temperature that is nearer to the energies that forces and velocities make"
     } else {
         "choose masses that are nearer to each other"
     };

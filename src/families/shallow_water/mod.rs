@@ -39,6 +39,26 @@ impl Physics for ShallowWater {
         velocity_unit(scene, self)
     }
 
+    /// Half round the box, by a path that bends.
+    fn reach(&self, model: &Model) -> f64 {
+        let [ahead, aside] = self.path(&model.integrator, model.time_step);
+        0.5 * model.units.shortest_length() * model.time_step / (ahead.abs() + aside.abs())
+    }
+
+    fn reach_in_words(&self) -> &'static str {
+        "half round the box"
+    }
+
+    /// That of the carriers, each of which has the mass of some nodes.
+    fn mean_mass(&self, group: &ParticleGroup) -> f64 {
+        if group.tracer { 0.0 } else { self.nodes() as f64 / self.carriers.max(1) as f64 }
+    }
+
+    fn longest_step(&self, model: &Model) -> f64 {
+        let [x, y, _] = model.units.lengths;
+        self.advisable_step(&model.integrator, [x, y], model.time_step)
+    }
+
     fn has_potential(&self) -> bool {
         true
     }
@@ -53,6 +73,10 @@ impl Physics for ShallowWater {
 
     fn is_conservative(&self, _: &Model) -> bool {
         self.bath.is_none()
+    }
+
+    fn is_heated(&self, model: &Model) -> bool {
+        self.bath.is_some_and(|bath| bath.coupling > 0.0) && model.temperature > 0.0
     }
 
     fn mass_unit(&self) -> Option<f64> {

@@ -128,6 +128,17 @@ impl ShallowWater {
         if self.carriers == 0 { 0 } else { (1.0 / self.mass_unit).round() as i64 }
     }
 
+    /// How far a particle of unit velocity goes in a step, ahead and to the side: the path of a drift that turns with the rotation
+    /// bends by the whole angle, one that the rotation is apart from is straight.
+    pub(super) fn path(&self, integrator: &Integrator, time_step: f64) -> [f64; 2] {
+        let angle = self.rotation * time_step;
+        if self.rotation == 0.0 || *integrator != (Integrator::Gyro {}) {
+            [time_step, 0.0]
+        } else {
+            [angle.sin() / self.rotation, (1.0 - angle.cos()) / self.rotation]
+        }
+    }
+
     /// The share p of the limit of stability that a time step takes, for water that is spread evenly: it is stable for p < 1.
     /// Water at random places has a limit of its own, below 1: see [`clean_share`](Self::clean_share).
     ///

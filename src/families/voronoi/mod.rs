@@ -10,6 +10,7 @@ mod plan;
 pub mod reference;
 mod start;
 mod tally;
+mod time_scales;
 mod warnings;
 
 pub use layout::CellLayout;
@@ -31,6 +32,19 @@ impl Physics for Voronoi {
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
         // Cells that come close throw each other apart, at steps that are too long for them by hundreds of these momenta.
         units::momentum_unit(scene, species, None, None, 20.0)
+    }
+
+    /// Those that jump over many others see nothing of them, and none may go round the box.
+    fn reach(&self, model: &Model) -> f64 {
+        (8.0 * Self::mean_volume(model).sqrt()).min(0.4 * model.units.shortest_length())
+    }
+
+    fn reach_in_words(&self) -> &'static str {
+        "eight widths of a cell or what is safe in this box"
+    }
+
+    fn longest_step(&self, model: &Model) -> f64 {
+        self.longest_resolved_step(model)
     }
 
     fn has_potential(&self) -> bool {
@@ -81,6 +95,10 @@ impl Physics for Voronoi {
 
     fn check_start(&self, scene: &Scene, _: &Model, state: &State, problems: &mut Problems) {
         start::check_masses(scene, self, &state.masses, problems);
+    }
+
+    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
+        time_scales::check(self, scene, model, problems);
     }
 
     fn plan(&self, model: &Model, measured: &Measured, _: Hardware, options: Options) -> PhysicsPlan {

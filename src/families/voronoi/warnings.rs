@@ -1,5 +1,6 @@
 //! What is allowed of Voronoi cells but deserves a second look.
 
+use super::time_scales::{FRICTION_LIMIT, RARELY, SOUND_LIMIT, lightest};
 use crate::document::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
 use crate::document::{shear_waves, voronoi};
 use crate::families::warnings::{warn, warn_of_momentum};
@@ -16,9 +17,6 @@ pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<War
     warnings
 }
 
-/// A sound wave that passes more than this part of a cell in one step is not resolved.
-const SOUND_LIMIT: f64 = 0.2;
-
 /// A flow faster than this part of the speed of sound compresses the fluid.
 const FLOW_LIMIT: f64 = 0.3;
 
@@ -28,12 +26,6 @@ const EULER_EXCESS: f64 = 22.0;
 
 /// Excess of the temperature that is worth a warning.
 const HOT: f64 = 0.02;
-
-/// Friction of a step, dt η/M, up to which the implicit solver of `splitting` has been seen to keep the temperature.
-const FRICTION_OF_CELLS: f64 = 0.05;
-
-/// A limit at so many deviations acts rarely.
-const RARELY: f64 = 3.0;
 
 /// A cell of fewer molecules has an internal temperature that noise may take to zero.
 const FEWEST_MOLECULES: f64 = 20.0;
@@ -50,7 +42,7 @@ pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit
     let (law, friction) = if scene.integrator == (Integrator::Euler {}) {
         ("2 % of heat of Euler's scheme", EULER_EXCESS * friction / HOT)
     } else {
-        ("friction dt η/M = 1/20", friction / FRICTION_OF_CELLS)
+        ("friction dt η/M = 1/20", friction / FRICTION_LIMIT)
     };
     let heat = random_heat(scene, model, cells).unwrap_or(0.0);
     let cut = if cells.exchange_limit > 0.0 { RARELY * heat / cells.exchange_limit } else { 0.0 };
@@ -65,19 +57,10 @@ pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit
     ]
 }
 
-/// The mass of the lightest cell.
-fn lightest(model: &Model) -> f64 {
-    let present = model.species.iter().filter(|species| species.count > 0);
-    present.map(|species| species.mass).fold(f64::INFINITY, f64::min)
-}
-
 /// The speed of sound and the width of a cell.
 fn sound_and_size(scene: &Scene, model: &Model, cells: &Voronoi) -> (f64, f64) {
-    let size = (model.units.volume() / model.particle_count().max(1) as f64).sqrt();
     let hottest = scene.interactions.iter().map(|each| each.bath_temperature(scene.temperature)).fold(0.0, f64::max);
-    // Sound of an ideal gas in two dimensions, with the heat it makes or without.
-    let stiffness = if cells.keeps_energy() { 2.0 } else { 1.0 };
-    ((stiffness * hottest / cells.molecular_mass).sqrt(), size)
+    (cells.speed_of_sound(hottest), Voronoi::mean_volume(model).sqrt())
 }
 
 /// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.
@@ -88,8 +71,7 @@ fn random_heat(scene: &Scene, model: &Model, cells: &Voronoi) -> Option<f64> {
         InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
         InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
     };
-    let fewest = lightest(model) / cells.molecular_mass;
-    Some((2.0 * cells.conductivity? * scene.time.step).sqrt() * thinned / fewest)
+    cells.conductivity.map(|_| cells.random_heat(lightest(model), scene.time.step) * thinned)
 }
 
 /// Warns of a time step that is too long for Voronoi cells.
@@ -117,11 +99,11 @@ fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, warnings: &mut V
         );
         warn(warnings, "time.step", message);
     }
-    if !euler && friction > FRICTION_OF_CELLS {
+    if !euler && friction > FRICTION_LIMIT {
         let message = format!(
-            "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_OF_CELLS}, a step \
+            "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_LIMIT}, a step \
              of {:.2e}, and the solver takes more iterations beyond",
-            FRICTION_OF_CELLS * lightest / cells.viscosity
+            FRICTION_LIMIT * lightest / cells.viscosity
         );
         warn(warnings, "time.step", message);
     }
@@ -179,7 +161,7 @@ fn warn_of_fluid(
     }
     let coldest = scene.temperature;
     for (index, amplitude, _) in shear_waves(scene) {
-        let sound = (if cells.keeps_energy() { 2.0 } else { 1.0 } * coldest / cells.molecular_mass).sqrt();
+        let sound = cells.speed_of_sound(coldest);
         if amplitude.abs() > FLOW_LIMIT * sound {
             let message = format!(
                 "the wave is {:.2} times as fast as sound; up to {FLOW_LIMIT} it does not compress the fluid",

@@ -206,7 +206,7 @@ fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: 
     let Bath::Memory { rate, coupling, .. } = *bath else { return };
     let given = frictions.into_iter().filter(|(_, friction)| *friction > 0.0);
     for (place, friction) in given {
-        let found = format!("found {friction}");
+        let found = if friction < 1e6 { format!("found {friction}") } else { format!("found {friction:e}") };
         if coupling.is_some() {
             let accepted = format!("either friction or {path}.bath.coupling: each follows from the other");
             problems.push(Problem::new(place, found, accepted));

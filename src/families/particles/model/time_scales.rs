@@ -29,11 +29,7 @@ impl Model {
     /// The largest frequency of a particle held by evenly spread neighbours, and its species: ω² = Σ aρV(rc) / (d·rc·m), from
     /// the radial parts of their force constants a/rc alone, which makes it an upper estimate.
     pub(crate) fn largest_repulsion_frequency(&self, force: &PairForce) -> (f64, usize) {
-        let sphere = match self.units.dimension {
-            1 => 2.0 * force.cutoff,
-            2 => PI * force.cutoff.powi(2),
-            _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
-        };
+        let sphere = self.sphere(force);
         self.largest(|index| {
             let stiffness: f64 = self.densities().map(|(other, density)| force.stiffness(index, other) * density).sum();
             let mass = self.species[index].mass;
@@ -47,6 +43,20 @@ impl Model {
         let (rate, _) = self.largest_friction_rate(force);
         let (frequency, _) = self.largest_repulsion_frequency(force);
         (FRICTION_LIMIT / rate).min(FREQUENCY_LIMIT / frequency)
+    }
+
+    /// Neighbours within the cutoff of evenly spread particles.
+    pub(crate) fn mean_neighbours(&self, force: &PairForce) -> f64 {
+        self.densities().map(|(_, density)| density).sum::<f64>() * self.sphere(force)
+    }
+
+    /// Volume of the sphere within the cutoff.
+    fn sphere(&self, force: &PairForce) -> f64 {
+        match self.units.dimension {
+            1 => 2.0 * force.cutoff,
+            2 => PI * force.cutoff.powi(2),
+            _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
+        }
     }
 
     fn densities(&self) -> impl Iterator<Item = (usize, f64)> {

@@ -164,7 +164,7 @@ impl Builder<'_> {
             (Constant::Cutoff, cutoff),
             (Constant::WeightRootExponent, 0.5 * exponent),
             (Constant::Species, self.model.species.len() as f64),
-            (Constant::DisplacementLimit, cutoff),
+            (Constant::DisplacementLimit, self.model.physics().reach(self.model)),
             (Constant::PairEnergy, to_force * cutoff / (4.0 * pair_energy)),
             (Constant::PairVirial, to_force / (2.0 * pair_energy)),
             (Constant::Gradient, to_force * to_force / force_squared),

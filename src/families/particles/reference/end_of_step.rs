@@ -36,7 +36,7 @@ pub(super) fn end(
         _ => Vec::new(),
     };
     state.momenta = advanced;
-    state.step += 1;
+    state.step = state.step.wrapping_add(1);
     Ok(())
 }
 

@@ -123,13 +123,8 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage, texels: boo
             }
         },
     };
-    let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let cells = [water.mesh[0], water.mesh[1], 1];
-    let plan = model.empty_plan(cells, layout, quanta(model, water), noise::stream::MESH);
-    Plan {
-        suggested_step: water.advisable_step(&model.integrator, lengths, model.time_step).min(plan.suggested_step),
-        ..plan
-    }
+    model.empty_plan(cells, layout, quanta(model, water), noise::stream::MESH)
 }
 
 /// Units of the sums: small against the 24 bits of a single term, and large enough for 64 bits to hold all of them. The
@@ -180,12 +175,7 @@ impl Builder<'_> {
         let kick = |axis: usize| -0.5 * step * water.wave_speed.powi(2) / (spacing[axis] * units.momentum);
         let fraction = |axis: usize| units.momentum * 4_294_967_296.0 / units.lengths[axis];
         let angle = water.rotation * step;
-        // The path of a step bends by the whole angle; where the rotation is apart from the drift, it is straight.
-        let (chord, sagitta) = if water.rotation == 0.0 || !self.gyrates() {
-            (step, 0.0)
-        } else {
-            (angle.sin() / water.rotation, (1.0 - angle.cos()) / water.rotation)
-        };
+        let [chord, sagitta] = water.path(&self.model.integrator, step);
         // Velocities have one bit to spare for a kick; no step may go half round the box.
         let way = (chord.abs() + sagitta.abs()) * fraction(0).max(fraction(1));
         let velocity_limit = (2_f64.powi(31) / way).min(2_f64.powi(30)).floor();

@@ -167,7 +167,7 @@ impl ShallowWaterReference {
             self.previous = masses;
             self.bath = bath;
         }
-        self.state.step += 1;
+        self.state.step = self.state.step.wrapping_add(1);
         Ok(())
     }
 

@@ -38,7 +38,7 @@ pub(crate) fn plan(model: &Model, cells: &Voronoi, measured: &Measured, options:
         ordered: None,
         texture_candidates: texture_candidates(),
         followers: vec![Kernel::new("follow", Entry::FollowParticles, plane(), builder.groups(particles))],
-        stride: builder.reach() / model.units.shortest_length(),
+        stride: model.physics().reach(model) / model.units.shortest_length(),
         plan: builder.plan,
     }
 }
@@ -49,14 +49,9 @@ fn grid(model: &Model, particles: u64) -> Grid {
     Grid::new(&model.units, width, particles)
 }
 
-/// The volume of a cell on average.
-fn mean_volume(model: &Model) -> f64 {
-    model.units.volume() / model.particle_count().max(1) as f64
-}
-
 /// Units of the sums: those of pairs, and areas in 2⁻³² of that of a cell.
 fn quanta(model: &Model) -> Quanta {
-    Quanta { length_squared: mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
+    Quanta { length_squared: Voronoi::mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
 }
 
 /// The plane and the cells in it.
@@ -104,14 +99,8 @@ impl Builder<'_> {
             (Constant::ExchangeLimit, cells.exchange_limit),
             (Constant::Viscosity, cells.viscosity * self.model.time_step),
             (Constant::Conductivity, cells.conductivity.unwrap_or(0.0) * self.model.time_step),
-            (Constant::DisplacementLimit, self.reach()),
+            (Constant::DisplacementLimit, self.model.physics().reach(self.model)),
         ];
-    }
-
-    /// How far a cell may go in a step along an axis: those that jump over many others see nothing of them, and none may go
-    /// round the box.
-    fn reach(&self) -> f64 {
-        (8.0 * mean_volume(self.model).sqrt()).min(0.4 * self.model.units.shortest_length())
     }
 
     /// Whether friction acts.

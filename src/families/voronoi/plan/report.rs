@@ -1,6 +1,7 @@
 //! What is measured of the cells, and the analyses of them by their numbers.
 
 use super::{Builder, plane};
+use crate::families::Voronoi;
 use crate::plan::{Need, Reported};
 use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 
@@ -48,7 +49,7 @@ impl Builder<'_> {
             (Constant::FirstGroup, 0.0),
             (Constant::Kinetic, 1.0 / quanta.energy),
             (Constant::VolumeSteps, 1.0 / quanta.length_squared),
-            (Constant::MeanVolume, super::mean_volume(self.model)),
+            (Constant::MeanVolume, Voronoi::mean_volume(self.model)),
         ];
         self.plan.report.push(observe);
     }

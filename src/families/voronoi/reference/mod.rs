@@ -111,7 +111,7 @@ impl VoronoiReference {
         } else {
             ahead.split()?;
         }
-        ahead.state.step += 1;
+        ahead.state.step = ahead.state.step.wrapping_add(1);
         *self = ahead;
         Ok(())
     }

@@ -18,7 +18,7 @@ use super::{
     Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate, pair,
     texture_candidates, words,
 };
-use crate::document::Integrator;
+use crate::document::{BondPotential, Integrator};
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
@@ -55,7 +55,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
         ordered: builder.ordered(),
         texture_candidates: texture_candidates(&builder.plan),
         followers: vec![Kernel::new("follow", Entry::FollowParticles, builder.choices(), builder.groups(particles))],
-        stride: builder.reach() / model.units.shortest_length(),
+        stride: model.physics().reach(model) / model.units.shortest_length(),
         plan: builder.plan,
     }
 }
@@ -81,15 +81,30 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     Plan { reported: Some((Array::Reported, reported)), ..plan }
 }
 
-/// Units of the sums: those of pairs, and for the square of a bath that of the stiffest.
+/// Units of the sums: those of pairs, and for the square of a bath that of the stiffest. Springs far stiffer than what heat and
+/// repulsion make of the unit of length, as in the cold, need coarser units of the curvature and of the square of a force, which
+/// goes with it in equilibrium.
 fn quanta(model: &Model) -> Quanta {
     let mut quanta = pair::quanta(model);
     let temperature = quanta.energy * 2_f64.powi(32);
+    let stiffness = stiffest_spring(model).log2().ceil().exp2() * 2_f64.powi(-32);
+    quanta.curvature = quanta.curvature.max(stiffness);
+    quanta.force_squared = quanta.force_squared.max(temperature * stiffness);
     let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
     if largest > 0.0 {
         quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
     }
     quanta
+}
+
+/// The largest spring constant of a scene.
+fn stiffest_spring(model: &Model) -> f64 {
+    let kinds = model.bonds().into_iter().flat_map(|bonds| &bonds.kinds);
+    let of_bonds = kinds.filter_map(|kind| match kind.potential {
+        Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => Some(stiffness),
+        None => None,
+    });
+    of_bonds.chain(model.tether()).fold(0.0, f64::max)
 }
 
 /// The baths that remember.
@@ -128,7 +143,7 @@ impl Builder<'_> {
         let half = 0.5 * model.time_step;
         let to_force = units.momentum / half;
         let cutoff = self.force.cutoff;
-        let reach = self.reach();
+        let reach = model.physics().reach(model);
         let mass = self.species.mass();
         let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
         let mut constants = self.grid.constants(&units).to_vec();
@@ -162,12 +177,6 @@ impl Builder<'_> {
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
-    }
-
-    /// How far a particle may go in a step along an axis.
-    fn reach(&self) -> f64 {
-        // Nothing but a pair force tells, but it must not go round the box.
-        if self.model.pair_force().is_some() { self.force.cutoff } else { 0.4 * self.model.units.shortest_length() }
     }
 
     /// Inverse masses; none of what is held.

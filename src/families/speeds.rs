@@ -1,0 +1,116 @@
+//! How fast particles are expected to move, beside how far they may go in a step.
+
+use super::units::noise_momentum;
+use super::{Model, Physics, Species};
+use crate::document::{Interaction, ParticleGroup, Problem, Problems, Scene, Velocities, brief};
+
+/// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
+/// for a million, and forces add to it.
+const MARGIN: f64 = 8.0;
+
+/// Largest velocity along an axis that a group of a scene starts with; of thermal ones the standard deviation.
+fn at_start(scene: &Scene, group: &ParticleGroup, physics: &dyn Physics) -> f64 {
+    match &group.velocities {
+        Velocities::Thermal => thermal(scene.temperature, physics.mean_mass(group)),
+        Velocities::ShearWave { amplitude, .. } => amplitude.abs(),
+        Velocities::Listed { velocities } => velocities.iter().flatten().fold(0.0, |most, v| v.abs().max(most)),
+        Velocities::Rest | Velocities::Geostrophic => 0.0,
+    }
+}
+
+/// √(kT/m) of particles that have a mass.
+fn thermal(temperature: f64, mass: f64) -> f64 {
+    if mass > 0.0 { (temperature / mass).sqrt() } else { 0.0 }
+}
+
+/// The highest temperature of a bath.
+fn hottest(scene: &Scene) -> f64 {
+    let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
+    baths.fold(0.0, f64::max)
+}
+
+/// Groups of particles that move, with their places.
+fn moving(scene: &Scene) -> impl Iterator<Item = (usize, &ParticleGroup)> {
+    let moves = |group: &ParticleGroup| !group.fixed && group.resolved_count(scene.space.volume()) > 0;
+    scene.particles.iter().enumerate().filter(move |(_, group)| moves(group))
+}
+
+/// The largest velocity along an axis that is expected of a particle: that of the start, of a bath or of a random force.
+pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics) -> f64 {
+    let hottest = hottest(scene);
+    let of_group = |group| at_start(scene, group, physics).max(thermal(hottest, physics.mean_mass(group)));
+    let mut most = moving(scene).map(|(_, group)| of_group(group)).fold(0.0, f64::max);
+    let mobile = species.iter().filter(|species| !species.fixed && species.count > 0);
+    let lightest = mobile.map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    for interaction in &scene.interactions {
+        if let Interaction::ColouredNoise(noise) = interaction {
+            most = most.max(noise_momentum(noise, scene.time.step) / lightest);
+        }
+    }
+    most
+}
+
+/// The momentum along an axis that a random force gives in half a step.
+fn random_impulse(scene: &Scene) -> f64 {
+    let impulses = scene.interactions.iter().map(|interaction| match interaction {
+        Interaction::ColouredNoise(noise) => 0.5 * noise.strength.sqrt() * noise.time.min(scene.time.step),
+        _ => 0.0,
+    });
+    impulses.fold(0.0, f64::max)
+}
+
+/// Refuses a time step in which particles go beyond the reach of their family with the velocities that they start with or that
+/// baths and random forces give them.
+pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
+    let physics = model.physics();
+    let (reach, step) = (physics.reach(model), scene.time.step);
+    let pushed = random_impulse(scene);
+    let heat = if physics.is_heated(model) { hottest(scene) } else { 0.0 };
+    let speed = |group| {
+        let [start, bath] = [at_start(scene, group, physics), thermal(heat, physics.mean_mass(group))];
+        let random = pushed / group.mass;
+        let what = if random > start.max(bath) {
+            "velocities of the random force"
+        } else if bath > start || group.velocities == Velocities::Thermal {
+            "thermal velocities"
+        } else {
+            "velocities"
+        };
+        (start.max(bath).max(random), what)
+    };
+    let speeds = moving(scene).map(|(place, group)| (place, speed(group)));
+    let first_of_fastest = speeds.reduce(|a, b| if b.1.0 > a.1.0 { b } else { a });
+    let Some((place, (fastest, what))) = first_of_fastest else { return };
+    if fastest * step <= reach {
+        return;
+    }
+    let found = format!(
+        "found {step}, in which {what} of {} take particles[{place}] {} far",
+        brief(fastest),
+        brief(fastest * step)
+    );
+    let accepted = format!(
+        "a step that takes them no further than {}, {}: {} or less",
+        physics.reach_in_words(),
+        brief(reach),
+        brief_step(round_down(longest_step(model)))
+    );
+    problems.push(Problem::new("time.step", found, accepted));
+}
+
+/// The longest step in which all that is expected to move stays within the reach of its family.
+pub(super) fn longest_step(model: &Model) -> f64 {
+    model.physics().reach(model) / (MARGIN * model.expected_velocity)
+}
+
+/// A step of one digit, in few characters.
+pub(super) fn brief_step(step: f64) -> String {
+    if step == 0.0 || (1e-4..1e6).contains(&step) { step.to_string() } else { format!("{step:e}") }
+}
+
+/// The largest number of one digit not above `value`.
+pub(super) fn round_down(value: f64) -> f64 {
+    let magnitude = 10_f64.powf(value.log10().floor());
+    let rounded = (value / magnitude).floor() * magnitude;
+    format!("{rounded:.0e}").parse().unwrap_or(rounded)
+}
