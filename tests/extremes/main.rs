@@ -7,6 +7,7 @@ mod support;
 mod cold_scenes;
 mod couplings;
 mod edge_of_error;
+mod every_family;
 mod particles;
 mod shallow_water;
 mod voronoi;

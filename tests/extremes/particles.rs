@@ -3,7 +3,6 @@
 use mesoscope::engine::EngineError;
 use mesoscope::families::reference::Reference;
 use mesoscope::families::{Instability, Model};
-use mesoscope::measure::Observables;
 use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
@@ -352,34 +351,6 @@ fn powers_of_two_of_every_unit_leave_the_integers_alone() {
 }
 
 #[test]
-fn the_thermostat_holds_at_any_temperature() {
-    for temperature in [1e-12_f64, 1.0, 1e12] {
-        // Started cold, so that the heat has to come from the bath.
-        let scene = fluid(&[
-            GROOT_WARREN,
-            TWO_DIMENSIONS,
-            "particles.0.count=300",
-            "particles.0.number_density=null",
-            REST,
-            &format!("temperature={temperature:e}"),
-            &format!("interactions.0.repulsion={:e}", 25.0 * temperature),
-            &format!("interactions.0.friction={:e}", 4.5 * temperature.sqrt()),
-            &format!("time.step={:e}", 0.02 / temperature.sqrt()),
-            "output.energies.every=5",
-        ]);
-        let (_, state) = start(&scene);
-        let mut engine = engine(&scene, &state, Options::default());
-        engine.advance(1500, 100).unwrap();
-        let found = series(&mut engine, &scene);
-        assert!(found.iter().all(|row| row.momentum == [0.0; 3]));
-        let late = &found[60..];
-        let mean = late.iter().map(Observables::kinetic_temperature).sum::<f64>() / late.len() as f64 / temperature;
-        // A sample of 600 degrees of freedom spreads by 6 %; 1200 steps hold some hundred independent ones.
-        assert!((mean - 1.0).abs() < 0.03, "kT = {temperature:e}: {mean} times that");
-    }
-}
-
-#[test]
 fn without_heat_energy_only_falls() {
     for integrator in INTEGRATORS {
         let scene = fluid(&[integrator, "temperature=0", "time.step=0.005", REST, EVERY_STEP]);
@@ -566,33 +537,6 @@ fn sixteen_species() {
         agrees_in_turn(number, &[integrator, &particles, &force], 3, 100);
         agrees_in_turn(number + 1, &[integrator, &particles, &force, "space.box=[10,10]"], 3, 100);
     }
-}
-
-// ---- The clock
-
-#[test]
-fn the_last_steps_there_are() {
-    let scene = fluid(&[GROOT_WARREN, EVERY_STEP]);
-    let (_, state) = start(&scene);
-    for first in [u64::from(u32::MAX) - 2, u64::MAX - 3] {
-        let state = State { step: first, ..state.clone() };
-        let mut device = engine(&scene, &state, Options::default());
-        let mut reference = reference(&scene, &state);
-        device.advance(3, 2).unwrap();
-        reference.run(3).unwrap();
-        let found = device.state().unwrap();
-        assert_eq!(found.step, first + 3);
-        let (momentum, position) = largest_difference(&found, reference.state());
-        assert!(momentum <= 300 && position <= 300, "{momentum} {position}");
-        let steps: Vec<u64> = device.finish().unwrap().iter().map(|sample| sample.step).collect();
-        assert_eq!(steps, [first, first + 1, first + 2, first + 3]);
-    }
-    // There is no step after the last.
-    let mut device = engine(&scene, &State { step: u64::MAX - 1, ..state }, Options::default());
-    assert!(matches!(device.advance(2, 1), Err(EngineError::State { .. })));
-    device.advance(1, 1).unwrap();
-    assert_eq!(device.state().unwrap().step, u64::MAX);
-    assert!(matches!(device.advance(1, 1), Err(EngineError::State { .. })));
 }
 
 // ---- Crowding
