@@ -142,7 +142,7 @@ pub enum Traversal {
     Rows,
     /// Eight particles or cells a subgroup; only where subgroups have eight lanes.
     Clusters,
-    /// No pairs at all: the scene has no pair force.
+    /// No pairs at all: none has a force on each other.
     Alone,
 }
 

@@ -8,5 +8,6 @@ mod canonical;
 mod compilers;
 mod elementary;
 mod index;
+mod required;
 mod unchanged;
 mod variants;

@@ -37,8 +37,11 @@ impl Descriptor for Circulation {
     }
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {
-        let tracers = planner.model.physics().material_loops(planner.model).map_or(0, |found| found.tracers);
-        if tracers == 0 {
+        let Some(MaterialLoops { tracers, loops, .. }) = planner.model.physics().material_loops(planner.model) else {
+            return;
+        };
+        // Tracers that are on no loop have no circulation.
+        if loops.iter().all(|(_, range)| range.is_empty()) {
             return;
         }
         let plan = &mut *planner.plan;

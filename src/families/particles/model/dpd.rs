@@ -104,6 +104,12 @@ impl PairForce {
         }
     }
 
+    /// Whether any pair of species has a force at all.
+    #[must_use]
+    pub fn acts(&self) -> bool {
+        self.largest_repulsion() > 0.0 || self.has_friction()
+    }
+
     /// The largest magnitude of any repulsion.
     #[must_use]
     pub fn largest_repulsion(&self) -> f64 {

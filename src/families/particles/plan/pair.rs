@@ -29,7 +29,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.pair_force().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff, particles);
-    let traversal = match (model.pair_force().is_some(), options.traversal) {
+    let traversal = match (force.acts(), options.traversal) {
         (false, _) => Traversal::Alone,
         (true, Some(traversal)) => traversal,
         (true, None) if hardware.takes_eights() => Traversal::Clusters,

@@ -37,7 +37,7 @@ impl Builder<'_> {
         }
         let groups = self.groups(self.particles);
         let slots = Choices::new().with_if(self.needs_slots(), couplings::Slots::Kept);
-        if self.model.pair_force().is_none() {
+        if !self.visits_pairs() {
             let tick = self.kernel("tick", Entry::BeginPlainStep, &Choices::new(), 1);
             self.plan.sort = vec![tick];
             if self.needs_slots() {

@@ -62,7 +62,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    let list = model.pair_force().as_ref().map(|force| ListLayout {
+    let list = model.pair_force().filter(|force| force.acts()).map(|force| ListLayout {
         capacity: list::capacity(model, force, options) as usize,
         memory: force.remembers(),
     });
@@ -177,6 +177,11 @@ impl Builder<'_> {
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
+    }
+
+    /// Whether any pair of particles has a force on each other.
+    fn visits_pairs(&self) -> bool {
+        self.force.acts()
     }
 
     /// Inverse masses; none of what is held.

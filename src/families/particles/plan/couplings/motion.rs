@@ -12,7 +12,7 @@ impl Builder<'_> {
             .position_bath()
             .and(&self.held_noise())
             .with_if(self.model.has_fixed_particles(), couplings::Fixed::Held);
-        let anchored = choices.clone().with_if(self.model.pair_force().is_some(), couplings::Anchors::Kept);
+        let anchored = choices.clone().with_if(self.visits_pairs(), couplings::Anchors::Kept);
         let advance = self.kernel("move", Entry::MoveParticles, &anchored, groups);
         self.plan.advance.push(advance);
         let memory = self.model.position_bath().is_some_and(|bath| bath.memory);

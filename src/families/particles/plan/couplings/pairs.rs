@@ -8,7 +8,7 @@ use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {
     pub(super) fn pairs(&mut self) {
-        if self.model.pair_force().is_none() {
+        if !self.visits_pairs() {
             return;
         }
         self.pair_constants();

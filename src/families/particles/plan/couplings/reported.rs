@@ -34,7 +34,7 @@ impl Builder<'_> {
         let groups = self.groups(self.particles.max(self.grid.count()));
         // On the side: the list and what it has noted stay as they are.
         kernels.push(self.kernel("arrange_by_cell", Entry::ArrangeParticles, &Choices::new(), groups));
-        if self.model.pair_force().is_none() {
+        if !self.visits_pairs() {
             self.ordering_buffers();
         }
         Some(Ordered { choices: self.choices(), kernels, grid: self.grid, needs_report: false })
