@@ -40,6 +40,8 @@ pub(crate) const CONFIGURATIONAL_TEMPERATURE: Column =
 pub(crate) const PRESSURE: Column = column("pressure", |row, _| row.pressure());
 /// Pressure of conservative forces.
 pub(crate) const CONSERVATIVE_PRESSURE: Column = column("pressure_conservative", |row, _| row.conservative_pressure());
+/// Exchanges that a limit has cut since the run began.
+pub(crate) const LIMITED_EXCHANGES: &str = "limited_exchanges";
 
 /// Components of the total momentum.
 const MOMENTUM: [Column; 3] = [

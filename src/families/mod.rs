@@ -73,6 +73,17 @@ pub(crate) struct MaterialLoops {
     pub loops: Vec<(String, Range<usize>)>,
 }
 
+/// The mean of a column of the table of energies in equilibrium, where it is known exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ExactMean {
+    /// The column.
+    pub column: &'static str,
+    /// The mean of the continuous motion.
+    pub continuous: f64,
+    /// The mean of the scheme with its time step.
+    pub discrete: f64,
+}
+
 /// What the program asks of the physics of a family.
 pub(crate) trait Physics {
     /// Value of one unit of integer momentum; a power of two.
@@ -137,6 +148,17 @@ pub(crate) trait Physics {
     /// Whether heat baths take what moves to their temperature, sooner or later.
     fn is_heated(&self, model: &Model) -> bool {
         self.has_thermostat(model)
+    }
+
+    /// Means in equilibrium that are known exactly, of the motion and of the scheme.
+    fn exact_means(&self, _: &Model) -> Vec<ExactMean> {
+        Vec::new()
+    }
+
+    /// A field on the nodes at all times, the index of x first, where a scene starts with a flow that is steady if it is computed
+    /// exactly; of [`PictureKind::Fields`] only.
+    fn steady_field(&self, _: FieldQuantity, _: &Scene, _: &Model) -> Option<Vec<f64>> {
+        None
     }
 
     /// Warnings about a scene without mistakes.

@@ -57,6 +57,7 @@ mod task;
 mod trial;
 
 pub use adapter::adapter_for;
+pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;

@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     fn deviation(error: f64, uncertainty: Option<f64>) -> Deviation {
-        Deviation { measure: String::new(), error, uncertainty, relative: true, on_front: false }
+        Deviation { measure: String::new(), error, uncertainty, relative: true, on_front: false, of_scheme: None }
     }
 
     #[test]

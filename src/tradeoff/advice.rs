@@ -234,6 +234,7 @@ fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
         );
     }
     text.push('\n');
+    of_schemes(text, summary, measure);
     for bound in ROUND_ERRORS {
         let within = |error: &Deviation| {
             error.relative && error.uncertainty.is_some_and(|known| error.size() + 2.0 * known <= bound)
@@ -246,6 +247,25 @@ fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
         if let Some(choice) = cheapest {
             let _ = writeln!(text, "The cheapest within {} %: {}.", short(100.0 * bound), choice.label);
         }
+    }
+    text.push('\n');
+}
+
+/// The errors that schemes have by themselves, where they are known, next to what was measured.
+fn of_schemes(text: &mut String, summary: &TradeoffSummary, measure: &str) {
+    let known = summary.choices.iter().filter_map(|choice| {
+        let error = choice.error(measure)?;
+        Some((choice, error, error.of_scheme?))
+    });
+    let mut known = known.peekable();
+    if known.peek().is_none() {
+        return;
+    }
+    text.push_str("What theory says of the scheme with its time step, and what was measured:\n\n");
+    for (choice, error, of_scheme) in known {
+        let of_scheme = Deviation { error: of_scheme, uncertainty: None, ..error.clone() };
+        let _ =
+            writeln!(text, "- {}: {}, measured {}", choice.label, error_in_words(&of_scheme), error_in_words(error));
     }
     text.push('\n');
 }

@@ -47,10 +47,11 @@ impl TradeoffSummary {
             given.or_else(predicted).or_else(|| reference::finer(measure, FINER, finer, coarser))
         };
         summary.references = summary.measures.iter().filter_map(reference).collect();
-        for choice in &mut summary.choices {
+        for (choice, variant) in summary.choices.iter_mut().zip(request.sweep.variants()) {
             let error = |reference: &Reference| {
                 let measured = choice.measured.iter().find(|found| found.measure == reference.measure)?;
-                Some(Deviation::new(measured, reference))
+                let of_scheme = reference::of_scheme(&reference.measure, &variant.scene);
+                Some(Deviation::new(measured, reference).with_scheme(of_scheme, reference))
             };
             choice.errors = summary.references.iter().filter_map(error).collect();
         }

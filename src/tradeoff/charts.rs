@@ -19,7 +19,7 @@ struct Point<'a> {
 pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
     let relative = summary.reference(measure)?.value != 0.0;
     // Drifts and distances are parts of something already.
-    let percent = relative || measure.ends_with(super::fields::DISTANCE) || measure == super::measures::ENERGY_DRIFT;
+    let percent = relative || super::measures::is_part(measure);
     let scale = if percent { 100.0 } else { 1.0 };
     let point = |choice| {
         let choice: &Choice = choice;

@@ -17,6 +17,9 @@ pub struct Deviation {
     pub relative: bool,
     /// Whether no other choice costs less and errs less.
     pub on_front: bool,
+    /// The error that the scheme has with its time step by itself, where that is known exactly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of_scheme: Option<f64>,
 }
 
 impl Deviation {
@@ -32,7 +35,14 @@ impl Deviation {
             uncertainty,
             relative,
             on_front: false,
+            of_scheme: None,
         }
+    }
+
+    /// The same with the value that the scheme gives by itself, where that is known.
+    pub(super) fn with_scheme(self, value: Option<f64>, reference: &Reference) -> Self {
+        let scale = if self.relative { reference.value.abs() } else { 1.0 };
+        Self { of_scheme: value.map(|value| (value - reference.value) / scale), ..self }
     }
 
     /// The error without its sign.
@@ -64,9 +74,10 @@ mod tests {
     #[test]
     fn errors_add_in_squares_and_are_parts_of_the_reference() {
         let found = Deviation::new(&measured(21.0, Some(0.3)), &reference(20.0, Some(0.4)));
+        let found = found.with_scheme(Some(20.5), &reference(20.0, Some(0.4)));
         assert!((found.error - 0.05).abs() < 1e-15 && found.relative);
         assert!((found.uncertainty.unwrap_or(0.0) - 0.025).abs() < 1e-15);
-        assert!(found.is_within_noise());
+        assert!(found.is_within_noise() && found.of_scheme == Some(0.025));
         let absolute = Deviation::new(&measured(-0.1, Some(0.01)), &reference(0.0, Some(0.0)));
         assert_eq!((absolute.error, absolute.relative, absolute.is_within_noise()), (-0.1, false, false));
         assert_eq!(Deviation::new(&measured(1.0, None), &reference(1.0, Some(0.1))).uncertainty, None);

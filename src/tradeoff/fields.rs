@@ -1,12 +1,14 @@
-//! How far what a run draws is from that of a finer run: fields on nodes, and the radial distribution function.
+//! How far what a run draws is from that of a finer run, and from what is exact: fields on nodes, and the radial distribution function.
 
 use super::error::TradeoffError;
 use super::measures::Measured;
+use crate::families::{Model, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
-use crate::scene::AnalysisId;
+use crate::scene::{AnalysisId, FieldQuantity, Scene};
 
 /// How the names of these measures end.
 pub(super) const DISTANCE: &str = "_distance";
+pub(super) const FROM_EXACT: &str = "_from_exact";
 
 /// An array and its shape.
 type Array = (Vec<usize>, Vec<f64>);
@@ -21,7 +23,7 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
             && other.exists()
             && let Some(distance) = on_common_nodes(&read_npy(&own)?, &read_npy(&other)?)
         {
-            found.push(measured(field, distance));
+            found.push(measured(field, DISTANCE, distance));
         }
     }
     let name = AnalysisId::RadialDistribution.name();
@@ -33,14 +35,44 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
             && !own.is_empty()
         {
             let squares: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum();
-            found.push(measured(name, (squares / own.len() as f64).sqrt()));
+            found.push(measured(name, DISTANCE, (squares / own.len() as f64).sqrt()));
         }
     }
     Ok(found)
 }
 
-fn measured(name: &str, value: f64) -> Measured {
-    Measured { measure: format!("{name}{DISTANCE}"), value, standard_error: None, fluctuates: false }
+fn measured(name: &str, end: &str, value: f64) -> Measured {
+    Measured { measure: format!("{name}{end}"), value, standard_error: None, fluctuates: false }
+}
+
+/// The fields that a scene draws at its end.
+pub(super) fn drawn(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
+    match model.physics().picture() {
+        PictureKind::Fields => scene.output.fields.clone().unwrap_or_default().quantities,
+        _ => Vec::new(),
+    }
+}
+
+/// The names of the distances of a scene from an exact solution, if it has one.
+pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> impl Iterator<Item = String> {
+    let is_known = |field: &FieldQuantity| model.physics().steady_field(*field, scene, model).is_some();
+    drawn(scene, model).into_iter().filter(is_known).map(|field| format!("{}{FROM_EXACT}", field.stem()))
+}
+
+/// The distances of the fields that a run has drawn from those of the steady flow that it starts with, measured as those from a
+/// finer run.
+pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, TradeoffError> {
+    let model = Model::new(scene);
+    let mut found = Vec::new();
+    for field in drawn(scene, &model) {
+        let Some(exact) = model.physics().steady_field(field, scene, &model) else { continue };
+        let own = read_npy(&run.file(&run_files::field(field.stem(), None, "npy")))?;
+        let exact = (own.0.clone(), exact);
+        if let Some(distance) = on_common_nodes(&own, &exact) {
+            found.push(Measured { standard_error: Some(0.0), ..measured(field.stem(), FROM_EXACT, distance) });
+        }
+    }
+    Ok(found)
 }
 
 /// The distance on the nodes that both meshes have; none where they are not multiples of each other.

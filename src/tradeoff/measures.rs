@@ -1,7 +1,8 @@
 //! What is measured of a choice.
 
 use super::error::TradeoffError;
-use crate::families::Model;
+use super::fields;
+use crate::families::{Model, column};
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
 use crate::scene::Scene;
@@ -12,13 +13,19 @@ use serde::{Deserialize, Serialize};
 /// How far the total energy has gone from its first value at most, as a part of it.
 pub(crate) const ENERGY_DRIFT: &str = "energy_drift";
 
+/// How far the circulation of a material loop has gone from its first value at most, as a part of it.
+pub(super) const CIRCULATION_DRIFT: &str = "circulation_drift";
+
+/// How many exchanges through the faces of Voronoi cells the limit has cut, a cell and unit of time.
+pub(super) const LIMITED_EXCHANGES: &str = "limited_exchange_rate";
+
 /// Columns that are assessed where nobody says which, if a run has them.
 const USUAL: [&str; 4] = ["temperature", "configurational_temperature", "pressure", "potential_energy"];
 
 /// A number that was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// Its name: a column of the table of energies, `diffusion.einstein` of an analysis, `energy_drift`, `depth_distance`.
+    /// Its name: a column of the table of energies, `diffusion.einstein` of an analysis, `energy_drift`, `depth_distance`, `depth_from_exact`.
     pub measure: String,
     /// Its value.
     pub value: f64,
@@ -39,11 +46,23 @@ pub(super) fn of_run(
         .filter(|(_, value, _)| value.is_finite())
         .map(|(measure, value, standard_error)| Measured { measure, value, standard_error, fluctuates: true })
         .collect();
+    let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
     if drifts(scene) {
-        let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
         measured.extend(energy_drift(&table));
     }
+    measured.extend(run::circulation_change(summary).map(|change| certain(CIRCULATION_DRIFT, change)));
+    let cut = table.column(column::LIMITED_EXCHANGES).unwrap_or_default();
+    let cell_time = summary.particles as f64 * summary.steps as f64 * scene.time.step;
+    if let (Some([first, .., last]), true) = (cut.get(..), cell_time > 0.0) {
+        measured.push(certain(LIMITED_EXCHANGES, (last - first) / cell_time));
+    }
+    measured.extend(fields::from_exact(scene, directory)?);
     Ok(measured)
+}
+
+/// What has no statistical error.
+fn certain(measure: &str, value: f64) -> Measured {
+    Measured { measure: measure.to_owned(), value, standard_error: Some(0.0), fluctuates: false }
 }
 
 /// How far the total energy of a table has gone from its first value; none where that is zero or one is not a number.
@@ -54,7 +73,7 @@ pub(crate) fn energy_drift(table: &Table) -> Option<Measured> {
         return None;
     }
     let value = energies.iter().map(|energy| ((energy - first) / first).abs()).fold(0.0, f64::max);
-    Some(Measured { measure: ENERGY_DRIFT.to_owned(), value, standard_error: Some(0.0), fluctuates: false })
+    Some(certain(ENERGY_DRIFT, value))
 }
 
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.
@@ -67,11 +86,27 @@ pub(crate) fn drifts(scene: &Scene) -> bool {
 /// The names of what a scene measures, as far as they are known before it has run: columns of its table of energies and those of this
 /// module. What an analysis finds is named `ANALYSIS.NUMBER`.
 pub(super) fn names(scene: &Scene) -> Vec<String> {
-    let columns = run::quantities(&Model::new(scene)).into_iter().map(str::to_owned);
-    columns.chain(drifts(scene).then(|| ENERGY_DRIFT.to_owned())).collect()
+    let model = Model::new(scene);
+    let columns = run::quantities(&model);
+    let loops = model.physics().material_loops(&model).is_some_and(|found| !found.loops.is_empty());
+    let further = [
+        (ENERGY_DRIFT, drifts(scene)),
+        (CIRCULATION_DRIFT, loops),
+        (LIMITED_EXCHANGES, columns.contains(&column::LIMITED_EXCHANGES)),
+    ];
+    let further = further.into_iter().filter(|(_, there)| *there).map(|(name, _)| name);
+    let known = columns.iter().copied().chain(further).map(str::to_owned);
+    known.chain(fields::names_from_exact(scene, &model)).collect()
 }
 
-/// What is assessed where nobody says which: the usual columns, what analyses find with an error, drift and distances.
+/// Whether a measure without unit says how large an error is, as a part of something: a drift or a distance.
+pub(super) fn is_part(measure: &str) -> bool {
+    [ENERGY_DRIFT, CIRCULATION_DRIFT].contains(&measure)
+        || [fields::DISTANCE, fields::FROM_EXACT].iter().any(|end| measure.ends_with(end))
+}
+
+/// What is assessed where nobody says which: the usual columns, what analyses find with an error, drifts, distances and exchanges that were
+/// limited.
 pub(super) fn usual(measured: &[Measured]) -> Vec<String> {
     let known = |name: &str| measured.iter().any(|found| found.measure == name);
     let drift_alone = known(ENERGY_DRIFT);

@@ -7,9 +7,10 @@
 //! and a page in words (`tradeoff.md`).
 //!
 //! A measure is a mean of the table of energies, a number that an analysis finds, or one of those that need more than one run:
-//! how far the total energy has drifted, and how far fields are from those of a finer run. Its reference is [given by the
-//! user](References), predicted (the temperature of the bath, an energy that does not drift), or that of a finer run, whose
-//! own error is taken from a second one with twice its time step.
+//! how far the total energy or the circulation of a loop has drifted, how often a limit has acted, and how far fields are from those of a
+//! finer run or of an exact solution. Its reference is [given by the user](References), predicted (the temperature of the bath, an
+//! energy that does not drift, means that are known exactly), or that of a finer run, whose own error is taken from a second one with
+//! twice its time step.
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;

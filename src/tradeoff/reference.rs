@@ -1,7 +1,8 @@
 //! What the measures are compared with.
 
-use super::measures::{ENERGY_DRIFT, Measured};
-use crate::families::Model;
+use super::fields::{DISTANCE, FROM_EXACT};
+use super::measures::{CIRCULATION_DRIFT, ENERGY_DRIFT, LIMITED_EXCHANGES, Measured};
+use crate::families::{ExactMean, Model};
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -88,11 +89,14 @@ impl References {
 pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
     let (value, law) = match measure {
         ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant".to_owned()),
+        CIRCULATION_DRIFT => (0.0, "a loop that moves with the flow keeps its circulation".to_owned()),
+        LIMITED_EXCHANGES => (0.0, "a limit that never acts changes nothing".to_owned()),
         "temperature" | "configurational_temperature" if has_thermostat(scene) => {
             (scene.temperature, "the temperature of the bath".to_owned())
         }
-        _ if measure.ends_with(super::fields::DISTANCE) => (0.0, "no distance from the finer run".to_owned()),
-        _ => return None,
+        _ if measure.ends_with(DISTANCE) => (0.0, "no distance from the finer run".to_owned()),
+        _ if measure.ends_with(FROM_EXACT) => (0.0, "no distance from the exact flow, which is steady".to_owned()),
+        _ => (exact_mean(measure, scene)?.continuous, "the mean of the exact motion in equilibrium".to_owned()),
     };
     Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source: Source::Predicted(law) })
 }
@@ -100,6 +104,17 @@ pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
 fn has_thermostat(scene: &Scene) -> bool {
     let model = Model::new(scene);
     model.physics().has_thermostat(&model)
+}
+
+/// The exact mean of a column in equilibrium, where it is known.
+fn exact_mean(measure: &str, scene: &Scene) -> Option<ExactMean> {
+    let model = Model::new(scene);
+    model.physics().exact_means(&model).into_iter().find(|mean| mean.column == measure)
+}
+
+/// The value that the scheme of a scene gives a measure with its time step, noise apart, where that is known exactly.
+pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
+    exact_mean(measure, scene).map(|mean| mean.discrete)
 }
 
 /// The reference that a finer run gives. Its own bias is taken to be what its time step, halved once, has changed, noise included: that is
@@ -140,6 +155,7 @@ mod tests {
         assert_eq!(predicted("pressure", &fluid), None);
         let water = scene::load("jet-instability", &[]).unwrap();
         assert_eq!(predicted("temperature", &water), None);
+        assert_eq!(predicted(CIRCULATION_DRIFT, &water).unwrap().value, 0.0);
         assert_eq!(predicted(ENERGY_DRIFT, &water).unwrap().value, 0.0);
     }
 

@@ -2,11 +2,10 @@
 
 use super::error::TradeoffError;
 use super::length::Length;
-use super::measures;
 use super::reference::References;
 use super::target::Target;
+use super::{fields, measures};
 use crate::families::Model;
-use crate::output::files as run_files;
 use crate::run;
 use crate::scene::{self, AnalysisId, Scene, nearest};
 use crate::sweep::{Setting, Sweep, Variation, settings};
@@ -214,6 +213,7 @@ impl Request {
     /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), TradeoffError> {
         let columns = measures::names(&self.base);
+        let drawn = fields::drawn(&self.base, &Model::new(&self.base));
         let analyses: Vec<&str> =
             run::asked_analyses(&self.base, &Model::new(&self.base)).iter().map(|asked| asked.id.name()).collect();
         let mut mistakes = Vec::new();
@@ -221,7 +221,7 @@ impl Request {
             let of_analysis = |part: &str| analyses.contains(&part);
             let compared = name.strip_suffix(super::fields::DISTANCE);
             let is_distance = compared.is_some_and(|of| {
-                let is_drawn = self.base.output.fields.is_some() && run_files::FIELDS.contains(&of);
+                let is_drawn = drawn.iter().any(|field| field.stem() == of);
                 is_drawn || of == AnalysisId::RadialDistribution.name() && of_analysis(of)
             });
             if columns.iter().any(|known| known == name)

@@ -29,6 +29,7 @@ fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
     for measure in &summary.measures {
         let columns = ["", "_standard_error", "_reference", "_error", "_error_uncertainty", "_on_front"];
         header.extend(columns.map(|end| format!("{measure}{end}")));
+        header.extend(is_known_of_schemes(summary, measure).then(|| format!("{measure}_error_of_scheme")));
     }
     if !summary.arguments.targets.is_empty() {
         header.push("verdict".to_owned());
@@ -38,6 +39,11 @@ fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
         text.push_str(&line(&row(summary, choice, keys)));
     }
     text
+}
+
+/// Whether the error of any scheme by itself is known.
+fn is_known_of_schemes(summary: &TradeoffSummary, measure: &str) -> bool {
+    summary.choices.iter().any(|choice| choice.error(measure).is_some_and(|error| error.of_scheme.is_some()))
 }
 
 fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String> {
@@ -67,6 +73,7 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String>
         cells.push(number(error.map(|error| error.error)));
         cells.push(number(error.and_then(|error| error.uncertainty)));
         cells.push(error.map_or_else(String::new, |error| u8::from(error.on_front).to_string()));
+        cells.extend(is_known_of_schemes(summary, measure).then(|| number(error.and_then(|error| error.of_scheme))));
     }
     if !summary.arguments.targets.is_empty() {
         let verdict = choice.verdict.map(super::advice::verdict_word);

@@ -121,6 +121,7 @@ mod tests {
             uncertainty,
             relative: true,
             on_front: false,
+            of_scheme: None,
         };
         let verdict = |error, uncertainty| target.verdict(&deviation(error, uncertainty), 23.6);
         assert_eq!(verdict(0.004, Some(0.002)), Verdict::Meets);

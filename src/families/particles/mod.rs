@@ -7,6 +7,7 @@ mod description;
 mod layout;
 pub(crate) mod model;
 mod observables;
+mod oscillators;
 pub(crate) mod plan;
 pub mod reference;
 pub(crate) mod stability;
@@ -17,8 +18,8 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, KeptSum, Limit, Model, Observables, PairForce,
-    Physics, PositionBath, Species, units,
+    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model, Observables,
+    PairForce, Physics, PositionBath, Species, units,
 };
 use crate::document::{BondPotential, Interaction, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -147,6 +148,10 @@ impl Physics for Particles {
 
     fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit> {
         stability::limits(self, scene, model)
+    }
+
+    fn exact_means(&self, model: &Model) -> Vec<ExactMean> {
+        oscillators::means(model)
     }
 
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {

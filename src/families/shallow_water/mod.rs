@@ -11,6 +11,7 @@ mod observables;
 mod plan;
 pub mod reference;
 mod start;
+mod steady;
 pub mod surface;
 mod warnings;
 
@@ -77,6 +78,10 @@ impl Physics for ShallowWater {
 
     fn is_heated(&self, model: &Model) -> bool {
         self.bath.is_some_and(|bath| bath.coupling > 0.0) && model.temperature > 0.0
+    }
+
+    fn steady_field(&self, quantity: FieldQuantity, scene: &Scene, model: &Model) -> Option<Vec<f64>> {
+        steady::field(self, scene, model, quantity)
     }
 
     fn mass_unit(&self) -> Option<f64> {

@@ -81,7 +81,7 @@ pub(super) fn columns(cells: &Voronoi, model: &Model) -> Vec<Column> {
         column("mean_neighbours", |row, _| of_cells(row, |cells| 2.0 * cells.faces as f64 / row.particles as f64)),
     ]);
     if cells.has_limits(model.temperature) {
-        columns.push(column("limited_exchanges", |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)));
+        columns.push(column(column::LIMITED_EXCHANGES, |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)));
     }
     if cells.viscosity > 0.0 && model.integrator == (Integrator::Splitting {}) {
         columns.push(column("solver_iterations", |row, _| of_cells(row, |cells| cells.iterations as f64)));

@@ -89,6 +89,13 @@ impl Descriptor for Circulation {
     }
 }
 
+/// The largest change of a circulation among all loops, as a part of what it was at first and as long as its loop was a curve; none where
+/// no loop had any.
+pub(in crate::run) fn largest_change(result: &Value) -> Option<f64> {
+    let loops = result.as_object()?.values();
+    loops.filter_map(|found| found[RELATIVE_CHANGE].as_f64()).reduce(f64::max)
+}
+
 /// Circulations of all closed loops, one row a sample; not a number once a loop is no curve any more.
 struct Circulations {
     units: Units,

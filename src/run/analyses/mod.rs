@@ -293,6 +293,11 @@ pub fn asked_analyses(scene: &Scene, model: &Model) -> Vec<AskedAnalysis> {
     asked.collect()
 }
 
+/// The largest change of the circulation of a material loop in a run, as a part of what it was at first; none without such loops.
+pub(crate) fn circulation_change(summary: &Summary) -> Option<f64> {
+    circulation::largest_change(summary.results.get(AnalysisId::Circulation.name())?)
+}
+
 /// Lines of the table that is printed at the end of a run: what was found, and its value.
 #[must_use]
 pub fn printed_results(summary: &Summary) -> Vec<(String, String)> {
