@@ -197,15 +197,16 @@ fn an_interrupted_tradeoff_goes_on() {
     assert_eq!(parts.summary.references, whole.summary.references);
 }
 
-/// What the runs of the small fluid have to become longer for: means of 40 rows, each of which scatters by 6 %, do not have this error.
+/// What the run of the small fluid has to become longer for: the mean of 40 rows, each of which scatters by 6 %, errs by .95 % at least, and
+/// by more where rows depend on each other.
 fn longer(place: &Place) -> Request {
-    let vary = ["time.step=0.02,0.04".to_owned()];
+    let vary = ["time.step=0.04".to_owned()];
     let request = Request::load(&place.scene(), &[], &vary, &[]).unwrap();
     let length = Length { error: Some(ERROR), budget: None };
     request.with_length(length).with_measures(&["temperature".to_owned()]).unwrap()
 }
 
-const ERROR: f64 = 0.006;
+const ERROR: f64 = 0.004;
 
 /// All runs are made longer until every mean is as certain as it is to be; one that is interrupted while they are comes to the same table.
 #[test]
