@@ -20,7 +20,7 @@ Examples:
   mesoscope stability my-scene.json                      how far can I go with its time step?
   mesoscope stability dpd-fluid --vary interactions.0.friction=1..1000/10 --vary time.step=0.005..0.2/9
   mesoscope stability dpd-fluid --vary integrator.type=splitting,groot-warren --vary time.step=0.01..0.2/9
-  mesoscope stability voronoi-dpd --set time.steps=500 --tolerance 2%
+  mesoscope stability polymer-melt --set time.steps=2000 --tolerance 2%
   mesoscope stability --resume dpd-fluid-stability       go on with one that was interrupted
 
 All runs cover the simulated time of the scene (--set time.steps=N shortens it), with 256 steps at least. They write no files of

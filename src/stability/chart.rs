@@ -34,12 +34,11 @@ pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
 fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Panel {
     let key = request.row_key().unwrap_or_default();
     let numbers = request.row_numbers();
-    let y = match &numbers {
-        Some((_, spacing)) => axis(key, *spacing),
-        None => {
-            let name = |row: &Row| row.setting.as_ref().map_or_else(String::new, |setting| readable(&setting.value));
-            Axis::categories(key, summary.rows.iter().map(name).collect())
-        }
+    let y = if let Some((_, spacing)) = &numbers {
+        axis(key, *spacing)
+    } else {
+        let name = |row: &Row| row.setting.as_ref().map_or_else(String::new, |setting| readable(&setting.value));
+        Axis::categories(key, summary.rows.iter().map(name).collect())
     };
     let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);
     let rows = || summary.rows.iter().enumerate();

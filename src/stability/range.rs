@@ -91,9 +91,8 @@ impl Range {
             return Err(format!("{low} is not below {high}; accepted: the smaller end first"));
         }
         let spacing = match asked {
-            None if low > 0.0 => Spacing::Log,
+            None | Some("log") if low > 0.0 => Spacing::Log,
             None | Some("linear") => Spacing::Linear,
-            Some("log") if low > 0.0 => Spacing::Log,
             Some("log") => return Err("a logarithmic range begins above zero".to_owned()),
             Some(_) => return Err(wrong()),
         };

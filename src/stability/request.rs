@@ -294,7 +294,7 @@ mod tests {
 
     fn request(vary: &[&str]) -> Result<Request, StabilityError> {
         let vary: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
-        Request::load("dpd-fluid", &["space.box=[5,5,5]".to_owned()], &vary)
+        Request::load("dpd-fluid", &["space.box=[6,6,6]".to_owned()], &vary)
     }
 
     #[test]

@@ -142,17 +142,17 @@ fn warn_of_fluid(
         );
         warn(warnings, format!("{path}.molecular_mass"), message);
     }
-    if let Some(random) = random_heat(scene, model, cells) {
-        if RARELY * random > cells.exchange_limit {
-            let message = format!(
-                "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \
-                 it often; a step of {:.2e} or less is advisable",
-                random,
-                cells.exchange_limit,
-                scene.time.step * (cells.exchange_limit / (RARELY * random)).powi(2)
-            );
-            warn(warnings, "time.step", message);
-        }
+    if let Some(random) = random_heat(scene, model, cells)
+        && RARELY * random > cells.exchange_limit
+    {
+        let message = format!(
+            "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \
+             it often; a step of {:.2e} or less is advisable",
+            random,
+            cells.exchange_limit,
+            scene.time.step * (cells.exchange_limit / (RARELY * random)).powi(2)
+        );
+        warn(warnings, "time.step", message);
     }
     if voronoi.hottest(scene.temperature) == 0.0 {
         let how = if cells.keeps_energy() { "until friction has heated them" } else { "at any time" };
