@@ -62,6 +62,17 @@ pub fn short(value: f64) -> String {
     trimmed(&fixed(value, 6))
 }
 
+/// A number rounded to three digits, as short as it can be.
+///
+/// ```
+/// use mesoscope::numbers::three_digits;
+/// assert_eq!([0.132_629, 1.0, 288.54].map(three_digits), ["0.133", "1", "289"]);
+/// ```
+#[must_use]
+pub fn three_digits(value: f64) -> String {
+    short(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
 /// A number to six digits, as in source code.
 ///
 /// ```

@@ -18,8 +18,8 @@ use super::{Failure, RunArguments, line, print, progress};
 #[command(after_help = "\
 Examples:
   mesoscope stability my-scene.json                      how far can I go with its time step?
-  mesoscope stability dpd-fluid --vary interactions.0.friction=1..1000/10 --vary time.step=0.005..0.2/9
-  mesoscope stability dpd-fluid --vary integrator.type=splitting,groot-warren --vary time.step=0.01..0.2/9
+  mesoscope stability dpd-fluid --vary temperature=0.5..2/3 --vary time.step=0.01..0.2/9
+  mesoscope stability dpd-fluid --vary interactions.0.friction=1..100/5
   mesoscope stability polymer-melt --set time.steps=2000 --tolerance 2%
   mesoscope stability --resume dpd-fluid-stability       go on with one that was interrupted
 

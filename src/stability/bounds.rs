@@ -7,7 +7,7 @@ use crate::scene;
 use serde::{Deserialize, Serialize};
 
 /// Halvings of the distance to a bound.
-const ROUNDS: usize = 30;
+const ROUNDS: usize = 16;
 
 /// Where a law puts the edge of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,9 +59,6 @@ fn limits(request: &Request, row: usize, value: f64) -> Vec<families::Limit> {
 fn crossing_between(mut low: f64, mut high: f64, spacing: Spacing, is_before: &dyn Fn(f64) -> bool) -> f64 {
     for _ in 0..ROUNDS {
         let middle = spacing.middle(low, high);
-        if spacing.distance(low, high).abs() < 1e-4 * spacing.distance(1.0, 2.0) * high.abs().min(1.0) {
-            break;
-        }
         if is_before(middle) { low = middle } else { high = middle }
     }
     spacing.middle(low, high)

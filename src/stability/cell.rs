@@ -36,6 +36,11 @@ impl Cell {
         Self { value, verdict, is_certain, steps: 0, time_step: None, errors: Vec::new(), reason: Some(reason) }
     }
 
+    /// Whether it has an error of all of these measures.
+    pub(super) fn is_compared(&self, measures: &[String]) -> bool {
+        measures.iter().all(|measure| self.error(measure).is_some())
+    }
+
     /// The error of a measure.
     #[must_use]
     pub fn error(&self, measure: &str) -> Option<&Deviation> {
@@ -114,6 +119,8 @@ fn run(
         if cell.reason.is_some() {
             (cell.verdict, cell.is_certain) = (Verdict::Biased, true);
         }
+        // Of what no law applies to here, as of a temperature without friction, nothing is known.
+        cell.is_certain &= cell.reason.is_some() || cell.is_compared(comparison.measures);
         if cell.is_certain && !comparison.measures.is_empty() {
             break;
         }

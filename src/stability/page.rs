@@ -1,24 +1,14 @@
 //! The page of a map, in words: how far a scene may go, and where laws and measurement part.
 
+use super::cell::Cell;
 use super::request::Request;
 use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
-use crate::numbers::short;
+use crate::numbers::{short, three_digits};
 use std::fmt::Write as _;
 
 /// A law and a measured edge are said to part if they differ by more than this factor.
 const APART: f64 = 1.25;
-
-/// A number in three digits.
-fn number(value: f64) -> String {
-    short(format!("{value:.2e}").parse().unwrap_or(value))
-}
-
-/// A duration in hours or days.
-pub(super) fn hours(seconds: f64) -> String {
-    let hours = seconds / 3600.0;
-    if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
-}
 
 /// Up to where a row is right, in words.
 pub(super) fn right_in_words(row: &Row) -> String {
@@ -26,9 +16,9 @@ pub(super) fn right_in_words(row: &Row) -> String {
         None => "nowhere".to_owned(),
         Some((first, last, is_bounded)) => {
             let from = row.cells.first().is_some_and(|cell| cell.value < first);
-            let from = if from { format!("{} to ", number(first)) } else { String::new() };
+            let from = if from { format!("{} to ", three_digits(first)) } else { String::new() };
             let beyond = if is_bounded { "" } else { " and beyond" };
-            format!("{from}{}{beyond}", number(last))
+            format!("{from}{}{beyond}", three_digits(last))
         }
     }
 }
@@ -37,14 +27,14 @@ pub(super) fn right_in_words(row: &Row) -> String {
 pub(super) fn unstable_in_words(row: &Row) -> String {
     match row.unstable_from() {
         None => "not seen".to_owned(),
-        Some((None, high)) => format!("{} or less", number(high)),
-        Some((Some(_), high)) => number(high),
+        Some((None, high)) => format!("{} or less", three_digits(high)),
+        Some((Some(_), high)) => three_digits(high),
     }
 }
 
 /// What laws say of a row, in words.
 fn bounds_in_words(row: &Row) -> String {
-    let words = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, number(bound.at)));
+    let words = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, three_digits(bound.at)));
     let words: Vec<String> = words.collect();
     if words.is_empty() { "none in this range".to_owned() } else { words.join("; ") }
 }
@@ -66,7 +56,7 @@ fn differences(summary: &StabilitySummary) -> Vec<String> {
     }
     let words = |(law, mut ratios): (&str, Vec<f64>)| {
         ratios.sort_by(f64::total_cmp);
-        let (least, most) = (number(ratios[0]), number(ratios[ratios.len() - 1]));
+        let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
         let (where_to, rows) = if ratios.len() == 1 {
             (format!("at {least} times"), "the first unstable run is".to_owned())
         } else {
@@ -81,7 +71,14 @@ fn differences(summary: &StabilitySummary) -> Vec<String> {
 pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
     let mut lines = differences(summary);
     let cells = || summary.rows.iter().flat_map(|row| &row.cells);
-    let open = cells().filter(|cell| !cell.is_certain).count();
+    let compared = |cell: &&Cell| cell.is_compared(&summary.measures);
+    let lawless = cells().filter(|cell| cell.verdict == Verdict::Right && !compared(cell)).count();
+    if lawless > 0 {
+        lines.push(format!(
+            "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
+        ));
+    }
+    let open = cells().filter(compared).filter(|cell| !cell.is_certain).count();
     if open > 0 && !summary.measures.is_empty() {
         lines.push(format!(
             "{open} of {} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them",

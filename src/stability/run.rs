@@ -14,6 +14,7 @@ use crate::plot::Plotter;
 use crate::run::{self, Interrupt, RunError};
 use crate::scene::Scene;
 use crate::sweep::default_jobs;
+use crate::tradeoff::hours;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -156,7 +157,7 @@ impl StabilityRun {
         let gpu = run::adapter_for(&self.request.base, adapter).map_err(of_base)?;
         let seconds = self.expected(&waiting, &gpu);
         if let Some(seconds) = seconds.filter(|seconds| !self.may_be_long && *seconds > LONG) {
-            return Err(StabilityError::Long { expected: page::hours(seconds) });
+            return Err(StabilityError::Long { expected: hours(seconds) });
         }
         let place = match &self.beginning {
             Beginning::New { .. } => create(&self.directory)?,

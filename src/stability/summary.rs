@@ -143,7 +143,9 @@ impl StabilitySummary {
 
     /// Whether it is one of a request.
     pub(super) fn is_of(&self, request: &Request) -> bool {
-        self.stability_id == request.id() && self.rows.len() == request.row_count()
+        self.stability_id == request.id()
+            && self.rows.len() == request.row_count()
+            && self.measures == request.measures()
     }
 
     pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {

@@ -26,7 +26,7 @@ pub(super) fn duration(seconds: f64) -> String {
 }
 
 /// A duration in hours or days.
-pub(super) fn hours(seconds: f64) -> String {
+pub(crate) fn hours(seconds: f64) -> String {
     let hours = seconds / 3600.0;
     if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
 }

@@ -53,6 +53,7 @@ mod table;
 mod target;
 
 pub use advice::error_in_words;
+pub(crate) use advice::hours;
 pub use cost::Cost;
 pub use deviation::Deviation;
 pub use error::TradeoffError;

@@ -113,6 +113,20 @@ fn a_map_has_rows_of_any_key() {
     assert!(first > second, "{first} {second}");
 }
 
+/// Without friction there is no bath that keeps a temperature: a run that has none is not said to be certainly right.
+#[test]
+fn what_no_law_applies_to_is_not_certain() {
+    let place = place();
+    let further = ["--vary", "interactions.1.friction=0,1", "--measure", "temperature", "--tolerance", "30%"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("1 runs count as right though no law says"), "{said}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    let found: Vec<(Verdict, bool, usize)> =
+        summary.rows[0].cells.iter().map(|cell| (cell.verdict, cell.is_certain, cell.errors.len())).collect();
+    // 3 000 squares scatter by 2.6 % of their mean: 30 % are more than ten of that.
+    assert_eq!(found, [(Verdict::Right, false, 0), (Verdict::Right, true, 1)]);
+}
+
 #[test]
 fn an_interrupted_map_goes_on() {
     let place = place();

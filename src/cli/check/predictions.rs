@@ -2,7 +2,7 @@
 
 use mesoscope::calibration;
 use mesoscope::families::{self, BathStep, Beyond, LargestStep, Model};
-use mesoscope::numbers::short;
+use mesoscope::numbers::three_digits;
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
 use mesoscope::scene::{Bath, Interaction, Scene};
@@ -13,16 +13,11 @@ const MUCH: f64 = 0.2;
 /// A memory of which a step leaves less than this is no memory.
 const FORGOTTEN: f64 = 1e-3;
 
-/// A number in three digits.
-fn number(value: f64) -> String {
-    short(format!("{value:.2e}").parse().unwrap_or(value))
-}
-
 /// Rows of the overview.
 pub fn rows(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Vec<(&'static str, String)> {
     let steps = families::largest_steps(scene);
     let largest = |beyond: Beyond| steps.iter().find(|largest| largest.beyond == beyond);
-    let words = |largest: &LargestStep| format!("up to a step of {} ({})", number(largest.step), largest.law);
+    let words = |largest: &LargestStep| format!("up to a step of {} ({})", three_digits(largest.step), largest.law);
     let mut rows = Vec::new();
     rows.extend(largest(Beyond::Unstable).map(|largest| ("stable", format!("by theory {}", words(largest)))));
     rows.extend(largest(Beyond::Biased).map(|largest| ("reliable", format!("by experience {}", words(largest)))));
