@@ -27,7 +27,6 @@ override BATH_SQUARE: f32; // square of a bath variable
 // Physics of the step.
 override DISPLACEMENT_LIMIT: f32; // the largest displacement in a step along an axis
 override CLOSES: u32; // 1 where a step goes on from before its closing kick, 0 from the report point
-override BATH_IMPULSE: f32; // impulse of half a step per bath
 override PERSISTENCE: f32; // the part of a bath that remains after a step
 override MASS_UNIT: f32; // mass of an integer unit
 override MEAN_MASS: u32; // of a mesh node, in integer units

@@ -82,10 +82,10 @@ fn position_bath(id: u32, species: i32, drift: Vector) -> Vector { return Vector
 fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 
-// Slot baths/position_noise: noise of position baths, in their unit. Variants one, two, three; the plan follows the box.
-// Default: off, the position baths of this scene have no temperature.
+// Slot baths/position_noise: noise of the position bath of a coordinate, in its unit.
+// Default: off, the position baths of this scene have no temperature. The plan chooses `gaussian` if they have.
 fn prepare_position_noise() {}
-fn position_noise(id: u32, species: i32) -> Vector { return Vector(0.0); }
+fn position_noise(id: u32, species: i32, axis: u32) -> f32 { return 0.0; }
 
 // Slot baths/position_report: adds the energy of a position bath to a report.
 // Default: off, such baths have none. The plan chooses `observed` if they have memory.

@@ -57,7 +57,7 @@ fn bath_noise(id: u32, other: u32) -> f32 { return 0.0; }
 // Slot baths/pair_report: what is done with the new value of a bath.
 // Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {
-    let memory = bath - LOSS * bath - c.friction * coupling(contact.w);
+    let memory = kept_of_bath(bath, LOSS) - c.friction * coupling(contact.w);
     put_pair_memory(place, vec2<u32>(bitcast<u32>(memory), clock_step().x));
 }
 

@@ -68,33 +68,17 @@ fn crossing_of(face: Face, facet: Facet, mine: Side, theirs: Side) -> Crossing {
     return Crossing(twist, mass, impulse);
 }
 
-// Computes what crosses the faces that a cell owns. One invocation a cell; reads particles and faces, adds integer units to
-// both cells of a face in `exchanges`.
+// Computes what crosses the faces that a cell owns (voronoi/visit/exchange). One invocation a cell; reads particles and faces,
+// adds integer units to both cells of a face in `exchanges`.
 @compute @workgroup_size(WORKGROUP)
 fn exchange_through_faces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     prepare_noise();
     let me = stored_particle(slot);
-    let mine = side_of(slot, me);
-    var total = vec4<i32>(0);
-    var fits = true;
-    let count = face_counts[slot];
-    for (var number = 0u; number < count; number++) {
-        let face = face_of(slot, number);
-        let they = stored_particle(face.other);
-        if (!owns_face(me.position.w, they.position.w)) { continue; }
-        let theirs = side_of(face.other, they);
-        let facet = facet_of(face, me.position, they.position);
-        let crossing = crossing_of(face, facet, mine, theirs);
-        let energy = energy_through(facet, crossing.twist, crossing.impulse, crossing.mass, mine, theirs);
-        let exact = vec4<f32>(crossing.impulse * IMPULSE_STEPS, crossing.mass * MASS_STEPS, energy * ENERGY_STEPS);
-        fits = fits && all_within(exact.xy, EXCHANGED_UNITS_LIMIT) && all_within(exact.zw, EXCHANGED_UNITS_LIMIT);
-        let units = vec4<i32>(round(exact));
-        total += units;
-        move_units(face.other, -units);
-    }
-    move_units(slot, total);
-    raise(select(FAILURE_IMPULSE, 0u, fits));
+    var visit = Visit(me, side_of(slot, me), vec4<i32>(0), true);
+    visit_faces(slot, &visit);
+    move_units(slot, visit.units);
+    raise(select(FAILURE_IMPULSE, 0u, visit.fits));
     report_cuts();
 }

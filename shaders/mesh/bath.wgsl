@@ -1,4 +1,4 @@
-// The bath of the mesh: a variable on every node that remembers the changes of its mass.
+// The bath of the mesh: a variable on every node that remembers the changes of its mass; its law is in baths/bath.
 override BATH_PERSISTENCE: f32;
 override BATH_RESPONSE: f32;    // per unit of integer mass
 
@@ -18,7 +18,7 @@ fn step_mesh_bath(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     if (clock_closing() == 1) {
         prepare_noise();
         let change = f32(bitcast<i32>(mass - previous_masses[node]));
-        s = BATH_PERSISTENCE * s + BATH_RESPONSE * change + mesh_noise(node);
+        s = advanced_bath(BATH_PERSISTENCE * s, BATH_RESPONSE, change, mesh_noise(node));
         node_bath[node] = s;
         raise(select(FAILURE_IMPULSE, 0u, is_number(s)));
     }

@@ -22,3 +22,8 @@ fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, 
 
 // Slot pairs/random: the random impulse. The plan chooses `thermal` if there are friction and a temperature.
 fn random_impulse(c: Coefficients, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }
+
+// Repulsion, friction and noise of half a step together, where friction has no memory and a step is not split.
+fn impulse_without_memory(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {
+    return push + friction_impulse(c, contact, root, me, other) + random_impulse(c, root, me, other);
+}

@@ -25,6 +25,19 @@ fn face_of(slot: u32, number: u32) -> Face {
     return Face(element, word, neighbour_of(word));
 }
 
+// Visits the faces of a cell in their order, but for those with its own images, through which nothing passes.
+//
+// Slot voronoi/visit: `Visit` is what a kernel knows of the cell and gathers over its faces, `visit_face` adds one. Variants
+// exchange, prediction, equations and image, one for each kernel over faces, which its plan chooses. No default.
+fn visit_faces(slot: u32, visit: ptr<function, Visit>) {
+    let count = face_counts[slot];
+    for (var number = 0u; number < count; number++) {
+        let face = face_of(slot, number);
+        if (face.other == slot) { continue; }
+        visit_face(visit, face);
+    }
+}
+
 // From the neighbour's image to me, r_k - r_l.
 fn separation_across(me: Fraction, other: Fraction, word: u32) -> Vector {
     return (Vector(signed(me - other)) - 4294967296.0 * Vector(image_of(word))) * unit_lengths();

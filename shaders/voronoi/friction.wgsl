@@ -50,20 +50,11 @@ fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
     return Vector(inverse.x * v.x + inverse.y * v.y, inverse.y * v.x + inverse.z * v.y);
 }
 
-// The image of the preconditioned residual.
+// The image of the preconditioned residual (voronoi/visit/image).
 fn image_of_search(slot: u32, mine: Search) -> Vector {
-    var image = preconditioners[slot].w * mine.residual;
-    let count = face_counts[slot];
-    for (var number = 0u; number < count; number++) {
-        let face = face_of(slot, number);
-        if (face.other == slot) { continue; }
-        let theirs = searches[face.other];
-        let apart = separation_across(mine.place, theirs.place, face.word);
-        let square = dot(apart, apart);
-        let v = mine.residual - theirs.residual;
-        image += VISCOSITY * face_lengths[face.element] * inverseSqrt(square) * (v + dot(v, apart) / square * apart);
-    }
-    return image;
+    var visit = Visit(mine, preconditioners[slot].w * mine.residual);
+    visit_faces(slot, &visit);
+    return visit.image;
 }
 // What a cell adds to the sums of an iteration.
 fn products_of(slot: u32, mine: Search, image: Vector) -> vec4<f32> {
@@ -101,34 +92,22 @@ fn judge(sums: vec4<f32>) {
     }
 }
 
-// Sets up the equations of a cell; returns the square of the right-hand side.
+// Sets up the equations of a cell (voronoi/visit/equations); returns the square of the right-hand side.
 fn set_up(slot: u32) -> f32 {
     prepare_noise();
     let me = stored_particle(slot);
     let velocity = velocity_of(me);
-    let temperature = temperature_of(me);
     let inertia = 2.0 * mass_of(me);
-    var friction = Vector(0.0);
-    var noise = Vector(0.0);
-    var block = vec3<f32>(inertia, 0.0, inertia); // xx, xy, yy
-    let count = face_counts[slot];
-    for (var number = 0u; number < count; number++) {
-        let face = face_of(slot, number);
-        if (face.other == slot) { continue; }
-        let they = stored_particle(face.other);
-        let facet = facet_of(face, me.position, they.position);
-        let e = facet.direction;
-        friction += drag(facet, velocity - velocity_of(they));
-        noise += random_face_impulse(facet, me.position.w, they.position.w,
-            noise_temperature(temperature, temperature_of(they)));
-        block += rubbing(facet) * vec3<f32>(1.0 + e.x * e.x, e.x * e.y, 1.0 + e.y * e.y);
-    }
+    var visit =
+        Visit(me, velocity, temperature_of(me), Vector(0.0), Vector(0.0), vec3<f32>(inertia, 0.0, inertia));
+    visit_faces(slot, &visit);
+    let block = visit.block;
     let inverse = vec3<f32>(block.z, -block.y, block.x) / (block.x * block.z - block.y * block.y);
-    let residual = friction + noise;
+    let residual = visit.friction + visit.noise;
     preconditioners[slot] = vec4<f32>(inverse, inertia);
     estimates[slot] = vec4<f32>(velocity, residual);
     searches[slot] = Search(preconditioned(inverse, residual), me.position.xy);
-    let right = inertia * velocity + noise;
+    let right = inertia * velocity + visit.noise;
     return dot(right, preconditioned(inverse, right));
 }
 

@@ -1,5 +1,8 @@
 //! What is measured of a state at one step, as raw sums, and what follows from them.
 
+use super::Model;
+use crate::state::State;
+
 /// Raw sums over particles and pairs at the report point of one step.
 ///
 /// Whoever fills this in, the reference or a GPU, computes sums only; everything derived from them is here, once.
@@ -79,6 +82,29 @@ pub struct CellObservables {
 }
 
 impl Observables {
+    /// Those of a state of which nothing has been added up yet.
+    pub(crate) fn zero(model: &Model, state: &State) -> Self {
+        Self {
+            step: state.step,
+            particles: state.len() as u64,
+            mobile: model.mobile_particles(),
+            dimension: model.units.dimension,
+            volume: model.units.volume(),
+            mass: 0.0,
+            kinetic_energy: 0.0,
+            potential_energy: 0.0,
+            gradient_squared: 0.0,
+            laplacian: 0.0,
+            conservative_virial: 0.0,
+            total_virial: 0.0,
+            momentum: [0.0; 3],
+            about_centre_of_mass: model.measures_about_centre_of_mass(),
+            bath_energy: 0.0,
+            bath_square: 0.0,
+            cells: None,
+        }
+    }
+
     /// Kinetic and potential energy.
     #[must_use]
     pub fn total_energy(&self) -> f64 {

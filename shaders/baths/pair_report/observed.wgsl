@@ -1,4 +1,6 @@
 // A report reads the baths of pairs in contact and leaves them as they are.
+override BATH_ENERGY: f32; // energy per square of a bath with a response of one, over its quantum
+
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {
-    observe_bath(energy_of_pair_bath(c, bath), bath * bath * BATH_SQUARE);
+    report_bath(bath, c.friction, BATH_ENERGY);
 }

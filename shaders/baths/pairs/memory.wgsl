@@ -1,16 +1,11 @@
-// A bath with exponential memory on every pair, Cotter and Reich (14)-(17), doi:10.1209/epl/i2003-00621-8. Here c.friction is
-// the response of the bath to the coupling function, and c.noise its standard deviation in equilibrium.
+// A bath with exponential memory on every pair; its law is in baths/bath. Here c.friction is the response of the bath to the
+// coupling function, and c.noise its standard deviation in equilibrium.
 //
 // What is kept of a pair is q = e s - c phi and the step. Beyond the cutoff phi is zero and the bath is free: when the pair
 // meets again after k steps, one draw stands for all the steps between.
 override LOSS: f32;         // 1 - e
 override DECAY: f32;        // ln |e|
 override SPREAD: f32;       // root of 1 - e^2
-override BATH_ENERGY: f32;  // energy per square of the bath and inverse response, over its quantum
-
-fn energy_of_pair_bath(c: Coefficients, bath: f32) -> f32 {
-    return select(0.0, bath * bath / c.friction * BATH_ENERGY, c.friction > 0.0);
-}
 
 fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
     let memory = pair_memory(place);
@@ -19,11 +14,11 @@ fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle
     let exponent = -2.0 * DECAY * (f32(missed) + 1.0);
     let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
     let spread = select(sqrt(lost), SPREAD, missed == 0u);
-    return kept * bitcast<f32>(memory.x) + f32(clock_closing()) * c.friction * coupling(contact.w)
-        + c.noise * spread * bath_noise(me.position.w, other.position.w);
+    return advanced_bath(kept * bitcast<f32>(memory.x), f32(clock_closing()) * c.friction, coupling(contact.w),
+        c.noise * spread * bath_noise(me.position.w, other.position.w));
 }
 fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
     let bath = bath_of_pair(c, contact, me, other, place);
     note_bath(c, contact, bath, place);
-    return push - BATH_IMPULSE * root * bath;
+    return push + impulse_per_bath(root) * bath;
 }

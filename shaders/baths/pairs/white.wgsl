@@ -1,4 +1,4 @@
 // Friction and noise of a pair without memory, added to its repulsion.
 fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
-    return push + friction_impulse(c, contact, root, me, other) + random_impulse(c, root, me, other);
+    return impulse_without_memory(push, c, contact, root, me, other);
 }

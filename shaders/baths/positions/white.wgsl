@@ -1,9 +1,12 @@
-// Friction and noise without memory on every coordinate, Cotter and Reich (18)-(21), doi:10.1209/epl/i2003-00621-8: the
-// friction is of the last drift.
-override POSITION_IMPULSE: f32; // impulse of half a step per bath
-
+// Friction and noise on every coordinate: a bath without memory, whose law is in baths/bath. The friction is of the last
+// drift.
 fn position_bath(id: u32, species: i32, drift: Vector) -> Vector {
-    return position_response(species) * drift + position_noise(id, species);
+    let response = position_response(species);
+    var bath = Vector(0.0);
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        bath[axis] = advanced_bath(0.0, response, drift[axis], position_noise(id, species, axis));
+    }
+    return bath;
 }
-fn position_impulse(bath: Vector) -> Vector { return -POSITION_IMPULSE * bath; }
+fn position_impulse(bath: Vector) -> Vector { return impulse_per_bath(1.0) * bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}

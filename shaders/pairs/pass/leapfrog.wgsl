@@ -11,8 +11,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let contact = contact_of(separation(me.position, other.position));
     let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
-    let impulse = repulsion_impulse(c, contact.w) + friction_impulse(c, contact, root, me, other)
-        + random_impulse(c, root, me, other);
+    let impulse = impulse_without_memory(repulsion_impulse(c, contact.w), c, contact, root, me, other);
     let magnitude = select(0.0, impulse, contact.inside);
     (*sums).kick += Steps(round(magnitude * contact.direction));
     (*sums).strain += abs(magnitude);

@@ -13,8 +13,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     let c = coefficients_of(species_of(me), species_of(other));
     let root = root_weight(contact.w);
     let repulsion = repulsion_of(c, contact);
-    let magnitude = repulsion.impulse + friction_impulse(c, contact, root, me, other)
-        + random_impulse(c, root, me, other);
+    let magnitude = impulse_without_memory(repulsion.impulse, c, contact, root, me, other);
     (*sums).kick += Steps(round(magnitude * contact.direction));
     var pairs = (*sums).pairs;
     observe_conservative(&pairs, repulsion, contact);

@@ -2,7 +2,7 @@
 
 use crate::document::Integrator;
 use crate::families::Model;
-use crate::families::reference::{MOST_DRIFT, Unstable, add, narrow, whole_fractions};
+use crate::families::reference::{Unstable, add, drift, narrow, whole_fractions};
 use crate::prediction;
 use crate::state::State;
 
@@ -22,15 +22,7 @@ pub(super) fn end(
     add(&mut momenta, opening);
     let advanced = narrow(&momenta, state.step)?;
     let drifts = drifts(model, masses, &advanced, parts);
-    let too_far = |units: &i64| *units as f64 <= -MOST_DRIFT || *units as f64 >= MOST_DRIFT;
-    if let Some(particle) = drifts.iter().position(|drift| drift.iter().any(too_far)) {
-        return Err(Unstable::Drift { step: state.step, particle });
-    }
-    for (position, drift) in state.positions.iter_mut().zip(&drifts) {
-        for axis in 0..3 {
-            position[axis] = position[axis].wrapping_add(drift[axis] as u32);
-        }
-    }
+    drift(state, &drifts)?;
     state.predicted = match model.integrator {
         Integrator::GrootWarren { lambda } if lambda != 0.5 => prediction::predicted(&advanced, opening, lambda),
         _ => Vec::new(),
@@ -46,7 +38,7 @@ pub(super) fn drifts(model: &Model, masses: &[f64], momenta: &[[i32; 3]], parts:
         let momentum = model.units.momentum(*momentum);
         std::array::from_fn(|axis| {
             let distance = model.time_step * momentum[axis] / mass / parts as f64;
-            parts * whole_fractions(distance, model.units.lengths[axis]).clamp(-MOST_DRIFT, MOST_DRIFT) as i64
+            parts * whole_fractions(distance, model.units.lengths[axis])
         })
     };
     momenta.iter().zip(masses).map(drift).collect()

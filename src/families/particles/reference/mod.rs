@@ -1,9 +1,9 @@
 //! Pairs without memory, and all couplings and baths, in float64.
 
-mod cotter_reich;
 mod couplings;
 mod end_of_step;
-mod groot_warren;
+mod leapfrog;
+mod motion;
 mod observables;
 pub(crate) mod pairs;
 mod potential;
@@ -158,8 +158,7 @@ impl Reference {
 
     fn report(&self, found: &[Pair]) -> Report {
         match self.model.integrator {
-            Integrator::GrootWarren { .. } => groot_warren::report(self, found),
-            Integrator::CotterReich {} => cotter_reich::report(self, found),
+            Integrator::GrootWarren { .. } | Integrator::CotterReich {} => leapfrog::report(self, found),
             Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                 splitting::report(self, found)
             }

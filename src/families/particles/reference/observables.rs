@@ -16,23 +16,10 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         }
     }
     Observables {
-        step: state.step,
-        particles: state.len() as u64,
-        mobile: model.mobile_particles(),
-        dimension: model.units.dimension,
-        volume: model.units.volume(),
         mass: masses.iter().sum(),
         kinetic_energy,
-        potential_energy: 0.0,
-        gradient_squared: 0.0,
-        laplacian: 0.0,
-        conservative_virial: 0.0,
-        total_virial: 0.0,
         momentum: total.map(|units| units as f64 * model.units.momentum),
-        about_centre_of_mass: model.measures_about_centre_of_mass(),
-        bath_energy: 0.0,
-        bath_square: 0.0,
-        cells: None,
+        ..Observables::zero(model, state)
     }
 }
 

@@ -20,6 +20,12 @@ pub(super) struct Pair {
 }
 
 impl Pair {
+    /// Two particles where they are, i < j or the ends of a bond.
+    pub fn of(units: &Units, positions: &[[u32; 3]], first: usize, second: usize) -> Self {
+        let separation = units.displacement(positions[first], positions[second]);
+        Self { first, second, separation, distance: dot(separation, separation).sqrt() }
+    }
+
     /// The unit vector e along rᵢ - rⱼ. Two particles in the same place have none: e = 0, and they exert no force.
     pub fn direction(&self) -> [f64; 3] {
         if self.distance == 0.0 { [0.0; 3] } else { self.separation.map(|component| component / self.distance) }
@@ -175,6 +181,13 @@ pub(super) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], un
         sums[pair.first][axis] += whole;
         sums[pair.second][axis] -= whole;
     }
+}
+
+/// Gives the half kick dt/2 F e to one end of a pair or a bond and takes it from the other; gives r·F.
+pub(super) fn push_apart(model: &Model, pair: &Pair, force: f64, kick: &mut [[i64; 3]]) -> f64 {
+    let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
+    exchange(kick, pair, impulse, model.units.momentum);
+    pair.distance * force
 }
 
 pub(super) const MOST_UNITS: f64 = (1_u64 << 44) as f64;

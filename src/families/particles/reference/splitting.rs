@@ -47,9 +47,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let mut total_virial = 0.0;
     for pair in found {
         let force = Forces::between(model, &state.species, pair).potential.force();
-        let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
-        pairs::exchange(&mut kick, pair, impulse, model.units.momentum);
-        total_virial += pair.distance * force;
+        total_virial += pairs::push_apart(model, pair, force, &mut kick);
     }
     let mut momenta = widen(&state.momenta);
     if state.step > 0 {

@@ -35,7 +35,7 @@ pub(crate) mod splines;
 pub(crate) use depth::mesh_splines;
 
 use crate::families::Observables;
-use crate::families::reference::{MOST_DRIFT, Unstable};
+use crate::families::reference::{Unstable, bath, drift};
 use crate::families::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -141,23 +141,18 @@ impl ShallowWaterReference {
     /// is then left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
         let Report { masses, bath, velocities, kicks, .. } = self.report()?;
-        let step = self.state.step;
-        let mut moved = Vec::with_capacity(velocities.len());
+        let (mut paths, mut after) = (Vec::with_capacity(velocities.len()), Vec::with_capacity(velocities.len()));
         for (particle, (reported, kick)) in velocities.into_iter().zip(kicks).enumerate() {
             let before = if self.motion.gyrates { reported } else { self.motion.rotated(reported, 0.5) };
             let velocity = [before[0] + kick[0], before[1] + kick[1]];
             self.check_velocity(particle, velocity)?;
-            let path = self.motion.path(velocity);
-            if path.iter().any(|units| units.abs() >= MOST_DRIFT) {
-                return Err(Unstable::Drift { step, particle });
-            }
-            moved.push((path, if self.motion.gyrates { self.motion.rotated(velocity, 1.0) } else { velocity }));
+            paths.push(self.motion.path(velocity));
+            after.push(if self.motion.gyrates { self.motion.rotated(velocity, 1.0) } else { velocity });
         }
-        for (particle, (path, velocity)) in moved.into_iter().enumerate() {
+        drift(&mut self.state, &paths)?;
+        for (momentum, velocity) in self.state.momenta.iter_mut().zip(after) {
             for axis in 0..2 {
-                let position = &mut self.state.positions[particle][axis];
-                *position = position.wrapping_add(path[axis] as i64 as u32);
-                self.state.momenta[particle][axis] = velocity[axis] as i32;
+                momentum[axis] = velocity[axis] as i32;
             }
         }
         if self.water.bath.is_some() {
@@ -180,23 +175,12 @@ impl ShallowWaterReference {
         let (water, mean) = (&self.water, self.mean_depth());
         let speed_squared = water.wave_speed.powi(2);
         let mut observables = Observables {
-            step: self.state.step,
             particles: water.carriers,
             mobile: water.carriers,
-            dimension: 2,
-            volume: self.model.units.volume(),
-            mass: 0.0,
-            kinetic_energy: 0.0,
-            potential_energy: 0.0,
-            gradient_squared: 0.0,
-            laplacian: 0.0,
             conservative_virial: f64::NAN,
             total_virial: f64::NAN,
-            momentum: [0.0; 3],
             about_centre_of_mass: false,
-            bath_energy: 0.0,
-            bath_square: 0.0,
-            cells: None,
+            ..Observables::zero(&self.model, &self.state)
         };
         for (velocity, units) in report.velocities.iter().zip(&self.state.masses) {
             let mass = f64::from(*units) * water.mass_unit;
@@ -209,12 +193,10 @@ impl ShallowWaterReference {
         }
         let products = report.masses.iter().zip(&report.deviation).map(|(mass, deviation)| (mass - mean) * deviation);
         observables.potential_energy = 0.5 * speed_squared * products.sum::<f64>();
-        if let Some(bath) = &water.bath {
+        if let Some(step) = &water.bath {
             let squares: f64 = report.bath.iter().map(|variable| variable * variable).sum();
             observables.bath_square = squares / water.nodes() as f64;
-            if bath.continuous_coupling.is_finite() && bath.continuous_coupling > 0.0 {
-                observables.bath_energy = 0.5 * speed_squared / bath.continuous_coupling * squares;
-            }
+            observables.bath_energy = speed_squared * bath::energy(step, squares).unwrap_or(0.0);
         }
         Ok(observables)
     }
@@ -256,17 +238,17 @@ impl ShallowWaterReference {
 
     /// s(n) from s(n-1) and h̃(n); at step 0 what it is.
     fn bath_after(&self, masses: &[f64]) -> Vec<f64> {
-        let Some(bath) = &self.water.bath else { return Vec::new() };
+        let Some(step) = &self.water.bath else { return Vec::new() };
         if self.state.step == 0 {
             return self.bath.clone();
         }
         let key = noise::step_key(self.model.seed, stream::MESH, self.state.step);
-        let width = bath.noise(self.model.temperature) / self.water.wave_speed;
+        // Of kT/c₀²: the energy of the bath has the factor c₀².
+        let temperature = self.model.temperature / self.water.wave_speed.powi(2);
         let next = |node: usize| {
             let words = noise::words(self.model.generator, key, [0, node as u32]);
-            bath.persistence * self.bath[node]
-                + bath.response() * (masses[node] - self.previous[node])
-                + width * noise::gaussian(words)
+            let change = masses[node] - self.previous[node];
+            bath::advanced(step, temperature, self.bath[node], change, noise::gaussian(words))
         };
         (0..masses.len()).map(next).collect()
     }

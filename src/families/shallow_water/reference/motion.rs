@@ -4,6 +4,7 @@
 
 use super::depth::mesh_splines;
 use crate::document::Integrator;
+use crate::families::reference::whole_fractions;
 use crate::families::{Model, ShallowWater};
 
 /// Half a kick at a position, dt/2 times the force -c₀² Σ (h - 1 + s)ₖₗ ∇ψₖₗ of equation (25), by a surface on the
@@ -34,8 +35,10 @@ pub(super) struct Motion {
     pub gyrates: bool,
     /// f₀ dt.
     angle: f64,
-    /// dt over the unit of velocity, and over the unit of position along each axis.
-    scale: [f64; 2],
+    /// dt times the unit of velocity.
+    scale: f64,
+    /// Edges of the box.
+    lengths: [f64; 2],
 }
 
 impl Motion {
@@ -43,8 +46,8 @@ impl Motion {
         Self {
             gyrates: model.integrator != Integrator::Rotate {},
             angle: water.rotation * model.time_step,
-            scale: [0, 1]
-                .map(|axis| model.time_step * model.units.momentum / model.units.lengths[axis] * 4_294_967_296.0),
+            scale: model.time_step * model.units.momentum,
+            lengths: [0, 1].map(|axis| model.units.lengths[axis]),
         }
     }
 
@@ -58,8 +61,8 @@ impl Motion {
         [cosine * u + sine * v, cosine * v - sine * u].map(|units| units.round_ties_even() as i64)
     }
 
-    /// The way of a time step in units of the box fraction, rounded: along an arc for `gyro`, straight for `rotate`.
-    pub(super) fn path(&self, velocity: [i64; 2]) -> [f64; 2] {
+    /// The way of a time step in units of the box fraction: along an arc for `gyro`, straight for `rotate`.
+    pub(super) fn path(&self, velocity: [i64; 2]) -> [i64; 2] {
         let [u, v] = velocity.map(|units| units as f64);
         let way = if self.gyrates && self.angle != 0.0 {
             let along = self.angle.sin() / self.angle;
@@ -68,6 +71,6 @@ impl Motion {
         } else {
             [u, v]
         };
-        std::array::from_fn(|axis| (self.scale[axis] * way[axis]).round_ties_even())
+        std::array::from_fn(|axis| whole_fractions(self.scale * way[axis], self.lengths[axis]))
     }
 }

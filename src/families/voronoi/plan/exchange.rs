@@ -29,6 +29,7 @@ impl Builder<'_> {
         let limits = heat || (pressure && self.has_limits());
         let choices = self
             .forces(part, heat)
+            .with(voronoi::Visit::Exchange)
             .with(match part {
                 _ if predicted => exchange::Side::Predicted,
                 Part::Pressure | Part::Everything => exchange::Side::Start,
@@ -60,6 +61,7 @@ impl Builder<'_> {
         }
         let choices = self
             .forces(part, false)
+            .with(voronoi::Visit::Prediction)
             .with(exchange::Side::Start)
             .with_if(part == Part::Everything, exchange::Middle::Start);
         self.face_kernel("predict", Entry::PredictExchange, &choices, part)

@@ -21,7 +21,8 @@ impl Builder<'_> {
         let groups = self.particles.div_ceil(LANES).max(1);
         let iterations = Choices::new().with_if(!self.solves_at_once(), voronoi::FrictionIterations::Demanded);
         let begin = self.kernel("friction_begin", Entry::FrictionBegin, &iterations, 1);
-        let setup = self.rubbing().with_if(self.rubs_at_random(), voronoi::NoiseKey::Solver);
+        let setup =
+            self.rubbing().with(voronoi::Visit::Equations).with_if(self.rubs_at_random(), voronoi::NoiseKey::Solver);
         let setup = self.kernel("friction_setup", Entry::FrictionSetup, &setup, groups);
         self.solver_buffers(groups);
         let verdict = vec![
@@ -29,13 +30,13 @@ impl Builder<'_> {
             (Constant::Tolerance, self.cells.solver.tolerance),
             (Constant::Iterations, f64::from(self.cells.solver.iterations)),
         ];
-        let none = Choices::new();
+        let (none, image) = (Choices::new(), Choices::new().with(voronoi::Visit::Image));
         if self.solves_at_once() {
-            let solve = self.kernel("friction_solve", Entry::FrictionSolve, &none, 1);
+            let solve = self.kernel("friction_solve", Entry::FrictionSolve, &image, 1);
             self.plan.kernels[solve].constants = verdict;
             return vec![begin, setup, solve];
         }
-        let image = self.kernel("friction_image", Entry::FrictionImage, &none, groups);
+        let image = self.kernel("friction_image", Entry::FrictionImage, &image, groups);
         let judge = self.kernel("friction_judge", Entry::FrictionJudge, &none, 1);
         self.plan.kernels[judge].constants = verdict;
         let step = self.kernel("friction_step", Entry::FrictionStep, &none, groups);

@@ -21,7 +21,7 @@ pub(super) struct Cells {
 impl Cells {
     /// Cells of a state with such volumes.
     pub(super) fn of(model: &Model, cells: &Voronoi, state: &State, volumes: &[f64]) -> Self {
-        let masses: Vec<f64> = state.masses.iter().map(|units| f64::from(*units) * cells.mass_unit).collect();
+        let masses = masses(cells, state);
         let velocities = velocities(model, &masses, state);
         let internal_energies: Vec<f64> = if cells.keeps_energy() {
             let own = |cell: usize| {
@@ -44,6 +44,11 @@ impl Cells {
         let pressures = (0..state.len()).map(pressure).collect();
         Self { masses, velocities, volumes: volumes.to_vec(), internal_energies, temperatures, pressures }
     }
+}
+
+/// M of every cell.
+pub(super) fn masses(cells: &Voronoi, state: &State) -> Vec<f64> {
+    state.masses.iter().map(|units| f64::from(*units) * cells.mass_unit).collect()
 }
 
 /// U = P / M of every cell.

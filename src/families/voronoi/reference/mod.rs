@@ -35,7 +35,7 @@ mod pressure;
 
 use crate::document::Integrator;
 use crate::families::Observables;
-use crate::families::reference::{MOST_DRIFT, Unstable, whole_fractions};
+use crate::families::reference::{Unstable, drift, whole_fractions};
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -151,12 +151,8 @@ impl VoronoiReference {
         let mut exchanges = self.pressure(&geometry, &now, time);
         let deviates = self.deviates(&geometry.faces);
         for ((face, exchange), deviates) in geometry.faces.iter().zip(&mut exchanges).zip(deviates) {
-            let friction = friction::impulse(&self.cells, face, &now.velocities, time);
             let random = friction::random_impulse(&self.cells, &now, face, deviates, time);
-            let (energy, limited) = heat::flow(&self.cells, &now, face, deviates, time);
-            let momentum = [0, 1].map(|axis| friction[axis] + random[axis]);
-            exchange.add(&Exchange { momentum, energy, ..Exchange::default() });
-            self.limited += u64::from(limited);
+            exchange.add(&self.irreversible(face, &now, &now.velocities, random, deviates, time));
         }
         // The positions move with the velocities before.
         self.drift(time)?;
@@ -217,15 +213,27 @@ impl VoronoiReference {
         let random: Vec<[f64; 2]> = faces.iter().zip(&deviates).map(random).collect();
         let mean = friction::solve(&self.cells, &now, faces, &random, time);
         let mut exchanges = Vec::with_capacity(faces.len());
-        for ((face, random), deviates) in faces.iter().zip(&random).zip(&deviates) {
-            let friction = friction::impulse(&self.cells, face, &mean.velocities, time);
-            let (energy, limited) = heat::flow(&self.cells, &now, face, *deviates, time);
-            let momentum = [0, 1].map(|axis| friction[axis] + random[axis]);
-            exchanges.push(Exchange { momentum, energy, ..Exchange::default() });
-            self.limited += u64::from(limited);
+        for ((face, random), deviates) in faces.iter().zip(random).zip(deviates) {
+            exchanges.push(self.irreversible(face, &now, &mean.velocities, random, deviates, time));
         }
         (self.iterations, self.residual) = (mean.iterations, mean.residual);
         self.settle(faces, &exchanges, &now)
+    }
+
+    /// What friction at some velocities, noise and heat do at a face.
+    fn irreversible(
+        &mut self,
+        face: &Face,
+        now: &Cells,
+        velocities: &[[f64; 2]],
+        random: [f64; 2],
+        deviates: [f64; 3],
+        time: f64,
+    ) -> Exchange {
+        let friction = friction::impulse(&self.cells, face, velocities, time);
+        let (energy, limited) = heat::flow(&self.cells, now, face, deviates, time);
+        self.limited += u64::from(limited);
+        Exchange { momentum: [0, 1].map(|axis| friction[axis] + random[axis]), energy, ..Exchange::default() }
     }
 
     /// Hands what crosses the faces to the cells: momentum and mass first, then energy, whose work depends on what they
@@ -237,9 +245,7 @@ impl VoronoiReference {
         }
         ledger.take_up(&mut self.state)?;
         if self.cells.keeps_energy() {
-            let masses: Vec<f64> =
-                self.state.masses.iter().map(|units| f64::from(*units) * self.cells.mass_unit).collect();
-            let after = faces::velocities(&self.model, &masses, &self.state);
+            let after = self.velocities();
             let mut ledger = Ledger::new(self.state.len());
             for (face, exchange) in faces.iter().zip(exchanges) {
                 let energy = exchange.total_energy(face, &before.velocities, &after);
@@ -248,6 +254,11 @@ impl VoronoiReference {
             ledger.take_up(&mut self.state)?;
         }
         Ok(())
+    }
+
+    /// U of every cell.
+    fn velocities(&self) -> Vec<[f64; 2]> {
+        faces::velocities(&self.model, &faces::masses(&self.cells, &self.state), &self.state)
     }
 
     fn now(&self, geometry: &Geometry) -> Cells {
@@ -270,19 +281,8 @@ impl VoronoiReference {
 
     /// Moves every cell by U dt in whole units of the box fraction, rounded half to even.
     fn drift(&mut self, time: f64) -> Result<(), Unstable> {
-        let step = self.state.step;
-        for particle in 0..self.state.len() {
-            let mass = f64::from(self.state.masses[particle]) * self.cells.mass_unit;
-            for axis in 0..2 {
-                let momentum = f64::from(self.state.momenta[particle][axis]) * self.model.units.momentum;
-                let units = whole_fractions(time * momentum / mass, self.model.units.lengths[axis]);
-                if units.abs() >= MOST_DRIFT {
-                    return Err(Unstable::Drift { step, particle });
-                }
-                let position = &mut self.state.positions[particle][axis];
-                *position = position.wrapping_add(units as i64 as u32);
-            }
-        }
-        Ok(())
+        let (lengths, velocities) = (self.model.units.lengths, self.velocities());
+        let way = |velocity: &[f64; 2]| [0, 1].map(|axis| whole_fractions(time * velocity[axis], lengths[axis]));
+        drift(&mut self.state, &velocities.iter().map(way).collect::<Vec<_>>())
     }
 }

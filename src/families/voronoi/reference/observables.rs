@@ -16,25 +16,8 @@ pub(super) fn observe(reference: &VoronoiReference) -> Observables {
     let volumes: Vec<f64> = tessellation.cells.iter().map(|cell| cell.volume).collect();
     let now = Cells::of(model, cells, state, &volumes);
     let box_volume = model.units.volume();
-    let mut observables = Observables {
-        step: state.step,
-        particles: state.len() as u64,
-        mobile: model.mobile_particles(),
-        dimension: 2,
-        volume: box_volume,
-        mass: now.masses.iter().sum(),
-        kinetic_energy: 0.0,
-        potential_energy: 0.0,
-        gradient_squared: 0.0,
-        laplacian: 0.0,
-        conservative_virial: 0.0,
-        total_virial: f64::NAN,
-        momentum: [0.0; 3],
-        about_centre_of_mass: model.measures_about_centre_of_mass(),
-        bath_energy: 0.0,
-        bath_square: 0.0,
-        cells: None,
-    };
+    let mut observables =
+        Observables { mass: now.masses.iter().sum(), total_virial: f64::NAN, ..Observables::zero(model, state) };
     let total = state.total_momentum();
     observables.momentum = std::array::from_fn(|axis| total[axis] as f64 * model.units.momentum);
     let has_potential = !cells.exchanges_mass() && !cells.keeps_energy();

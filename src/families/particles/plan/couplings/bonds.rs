@@ -38,14 +38,6 @@ impl Builder<'_> {
         self.plan.operations_per_particle += each * count as f64 / self.particles.max(1) as f64;
     }
 
-    /// Impulse of half a step per bath, which pairs with memory may have named already.
-    fn bath_impulse(&mut self) {
-        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
-            let impulse = self.impulse();
-            self.plan.constants.push((Constant::BathImpulse, impulse));
-        }
-    }
-
     /// The buffers of bonds; `bonds` as `shaders/bonds/bonds.wgsl` reads it.
     fn bond_buffers(&mut self, bonds: &Bonds) {
         let mut words: Vec<u32> = Vec::new();

@@ -195,6 +195,13 @@ impl Builder<'_> {
         0.5 * self.model.time_step / self.model.units.momentum
     }
 
+    /// The constant of the law of baths, which another coupling may have named already.
+    fn bath_impulse(&mut self) {
+        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
+            self.plan.constants.push((Constant::BathImpulse, self.impulse()));
+        }
+    }
+
     fn quantities(&self) -> u64 {
         OBSERVABLES + if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES }
     }

@@ -32,14 +32,9 @@ impl Builder<'_> {
     /// The bath on coordinates, if there is one.
     fn position_bath(&self) -> Choices {
         let Some(bath) = self.model.position_bath() else { return Choices::new() };
-        Choices::new().with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White }).with_if(
-            bath.temperature > 0.0,
-            match self.model.units.dimension {
-                1 => baths::PositionNoise::One,
-                2 => baths::PositionNoise::Two,
-                _ => baths::PositionNoise::Three,
-            },
-        )
+        Choices::new()
+            .with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White })
+            .with_if(bath.temperature > 0.0, baths::PositionNoise::Gaussian)
     }
 
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
@@ -55,9 +50,9 @@ impl Builder<'_> {
         let Some(bath) = self.model.position_bath() else { return };
         let loss = bath.steps.first().map_or(1.0, |step| 1.0 - step.persistence);
         let memory = bath.memory;
+        self.bath_impulse();
         let key = noise::seed_key(self.model.seed, stream::PARTICLE);
         self.plan.constants.extend([
-            (Constant::PositionImpulse, self.impulse()),
             (Constant::PositionLoss, loss),
             (Constant::ParticleStreamX, f64::from(key[0])),
             (Constant::ParticleStreamY, f64::from(key[1])),

@@ -67,12 +67,12 @@ impl Builder<'_> {
         // All pairs of species have the rate in common, and with it all but the size of their baths.
         let step = BathStep::with_memory(scheme, 1.0, rate, self.model.time_step);
         let persistence = step.persistence;
+        self.bath_impulse();
         self.plan.constants.extend([
             (Constant::Persistence, persistence),
             (Constant::Loss, 1.0 - persistence),
             (Constant::Decay, persistence.abs().ln().max(-100.0)),
             (Constant::Spread, (1.0 - persistence * persistence).max(0.0).sqrt()),
-            (Constant::BathImpulse, self.impulse()),
             (Constant::BathEnergy, 0.5 * step.response() / self.plan.quanta.pair_energy),
         ]);
     }

@@ -1,10 +1,10 @@
 //! Bonds: a potential of the length, and a bath coupled to it, h = |rᵢ - rⱼ|.
 
-use super::bath::{self, BathSums};
-use super::motion::Motion;
+use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::pairs::{self, Pair};
 use crate::families::particles::reference::potential::Potential;
 use crate::families::reference::Unstable;
+use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Bond, Bonds, Model};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -20,8 +20,7 @@ pub(super) struct Bonded {
 /// The ends of a bond where they are.
 pub(super) fn span(model: &Model, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
     let [first, second] = bond.ends.map(|end| end as usize);
-    let separation = model.units.displacement(positions[first], positions[second]);
-    Pair { first, second, separation, distance: pairs::dot(separation, separation).sqrt() }
+    Pair::of(&model.units, positions, first, second)
 }
 
 /// Adds the half kicks of all bonds and advances their baths.
@@ -44,24 +43,14 @@ pub(super) fn kick(
         let mut force = potential.force();
         if let Some(step) = &kind.bath {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [index as u32, 0]));
-            let value = if step.remembers() {
-                let before = f64::from(f32::from_bits(state.bond_baths[index]));
-                let value = match state.step {
-                    0 => before,
-                    _ => bath::advanced(step, kind.temperature, before, motion.change_of_distance(&pair), gaussian),
-                };
-                found.baths[index] = (value as f32).to_bits();
-                bath_sums.add(step, value);
-                value
-            } else {
-                let change = motion.approach(&pair).unwrap_or_else(|| motion.change_of_distance(&pair));
-                bath::advanced(step, kind.temperature, 0.0, change, gaussian)
-            };
+            let seen = if step.remembers() { None } else { motion.approach(&pair) };
+            let change = seen.unwrap_or_else(|| motion.change_of_distance(&pair));
+            let kept = found.baths.get_mut(index);
+            let value = bath::at_report(step, kind.temperature, state.step, kept, change, gaussian);
+            bath_sums.add(step, value);
             force -= value;
         }
-        let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
-        pairs::exchange(kick, &pair, impulse, model.units.momentum);
-        found.virial += pair.distance * force;
+        found.virial += pairs::push_apart(model, &pair, force, kick);
     }
     Ok(found)
 }

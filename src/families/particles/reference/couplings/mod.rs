@@ -16,10 +16,8 @@
 //! closed. Baths without memory take the initial momenta for those that brought the particles there.
 
 mod angles;
-mod bath;
 mod bonds;
 mod coloured_noise;
-mod motion;
 mod observables;
 mod pair_list;
 mod pairs;
@@ -29,10 +27,10 @@ mod tethers;
 use crate::families::Model;
 use crate::families::Observables;
 use crate::families::particles::reference::end_of_step;
+use crate::families::particles::reference::motion::Motion;
+use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::State;
-use bath::BathSums;
-use motion::Motion;
 
 /// A model of couplings and baths and its state, stepped on the CPU: the reference of every scene whose model
 /// [is coupled](Model::is_coupled).

@@ -39,7 +39,11 @@ pub(super) fn renew(model: &Model, force: &PairForce, state: &State) -> (Vec<Pai
 
 /// A bath that was at rest one step ago, when the pair was out of reach: s = √(kTλₑ) ζ and h = 0.
 fn fresh(model: &Model, force: &PairForce, state: &State, key: [u32; 2], [first, second]: [u32; 2]) -> PairBath {
-    let step = super::pairs::bath_step(model, force, state, first as usize, second as usize);
+    let step = force.bath_step(
+        state.species[first as usize] as usize,
+        state.species[second as usize] as usize,
+        model.time_step,
+    );
     let value =
         step.deviation(force.temperature) * noise::gaussian(noise::words(model.generator, key, [first, second]));
     let memory = (step.persistence * value) as f32;

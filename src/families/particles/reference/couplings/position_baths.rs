@@ -1,8 +1,8 @@
 //! Langevin dynamics: a bath coupled to every coordinate of every particle by itself, h = x.
 
-use super::bath::{self, BathSums};
-use super::motion::Motion;
 use super::{is_fixed, push};
+use crate::families::particles::reference::motion::Motion;
+use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PositionBath};
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -23,19 +23,11 @@ pub(super) fn kick(
         let drift = if bath.memory { motion.drift(particle) } else { motion.drift_seen(particle) };
         let mut impulse = [0.0; 3];
         for axis in 0..model.units.dimension {
-            let words = noise::words(model.generator, key, [particle as u32, axis as u32]);
-            let next = |before| bath::advanced(step, bath.temperature, before, drift[axis], noise::gaussian(words));
-            let value = if bath.memory {
-                let before = f64::from(f32::from_bits(state.position_baths[particle][axis]));
-                if state.step == 0 { before } else { next(before) }
-            } else {
-                next(0.0)
-            };
-            if bath.memory {
-                baths[particle][axis] = (value as f32).to_bits();
-                if !is_fixed(model, state, particle) {
-                    bath_sums.add(step, value);
-                }
+            let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
+            let kept = baths.get_mut(particle).map(|bath| &mut bath[axis]);
+            let value = bath::at_report(step, bath.temperature, state.step, kept, drift[axis], gaussian);
+            if !is_fixed(model, state, particle) {
+                bath_sums.add(step, value);
             }
             impulse[axis] = -0.5 * model.time_step * value;
         }

@@ -1,9 +1,9 @@
 //! What brought the particles where they are: the change of a coupling function h over the last drift.
 
+use super::end_of_step;
+use super::pairs::{Pair, dot};
 use crate::document::Integrator;
 use crate::families::Model;
-use crate::families::particles::reference::end_of_step;
-use crate::families::particles::reference::pairs::{Pair, dot};
 use crate::state::State;
 
 /// The last drift of every particle, and the velocities that friction may see in its place.

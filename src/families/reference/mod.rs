@@ -10,6 +10,8 @@
 //! and the drift of the same step follow. At step 0 the momenta given are those of the report point, and nothing is
 //! closed.
 
+pub(super) mod bath;
+
 use crate::state::State;
 
 pub use super::particles::reference::{CouplingsReference, Reference, Relaxation};
@@ -115,11 +117,29 @@ pub enum Unstable {
 }
 
 /// Half the box: a drift as long as this could be in either direction.
-pub(crate) const MOST_DRIFT: f64 = (1_u64 << 31) as f64;
+const MOST_DRIFT: i64 = 1 << 31;
 
-/// A distance along an edge of the box, in units of the box fraction, rounded half to even.
-pub(crate) fn whole_fractions(distance: f64, edge: f64) -> f64 {
-    (distance / edge * 4_294_967_296.0).round_ties_even()
+/// A distance along an edge of the box, in units of the box fraction, rounded half to even; half the box if it is longer.
+pub(crate) fn whole_fractions(distance: f64, edge: f64) -> i64 {
+    let most = MOST_DRIFT as f64;
+    (distance / edge * 4_294_967_296.0).round_ties_even().clamp(-most, most) as i64
+}
+
+/// Moves every particle by whole units of the box fraction.
+///
+/// # Errors
+/// [`Unstable::Drift`] for one that would move by half the box or more; the state is then left as it was.
+pub(crate) fn drift<const AXES: usize>(state: &mut State, ways: &[[i64; AXES]]) -> Result<(), Unstable> {
+    let too_far = |way: &[i64; AXES]| way.iter().any(|units| !(1 - MOST_DRIFT..MOST_DRIFT).contains(units));
+    if let Some(particle) = ways.iter().position(too_far) {
+        return Err(Unstable::Drift { step: state.step, particle });
+    }
+    for (position, way) in state.positions.iter_mut().zip(ways) {
+        for (position, units) in position.iter_mut().zip(way) {
+            *position = position.wrapping_add(*units as u32);
+        }
+    }
+    Ok(())
 }
 
 /// Momenta as the state keeps them.

@@ -1,9 +1,9 @@
-//! One step of a heat bath, whatever it is coupled to.
+//! The law of a heat bath, whatever it is coupled to.
 
 use crate::families::BathStep;
 
 /// s' = e s + λₑ(1 + e)/2 Δh + √(kTλₑ(1 - e²)) ξ: equation (16) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
-pub(super) fn advanced(step: &BathStep, temperature: f64, before: f64, change: f64, gaussian: f64) -> f64 {
+pub(crate) fn advanced(step: &BathStep, temperature: f64, before: f64, change: f64, gaussian: f64) -> f64 {
     let (e, coupling) = (step.persistence, step.coupling);
     let noise = (temperature * coupling * (1.0 - e * e)).max(0.0).sqrt();
     e * before + 0.5 * coupling * (1.0 + e) * change + noise * gaussian
@@ -11,7 +11,7 @@ pub(super) fn advanced(step: &BathStep, temperature: f64, before: f64, change: f
 
 /// k such steps at once while h is the same, but for the last of them, which it changes: what was `memory` = e s - c h,
 /// c = λₑ(1 + e)/2, makes s = eᵏ⁻¹ memory + c h + √(kTλₑ(1 - e²ᵏ)) ξ where h was zero in between.
-pub(super) fn recalled(
+pub(crate) fn recalled(
     step: &BathStep,
     temperature: f64,
     memory: f64,
@@ -29,9 +29,33 @@ pub(super) fn recalled(
         + (temperature * step.coupling * renewed).sqrt() * gaussian
 }
 
+/// A bath at the report point, and what the state keeps of it: a bath with memory goes on from there, but is what it is at step 0;
+/// one without has no past, whatever is kept.
+pub(crate) fn at_report(
+    step: &BathStep,
+    temperature: f64,
+    state_step: u64,
+    kept: Option<&mut u32>,
+    change: f64,
+    gaussian: f64,
+) -> f64 {
+    let Some(kept) = kept.filter(|_| step.remembers()) else {
+        return advanced(step, temperature, 0.0, change, gaussian);
+    };
+    let before = f64::from(f32::from_bits(*kept));
+    let value = if state_step == 0 { before } else { advanced(step, temperature, before, change, gaussian) };
+    *kept = (value as f32).to_bits();
+    value
+}
+
+/// s²/2λ, the energy of a bath; none without memory or coupling.
+pub(crate) fn energy(step: &BathStep, square: f64) -> Option<f64> {
+    (step.remembers() && step.continuous_coupling > 0.0).then(|| square / (2.0 * step.continuous_coupling))
+}
+
 /// Sums over baths with memory.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct BathSums {
+pub(crate) struct BathSums {
     /// Their number.
     pub count: u64,
     /// Σ s².
@@ -43,10 +67,10 @@ pub(super) struct BathSums {
 impl BathSums {
     /// Adds a bath in, if it remembers and is coupled at all.
     pub fn add(&mut self, step: &BathStep, value: f64) {
-        if step.remembers() && step.continuous_coupling > 0.0 {
+        if let Some(energy) = energy(step, value * value) {
             self.count += 1;
             self.squares += value * value;
-            self.energy += value * value / (2.0 * step.continuous_coupling);
+            self.energy += energy;
         }
     }
 }

@@ -1,0 +1,109 @@
+//! Pairs without memory in a leapfrog step: closing and opening half kicks by the same forces, then the drift.
+//!
+//! Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784, equations (18):
+//!
+//! ```text
+//! r(n+1) = r(n) + dt v(n) + dt²/2 f(n)          = r(n) + dt v(n+½)
+//! ṽ(n+1) = v(n) + λ dt f(n)
+//! f(n+1) = f(r(n+1), ṽ(n+1))
+//! v(n+1) = v(n) + dt/2 (f(n) + f(n+1))
+//! ```
+//! The state keeps p(n-½), and the m ṽ(n) that the friction sees where λ ≠ ½ makes it something else. With the half
+//! kick H = dt/2 f, p(n) = p(n-½) + H(n), p(n+½) = p(n) + H(n) and m ṽ(n+1) = p(n+½) + (2λ - 1) H(n).
+//!
+//! The Markov limit of Cotter and Reich's scheme, doi:10.1209/epl/i2003-00621-8, equations (18)-(21):
+//!
+//! ```text
+//! p(n+½) = p(n) - dt/2 [∇V + Σ ∇h s(n)]                          (18)
+//! r(n+1) = r(n) + dt p(n+½) / m                                  (19)
+//! s(n+1) = γ/dt [h(r(n+1)) - h(r(n))] + √(2γkT/dt) ζ             (20)
+//! p(n+1) = p(n+½) - dt/2 [∇V + Σ ∇h s(n+1)]                      (21)
+//! ```
+//! with h = φ(|rᵢ - rⱼ|), φ' = √ω. That is the same scheme with λ = ½, but for its friction: the discrete gradient of h
+//! over the last drift, in place of its derivative along the velocities, √ω e·(vᵢ - vⱼ). The drift is computed again
+//! from the momenta that made it; at step 0 it is taken to have been made by the initial momenta.
+
+use super::motion::Motion;
+use super::pairs::{self, Forces, Pair};
+use super::{Reference, Report};
+use crate::families::reference::{add, bath, widen};
+use crate::families::{Model, PairForce};
+use crate::noise::{self, stream};
+use crate::state::State;
+
+/// Half kicks by all pairs at the report point.
+pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
+    let (model, state) = (&reference.model, &reference.state);
+    let motion = Motion::of(model, state, &reference.masses);
+    let mut kick = vec![[0; 3]; state.len()];
+    let total_virial =
+        model.pair_force().map_or(0.0, |force| half_kicks(model, force, state, &motion, found, &[], &mut kick));
+    let mut momenta = widen(&state.momenta);
+    // The momenta of step 0 are those of the report point already.
+    if state.step > 0 {
+        add(&mut momenta, &kick);
+    }
+    Report { momenta, kick, total_virial }
+}
+
+/// Adds half kicks by pairs, of which some, in order, are spared their repulsion; gives Σ r·F.
+pub(super) fn half_kicks(
+    model: &Model,
+    force: &PairForce,
+    state: &State,
+    motion: &Motion,
+    found: &[Pair],
+    spared: &[[u32; 2]],
+    kick: &mut [[i64; 3]],
+) -> f64 {
+    let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let mut virial = 0.0;
+    for pair in found {
+        let forces = Forces::between(model, &state.species, pair);
+        let is_spared = spared.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
+        let mut magnitude = if is_spared { 0.0 } else { forces.potential.force() };
+        if forces.friction > 0.0 {
+            let species = [pair.first, pair.second].map(|end| state.species[end] as usize);
+            let step = force.bath_step(species[0], species[1], model.time_step);
+            let change = motion.approach(pair).map_or_else(
+                || coupling(force, pair.distance) - coupling(force, motion.distance_before(pair)),
+                |approach| forces.weight * approach,
+            );
+            // The noise of a pair pushes it apart; that of its bath would pull.
+            let noise = -pairs::noise(model, key, pair);
+            magnitude -= forces.weight * bath::advanced(&step, force.temperature, 0.0, change, noise);
+        }
+        virial += pairs::push_apart(model, pair, magnitude, kick);
+    }
+    virial
+}
+
+/// φ(r), whose derivative is √ω within the cutoff; zero from there on.
+pub(super) fn coupling(force: &PairForce, distance: f64) -> f64 {
+    let power = force.weight_exponent / 2.0 + 1.0;
+    -force.cutoff / power * (1.0 - distance / force.cutoff).max(0.0).powf(power)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::scene;
+
+    #[test]
+    fn the_coupling_has_the_weight_as_its_derivative() {
+        let scene = scene::load("dpd-fluid", &[]).unwrap();
+        let mut force = Model::new(&scene).pair_force().cloned().unwrap();
+        force.cutoff = 1.5;
+        for weight_exponent in [0.5, 1.0, 2.0, 3.0] {
+            force.weight_exponent = weight_exponent;
+            for distance in [0.1, 0.7, 1.4] {
+                let slope = (coupling(&force, distance + 1e-6) - coupling(&force, distance - 1e-6)) / 2e-6;
+                let weight = (1.0_f64 - distance / 1.5).powf(weight_exponent / 2.0);
+                assert!((slope - weight).abs() < 1e-8, "{weight_exponent} {distance}: {slope} {weight}");
+            }
+            assert_eq!(coupling(&force, 1.6), 0.0);
+        }
+    }
+}
