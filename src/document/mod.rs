@@ -2,9 +2,9 @@
 //!
 //! Families check such scenes and make models of them; [`crate::scene`] reads one from a file, with all of that.
 
-mod analyses;
 mod bath;
 mod error;
+mod files;
 mod groups;
 mod integrator;
 mod interaction;
@@ -13,23 +13,25 @@ mod output;
 mod particles;
 mod pictures;
 mod problems;
+mod quantities;
 mod scene;
 mod shallow_water;
 mod species_names;
 mod voronoi;
 
 pub use crate::noise::Generator;
-pub use analyses::*;
 pub use bath::{Bath, BathScheme};
 pub use error::{Problem, SceneError, Warning};
+pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub use groups::{Chain, ParticleGroup, Placement, Velocities};
 pub use integrator::Integrator;
 pub use interaction::Interaction;
 pub(crate) use nearest::nearest;
-pub use output::{Checkpoint, Energies, Output, Trajectory, TrajectoryFormat};
+pub use output::*;
 pub use particles::*;
 pub use pictures::{PlotStyle, Snapshot, SnapshotColor, Theme};
 pub(crate) use problems::{Problems, brief};
+pub use quantities::*;
 pub use scene::{Distribution, Noise, Scene, Space, Time};
 pub use shallow_water::*;
 pub(crate) use species_names::SpeciesNames;

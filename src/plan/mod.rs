@@ -1,271 +1,44 @@
 //! The plan: everything a run does on the device, as plain data that can be printed, compared and tested without one.
 
+mod buffer;
 mod compared;
 mod failure;
 mod grid;
+mod kernel;
 mod layout;
+mod options;
 pub(crate) mod paths;
 mod physics;
 mod precision;
 pub(crate) mod prefix_sum;
 pub(crate) mod recording;
+mod sampler;
 pub(crate) mod serial_memory;
 mod table;
 mod texture;
 
+pub use buffer::{Buffer, Contents};
 pub use compared::Compared;
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
+pub use kernel::Kernel;
+pub(crate) use kernel::{deviate, folded, words};
 pub use layout::{Layout, Length, Misfit, StateLayout};
 pub(crate) use layout::{Places, content};
+pub use options::{Hardware, Options, Storage, Traversal};
 pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};
 pub use precision::check_precision;
+pub use sampler::{Sampler, SamplerId, Window};
 pub use table::{Table, Words};
 pub use texture::Texture;
 
-use std::collections::BTreeSet;
-
-use crate::document::{AnalysisId, Distribution};
-use crate::noise::Generator;
-use crate::shaders::noise::Deviate;
-use crate::shaders::{self, Array, Choices, Constant, Entry};
+use crate::shaders::{Array, Constant};
 use crate::state::Units;
-
-/// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.
-pub(crate) fn folded(workgroups: u32) -> [u32; 2] {
-    const LIMIT: u32 = 65_535;
-    if workgroups <= LIMIT {
-        [workgroups, 1]
-    } else {
-        let height = workgroups.div_ceil(LIMIT);
-        [workgroups.div_ceil(height), height]
-    }
-}
-
-/// What the plan may use of the adapter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Hardware {
-    /// Lanes of every subgroup, if fixed and usable.
-    pub subgroup_size: Option<u32>,
-    /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is expensive, and one of
-    /// eight bytes costs no more than one of four; texels of a texture are loaded whole.
-    pub serial_memory: bool,
-}
-
-impl Hardware {
-    /// Whether it pays that a subgroup works on eight particles or cells together: where every subgroup has eight lanes and these are the
-    /// lanes of a processor's vectors. Lanes of a GPU need not run in step after a loop that they leave at different times.
-    ///
-    /// ```
-    /// use mesoscope::plan::Hardware;
-    ///
-    /// let processor = Hardware { subgroup_size: Some(8), serial_memory: true };
-    /// assert!(processor.takes_eights());
-    /// assert!(!Hardware { serial_memory: false, ..processor }.takes_eights());
-    /// ```
-    #[must_use]
-    pub fn takes_eights(&self) -> bool {
-        self.subgroup_size == Some(8) && self.serial_memory
-    }
-}
-
-/// Choices that change how a scene is computed but not a bit of its results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Options {
-    /// How pairs, and the cells of a mesh, are visited; left to the hardware if `None`.
-    pub traversal: Option<Traversal>,
-    /// Workgroups that share a row of cells; chosen from the sizes if `None`.
-    pub segments: Option<u32>,
-    /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 256; 64
-    /// if `None`.
-    pub workgroup_size: Option<u32>,
-    /// Capacity for copies of particles in the frames of rows; a quarter more than expected if `None`.
-    pub copies: Option<u64>,
-    /// How the particles of shallow water are stored; chosen from their number in a cell if `None`.
-    pub storage: Option<Storage>,
-    /// Whether kernels are adapted to lanes that run one after the other; left to the hardware if `None`.
-    pub serial_memory: Option<bool>,
-    /// Whether pairs without memory are kept in a list too, for integrators with one traversal a step.
-    pub listed: bool,
-    /// How often the capacity of the list for the pairs of a particle has been doubled.
-    pub list_growth: u32,
-    /// The most pairs that one dispatch examines for a radial distribution function; about a second's work if `None`.
-    pub pairs_in_dispatch: Option<u64>,
-    /// Prefix sum over cells in several levels even where one workgroup would do.
-    pub many_level_scan: bool,
-}
-
-impl Options {
-    /// Whether a plan with a larger capacity exists.
-    #[must_use]
-    pub fn has_room_left(&self) -> bool {
-        self.list_growth < 31
-    }
-
-    /// The same choices with a capacity for this many particles in any cell, and twice the capacity of lists.
-    ///
-    /// ```
-    /// use mesoscope::plan::{Options, Storage};
-    ///
-    /// let roomy = Options::default().with_room(500);
-    /// assert_eq!((roomy.copies, roomy.storage), (Some(500), Some(Storage::Sorted)));
-    /// assert!(roomy.list_growth == 1 && roomy.has_room_left());
-    /// ```
-    #[must_use]
-    pub fn with_room(self, particles: u64) -> Self {
-        Self {
-            copies: Some(particles),
-            storage: Some(Storage::Sorted),
-            list_growth: self.list_growth.saturating_add(1),
-            ..self
-        }
-    }
-
-    /// Whether kernels are adapted to lanes that run one after the other.
-    #[must_use]
-    pub fn suits_serial_memory(&self, hardware: Hardware) -> bool {
-        self.serial_memory.unwrap_or(hardware.serial_memory)
-    }
-
-    /// Lanes of a workgroup: a power of two, because sums over a workgroup are halved again and again.
-    #[must_use]
-    pub fn workgroup(&self) -> u64 {
-        u64::from(self.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
-    }
-}
-
-/// How pairs, and the cells of a mesh, are visited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Traversal {
-    /// One invocation a particle or cell; for any adapter.
-    Rows,
-    /// Eight particles or cells a subgroup; only where subgroups have eight lanes.
-    Clusters,
-    /// No pairs at all: none has a force on each other.
-    Alone,
-}
 
 /// Steps after which particles are sorted in memory: rarely enough to cost almost nothing, and often enough that neighbours in space
 /// stay neighbours in memory.
 pub const TIDYING: u64 = 32;
-
-/// How the particles of shallow water are stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Storage {
-    /// Sorted by cell every step: for any number of particles in a cell.
-    Sorted,
-    /// In a bin of fixed capacity for every cell, without a sort: faster on small meshes, as long as none is full.
-    Bins,
-}
-
-/// A kernel: its entry point and variants, its constants and its size.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Kernel {
-    /// What it does, in a word or two.
-    pub name: &'static str,
-    /// Its entry point.
-    pub entry: Entry,
-    /// The variants chosen for it; those of slots that it does not reach have no effect.
-    pub choices: Choices,
-    /// Number of workgroups.
-    pub workgroups: u32,
-    /// The position of its number of workgroups in the buffer `demands`, which has three words for each, if that depends on the step.
-    pub demand: Option<u32>,
-    /// Constants of this kernel only; all others come from [`Plan::constants`].
-    pub constants: Vec<(Constant, f64)>,
-    /// Variables in whose place it has another buffer or texture: `(variable, in its place)`.
-    pub renamed: Vec<(Array, Array)>,
-    /// Whether it may take so long that it has to be the last of a submission: systems with a watchdog end a submission that takes
-    /// seconds.
-    pub takes_long: bool,
-}
-
-/// What a buffer holds before the first step.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Contents {
-    /// Zeros.
-    Zeros,
-    /// These bytes.
-    Bytes(Vec<u8>),
-    /// A table that grows with the number of particles and is generated on upload.
-    Table(Table),
-}
-
-impl Contents {
-    /// The bytes; `None` for zeros.
-    #[must_use]
-    pub fn bytes(&self) -> Option<std::borrow::Cow<'_, [u8]>> {
-        match self {
-            Self::Zeros => None,
-            Self::Bytes(bytes) => Some(bytes.into()),
-            Self::Table(table) => Some(table.bytes().into()),
-        }
-    }
-}
-
-/// A buffer on the device; kernels find it by the name of its array.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Buffer {
-    /// What it holds.
-    pub array: Array,
-    /// Size in bytes.
-    pub bytes: u64,
-    /// Initial contents.
-    pub contents: Contents,
-}
-
-/// What a sampler is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SamplerId {
-    /// The observables.
-    Observables,
-    /// An analysis.
-    Analysis(AnalysisId),
-}
-
-impl SamplerId {
-    /// Its name, for people.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Observables => "observables",
-            Self::Analysis(analysis) => analysis.name(),
-        }
-    }
-}
-
-/// Kernels that turn the particles of a report into one row of sums.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sampler {
-    /// What is sampled.
-    pub id: SamplerId,
-    /// The first step sampled.
-    pub first: u64,
-    /// Steps between two samples.
-    pub every: u64,
-    /// Kernels in order, as indices into [`Plan::kernels`].
-    pub kernels: Vec<usize>,
-    /// The buffer that receives the rows.
-    pub samples: Array,
-    /// Number of sums in a row.
-    pub quantities: usize,
-    /// Rows the buffer holds.
-    pub capacity: u64,
-    /// Whether the kernels read the particles that the report leaves in the order of their ids.
-    pub needs_report: bool,
-    /// What stays on the device from one sample to the next, if anything.
-    pub window: Option<Window>,
-}
-
-/// A window of samples, each compared with the first: a buffer of the plan holds the particles as they were then.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Window {
-    /// The buffer.
-    pub buffer: Array,
-    /// Samples in a window; the next begins a new one.
-    pub samples: u64,
-}
 
 /// Values of the integer units in which the observables are summed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -342,128 +115,6 @@ pub struct Plan {
     pub reported: Option<(Array, Layout)>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
-}
-
-/// The shader of the noise of a pair or a mesh node.
-pub(crate) fn deviate(distribution: Distribution) -> Deviate {
-    match distribution {
-        Distribution::Uniform => Deviate::Uniform,
-        Distribution::Gaussian => Deviate::Gaussian,
-    }
-}
-
-/// The shader that draws random words.
-pub(crate) fn words(generator: Generator) -> shaders::noise::Generator {
-    match generator {
-        Generator::Pcg4d => shaders::noise::Generator::Pcg4d,
-        Generator::Threefry2x32 => shaders::noise::Generator::Threefry,
-    }
-}
-
-impl Kernel {
-    /// A kernel of at least one workgroup, without constants of its own.
-    pub(crate) fn new(name: &'static str, entry: Entry, choices: Choices, workgroups: u64) -> Self {
-        Self {
-            name,
-            entry,
-            choices,
-            workgroups: workgroups.max(1) as u32,
-            demand: None,
-            constants: Vec::new(),
-            renamed: Vec::new(),
-            takes_long: false,
-        }
-    }
-
-    /// Paths of the pages and variants that it reaches, below `shaders` and without extensions.
-    ///
-    /// ```
-    /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options};
-    /// use mesoscope::run::plan;
-    ///
-    /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
-    /// let step = &plan.kernels[plan.advance[0]];
-    /// assert!(step.files()?.contains("pairs/friction/relaxation"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`shaders::Unlinked`] if it does not link.
-    pub fn files(&self) -> Result<BTreeSet<&'static str>, shaders::Unlinked> {
-        let linked = shaders::linked_text(self.entry, &self.choices)?;
-        Ok(linked.parts.iter().map(|part| part.path).collect())
-    }
-
-    /// The same with constants of its own.
-    pub(crate) fn with(self, constants: Vec<(Constant, f64)>) -> Self {
-        Self { constants, ..self }
-    }
-
-    /// The same with other buffers and textures in the place of variables.
-    pub(crate) fn renamed(self, renamed: Vec<(Array, Array)>) -> Self {
-        Self { renamed, ..self }
-    }
-
-    /// The buffer or texture that a variable stands for.
-    ///
-    /// ```
-    /// use mesoscope::families::Model;
-    /// use mesoscope::plan::{Hardware, Options};
-    /// use mesoscope::run::plan;
-    /// use mesoscope::shaders::{Array, Entry};
-    ///
-    /// let asked = r#"output.viscosity={"every":10,"window":50}"#.to_owned();
-    /// let scene = mesoscope::scene::load("dpd-fluid", &[asked])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
-    /// let kernel = plan.kernels.iter().find(|kernel| kernel.entry == Entry::SumTransverseModes);
-    /// let array_of = |variable| kernel.map(|kernel| kernel.array_of(variable));
-    /// assert_eq!(array_of(Array::PartialSums), Some(Array::ModeSums));
-    /// assert_eq!(array_of(Array::Particles), Some(Array::Particles));
-    /// # Ok::<(), mesoscope::scene::SceneError>(())
-    /// ```
-    #[must_use]
-    pub fn array_of(&self, variable: Array) -> Array {
-        self.renamed.iter().find(|(known, _)| *known == variable).map_or(variable, |(_, array)| *array)
-    }
-
-    /// Its own constants, then those of the plan that it does not set for itself.
-    pub fn constants_in<'a>(&'a self, plan: &'a Plan) -> impl Iterator<Item = (Constant, f64)> + 'a {
-        let own = |name: Constant| self.constants.iter().any(|(known, _)| *known == name);
-        self.constants.iter().chain(plan.constants.iter().filter(move |(name, _)| !own(*name))).copied()
-    }
-}
-
-impl Sampler {
-    /// Whether a sample is due at a step.
-    #[must_use]
-    pub fn due(&self, step: u64) -> bool {
-        step >= self.first && (step - self.first).is_multiple_of(self.every)
-    }
-
-    /// Number of samples before a step.
-    ///
-    /// ```
-    /// # use mesoscope::plan::{Hardware, Options};
-    /// # use mesoscope::{families::Model, run::plan, scene};
-    /// let scene = scene::load("dpd-fluid", &[r#"output={"energies":{"every":20}}"#.to_owned()])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
-    /// assert_eq!([0, 1, 20, 21].map(|step| plan.samplers[0].samples_before(step)), [0, 1, 1, 2]);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn samples_before(&self, step: u64) -> u64 {
-        step.saturating_sub(self.first).div_ceil(self.every.max(1))
-    }
-
-    /// The buffer of the window that is open before the sample of a step, and the number of its samples so far.
-    #[must_use]
-    pub fn open_window(&self, step: u64) -> Option<(Array, u64)> {
-        let window = self.window?;
-        let taken = self.samples_before(step) % window.samples;
-        (taken > 0).then_some((window.buffer, taken))
-    }
 }
 
 impl Plan {
@@ -609,7 +260,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::{Hardware, Options, folded};
+    use super::{Hardware, Options};
     use crate::families::Model;
     use crate::run::plan;
     use crate::scene;
@@ -630,15 +281,6 @@ mod tests {
                 };
                 assert_eq!(stages(&steps), stages(&whole), "{}", builtin.name);
             }
-        }
-    }
-
-    #[test]
-    fn folding_covers_every_workgroup() {
-        for count in [1, 65_535, 65_536, 131_071, 1_000_000, 20_000_000] {
-            let [width, height] = folded(count);
-            assert!(width <= 65_535 && height <= 65_535);
-            assert!(u64::from(width) * u64::from(height) >= u64::from(count));
         }
     }
 }

@@ -159,11 +159,11 @@ impl Decay {
 pub(super) mod tests {
     #![allow(clippy::unwrap_used)]
     use super::super::Analyses;
-    use super::super::Sections;
     use super::*;
     use crate::families::{NETWORK_VISCOSITY, initial_state};
     use crate::plan::{Hardware, Options};
     use crate::run::plan;
+    use crate::run::sections::Sections;
     use std::path::Path;
 
     pub(in super::super) fn scene() -> Scene {

@@ -1,0 +1,87 @@
+//! What autocorrelations and histograms are of.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A vector of every particle whose autocorrelation can be measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CorrelatedQuantity {
+    /// The velocity, where the temperature is measured.
+    Velocity,
+    /// The change of momentum around the report over the time it takes: all forces, friction and noise included.
+    /// With `splitting` it is that of the whole step, two half kicks and the relaxation between them.
+    Force,
+}
+
+impl CorrelatedQuantity {
+    /// The name in a scene.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Force => "force",
+        }
+    }
+}
+
+/// A curve fitted to a decay in time t.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DecayFit {
+    /// None (default).
+    #[default]
+    None,
+    /// a exp(-bt).
+    Exponential,
+    /// a exp(-(bt)^c).
+    StretchedExponential,
+    /// exp(-at/2) \[cos Ωt + (a/2Ω) sin Ωt\], a damped oscillation, or overdamped where Ω² < 0.
+    DampedOscillation,
+}
+
+/// The frame of reference of velocities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Frame {
+    /// The box.
+    Box,
+    /// The centre of mass of all particles at the same step.
+    CentreOfMass,
+}
+
+/// What a histogram counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CountedQuantity {
+    /// Components of the velocity, where the temperature is measured.
+    Velocity,
+    /// The magnitude of the velocity.
+    Speed,
+    /// Components of the acceleration: the force that `autocorrelations` correlate over the mass.
+    Acceleration,
+}
+
+impl CountedQuantity {
+    /// The name in a scene.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Speed => "speed",
+            Self::Acceleration => "acceleration",
+        }
+    }
+}
+
+/// An axis of the box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}

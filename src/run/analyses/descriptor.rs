@@ -1,0 +1,153 @@
+//! What an analysis has to say of itself, and what it does with what it takes.
+
+use super::Planner;
+use crate::engine::Sample;
+use crate::families::Model;
+use crate::numbers::grouped;
+use crate::plan::{Need, Plan, Sampler};
+use crate::plot::Chart;
+use crate::scene::Scene;
+use crate::state::State;
+use crate::table::Table;
+use serde_json::Value;
+
+/// What is known of an analysis whether or not a run measures it.
+pub(super) trait Descriptor {
+    /// How a scene asks for it; none if it does not.
+    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling>;
+
+    /// What a report has to leave for its sampler.
+    fn needs(&self) -> &'static [Need] {
+        &[]
+    }
+
+    /// Adds its sampler to a plan, if it has one and a scene asks for it.
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let _ = planner;
+    }
+
+    /// Begins to gather what is asked for.
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering>;
+
+    /// The chart of a table that it left.
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart;
+
+    /// Lines of the table that is printed at the end of a run: what, and its value.
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let _ = result;
+        Vec::new()
+    }
+
+    /// Bytes that its sections add to a checkpoint, if they are many.
+    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
+        let _ = (scene, model);
+        0
+    }
+}
+
+/// How an analysis that a scene asks for is sampled.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Sampling {
+    /// The first step sampled.
+    pub(super) first: u64,
+    /// Steps between two samples.
+    pub(super) every: u64,
+    /// How the samples are used.
+    pub(super) detail: Option<String>,
+    /// Numbers in its tables, if they are many.
+    pub(super) numbers: u64,
+}
+
+impl Sampling {
+    /// Samples after equilibration.
+    pub(super) fn after_equilibration(scene: &Scene, every: u64) -> Self {
+        Self { first: scene.time.equilibration, every, ..Self::default() }
+    }
+
+    /// The same in windows of so many samples.
+    pub(super) fn in_windows(self, window: u64) -> Self {
+        Self { detail: Some(format!("windows of {} samples", grouped(window))), ..self }
+    }
+}
+
+/// What every analysis begins with.
+pub(super) struct Setting<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) model: &'a Model,
+    pub(super) plan: &'a Plan,
+    /// Its sampler, if it has one.
+    pub(super) sampler: Option<&'a Sampler>,
+}
+
+/// What a chart is drawn from.
+pub(super) struct Drawn<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) table: &'a Table,
+    /// Place of the table among those of its analysis.
+    pub(super) place: usize,
+    /// The result of the run; null where there is none.
+    pub(super) result: &'a Value,
+}
+
+impl Drawn<'_> {
+    pub(super) fn title(&self) -> &str {
+        &self.scene.title
+    }
+
+    /// A column; nothing where there is none of this name.
+    pub(super) fn column(&self, name: &str) -> Vec<f64> {
+        self.table.column(name).unwrap_or_default()
+    }
+}
+
+/// An analysis under way, by what it takes.
+pub(super) enum Gathering {
+    /// Rows of its sampler.
+    Samples(Box<dyn OfSamples>),
+    /// States.
+    States(Box<dyn OfStates>),
+}
+
+/// What has been gathered for an analysis.
+pub(super) trait Analysis {
+    /// What a checkpoint has to keep.
+    fn section(&self) -> Vec<u8>;
+    /// How many numbers that is after so many samples.
+    fn numbers_after(&self, samples: u64) -> u64;
+    /// Continues from what [`Self::section`] kept after so many samples, which is as much as [`Self::numbers_after`] says.
+    fn restore(&mut self, numbers: &[f64], samples: u64);
+    /// Whether there is nothing to write.
+    fn is_idle(&self) -> bool {
+        false
+    }
+    /// Tables and result.
+    fn conclude(&self) -> Conclusion;
+}
+
+/// An analysis of the rows of a sampler.
+pub(super) trait OfSamples: Analysis {
+    /// Adds a row.
+    fn add(&mut self, sample: &Sample);
+}
+
+/// An analysis of states.
+pub(super) trait OfStates: Analysis {
+    /// Adds a state with full-step momenta. A step that was added already, before a run went back, is left out.
+    fn add(&mut self, state: &State, model: &Model);
+}
+
+/// What an analysis leaves.
+pub(super) struct Conclusion {
+    /// As many as the id has names for, in this order.
+    pub(super) tables: Vec<Table>,
+    /// The result, or why there is none.
+    pub(super) result: Result<Value, String>,
+    /// What to know about the result.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Conclusion {
+    pub(super) fn new(table: Table, result: Result<Value, String>) -> Self {
+        Self { tables: vec![table], result, warnings: Vec::new() }
+    }
+}

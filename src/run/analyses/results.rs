@@ -1,0 +1,54 @@
+//! Numbers of results, as charts and the table at the end of a run take them, and why there are none.
+
+use crate::measure::correlation::WindowedAverage;
+use crate::numbers::with_error;
+use crate::plot::{Found, Mean};
+use serde_json::Value;
+
+/// Why an analysis without samples has no result.
+pub(super) const NO_SAMPLE: &str = "no sample was taken after equilibration";
+
+/// Why windows give no result, if they do not.
+pub(super) fn windows_missing(average: &WindowedAverage, particles: f64) -> Option<String> {
+    if average.windows().len() == 0 {
+        Some(format!("the run ends before a window of {} samples is full", average.lags()))
+    } else if particles == 0.0 {
+        Some("there are no particles".to_owned())
+    } else {
+        None
+    }
+}
+
+/// A coefficient with its error, from a result.
+pub(super) fn found(result: &Value) -> Option<Found> {
+    Some((result["value"].as_f64()?, result["standard_error"].as_f64()))
+}
+
+/// A coefficient with its error as a line of the table printed at the end.
+pub(super) fn printed(label: &str, coefficient: &Value) -> Option<(String, String)> {
+    let (value, error) = found(coefficient)?;
+    Some((label.to_owned(), with_error(value, error)))
+}
+
+/// A mean of a result or a summary, as charts take it.
+pub(in crate::run) fn mean(result: &Value) -> Option<Mean> {
+    let standard_error = result["standard_error"].as_f64();
+    let from_few_samples = standard_error.is_some() && result["converged"] == false;
+    Some(Mean { value: result["mean"].as_f64()?, standard_error, from_few_samples, ..Mean::default() })
+}
+
+/// A mean of a result or a summary with its error; an error that has not settled, a lower bound, is marked by `*`.
+///
+/// ```
+/// use mesoscope::run::printed_mean;
+/// use serde_json::json;
+///
+/// let mean = json!({ "mean": 1.004, "standard_error": 0.012, "converged": false });
+/// assert_eq!(printed_mean(&mean).as_deref(), Some("1.004 ± 0.012 *"));
+/// ```
+#[must_use]
+pub fn printed_mean(entry: &Value) -> Option<String> {
+    let mean = mean(entry)?;
+    let text = with_error(mean.value, mean.standard_error);
+    Some(if mean.from_few_samples { format!("{text} *") } else { text })
+}

@@ -1,0 +1,335 @@
+//! The analyses of a run under way: begun or continued from a checkpoint, fed, kept and concluded.
+
+use super::describe;
+use super::descriptor::{Analysis, Conclusion, Gathering, OfSamples, OfStates, Sampling, Setting};
+use crate::engine::{Engine, Sample};
+use crate::families::Model;
+use crate::output::checkpoint::CheckpointError;
+use crate::output::{OutputError, RunDirectory, Summary, write_table};
+use crate::plan::{Plan, SamplerId};
+use crate::run::RunError;
+use crate::run::sections::{Sections, samples};
+use crate::scene::{AnalysisId, Scene};
+use crate::state::State;
+
+/// An analysis of samples under way.
+struct Sampled {
+    id: AnalysisId,
+    /// Index of its sampler.
+    sampler: usize,
+    analysis: Box<dyn OfSamples>,
+}
+
+/// An analysis of states under way.
+struct Observed {
+    id: AnalysisId,
+    first: u64,
+    every: u64,
+    analysis: Box<dyn OfStates>,
+}
+
+impl Observed {
+    fn is_due(&self, step: u64) -> bool {
+        step >= self.first && step.is_multiple_of(self.every)
+    }
+}
+
+/// The analyses that a scene asks for.
+#[derive(Default)]
+pub(in crate::run) struct Analyses {
+    /// In the order of their samplers.
+    sampled: Vec<Sampled>,
+    /// In the order in which their files are listed.
+    observed: Vec<Observed>,
+}
+
+impl Analyses {
+    /// Begins the analyses, or continues from the sections of a checkpoint.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Malformed`] where a section is not as long as its samples make it.
+    pub(in crate::run) fn new(
+        scene: &Scene,
+        model: &Model,
+        plan: &Plan,
+        sections: &Sections<'_>,
+    ) -> Result<Self, CheckpointError> {
+        let mut analyses = Self::default();
+        for (index, sampler) in plan.samplers.iter().enumerate() {
+            let SamplerId::Analysis(id) = sampler.id else { continue };
+            let setting = Setting { scene, model, plan, sampler: Some(sampler) };
+            if let Some(Gathering::Samples(mut analysis)) = describe(id).begin(&setting) {
+                restore(analysis.as_mut(), id, sampler.samples_before(sections.step), sections)?;
+                analyses.sampled.push(Sampled { id, sampler: index, analysis });
+            }
+        }
+        let setting = Setting { scene, model, plan, sampler: None };
+        for id in AnalysisId::ALL {
+            let descriptor = describe(id);
+            let Some(Sampling { first, every, .. }) = descriptor.asked(scene, model) else { continue };
+            if let Some(Gathering::States(mut analysis)) = descriptor.begin(&setting) {
+                let every = every.max(1);
+                restore(analysis.as_mut(), id, samples(every, first, sections.step), sections)?;
+                analyses.observed.push(Observed { id, first, every, analysis });
+            }
+        }
+        Ok(analyses)
+    }
+
+    /// Gives the device back the windows that were open when the checkpoint was saved.
+    ///
+    /// # Errors
+    /// [`RunError::Checkpoint`] where one is missing or of another length.
+    pub(in crate::run) fn continue_windows(
+        &self,
+        engine: &mut Engine<'_>,
+        sections: &Sections<'_>,
+    ) -> Result<(), RunError> {
+        for Sampled { id, sampler, .. } in &self.sampled {
+            let Some((buffer, taken)) = engine.plan().samplers[*sampler].open_window(sections.step) else { continue };
+            let planned = engine.plan().buffers.iter().find(|planned| planned.array == buffer);
+            let words = planned.map_or(0, |planned| planned.bytes / 4);
+            if let Some(words) = sections.words(&window_name(*id), words)? {
+                engine.continue_window(*sampler, taken, &words)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a sample of any sampler but the first.
+    pub(in crate::run) fn add(&mut self, sample: &Sample) {
+        if let Some(found) = self.sampled.iter_mut().find(|sampled| sampled.sampler == sample.sampler) {
+            found.analysis.add(sample);
+        }
+    }
+
+    /// Steps between two states, of all that take states.
+    pub(in crate::run) fn state_intervals(&self) -> Vec<u64> {
+        self.observed.iter().map(|observed| observed.every).collect()
+    }
+
+    /// Whether any takes the state of a step.
+    pub(in crate::run) fn take_state(&self, step: u64) -> bool {
+        self.observed.iter().any(|observed| observed.is_due(step))
+    }
+
+    /// Adds a state to those that take it.
+    pub(in crate::run) fn add_state(&mut self, state: &State, model: &Model) {
+        for observed in self.observed.iter_mut().filter(|observed| observed.is_due(state.step)) {
+            observed.analysis.add(state, model);
+        }
+    }
+
+    /// What a checkpoint has to keep of what the host has gathered of samples.
+    pub(in crate::run) fn sections_of_samples(&self) -> Vec<(String, Vec<u8>)> {
+        self.sampled.iter().map(|sampled| (sampled.id.name().to_owned(), sampled.analysis.section())).collect()
+    }
+
+    /// What a checkpoint has to keep of what the host has gathered of states.
+    pub(in crate::run) fn sections_of_states(&self) -> Vec<(String, Vec<u8>)> {
+        self.observed.iter().map(|observed| (observed.id.name().to_owned(), observed.analysis.section())).collect()
+    }
+
+    /// What a checkpoint of the current step, of which no sample is taken yet, has to keep of the windows that are open
+    /// on the device.
+    ///
+    /// # Errors
+    /// [`RunError`] if the device failed.
+    pub(in crate::run) fn open_windows(&self, engine: &mut Engine<'_>) -> Result<Vec<(String, Vec<u8>)>, RunError> {
+        let mut sections = Vec::new();
+        for Sampled { id, sampler, .. } in &self.sampled {
+            if let Some((buffer, _)) = engine.plan().samplers[*sampler].open_window(engine.step()) {
+                let words = engine.words(buffer)?;
+                sections.push((window_name(*id), words.into_iter().flat_map(u32::to_le_bytes).collect()));
+            }
+        }
+        Ok(sections)
+    }
+
+    /// Writes the tables and adds the results, or why there are none, to the summary; `proceed` says before each analysis
+    /// whether to.
+    pub(in crate::run) fn conclude(
+        &self,
+        directory: &RunDirectory,
+        summary: &mut Summary,
+        proceed: &dyn Fn() -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        for (id, analysis) in self.all().filter(|(_, analysis)| !analysis.is_idle()) {
+            proceed()?;
+            conclude(id, analysis, directory, summary)?;
+        }
+        Ok(())
+    }
+
+    fn all(&self) -> impl Iterator<Item = (AnalysisId, &dyn Analysis)> {
+        let sampled = self.sampled.iter().map(|sampled| (sampled.id, sampled.analysis.as_ref() as &dyn Analysis));
+        sampled.chain(self.observed.iter().map(|observed| (observed.id, observed.analysis.as_ref() as &dyn Analysis)))
+    }
+}
+
+/// Continues an analysis from its section after so many samples.
+fn restore<Kind: Analysis + ?Sized>(
+    analysis: &mut Kind,
+    id: AnalysisId,
+    samples: u64,
+    sections: &Sections<'_>,
+) -> Result<(), CheckpointError> {
+    if let Some(numbers) = sections.numbers(id.name(), analysis.numbers_after(samples))? {
+        analysis.restore(&numbers, samples);
+    }
+    Ok(())
+}
+
+fn conclude(
+    id: AnalysisId,
+    analysis: &dyn Analysis,
+    directory: &RunDirectory,
+    summary: &mut Summary,
+) -> Result<(), OutputError> {
+    let Conclusion { tables, result, warnings } = analysis.conclude();
+    match result {
+        Ok(result) => {
+            summary.results.insert(id.name().to_owned(), result);
+            summary.warnings.extend(warnings);
+        }
+        Err(reason) => summary.warnings.push(format!("no result for `{}`: {reason}", id.path())),
+    }
+    for (names, table) in id.tables().iter().zip(&tables) {
+        write_table(&directory.file(names.file), table)?;
+    }
+    Ok(())
+}
+
+/// The section with the open window of an analysis.
+fn window_name(id: AnalysisId) -> String {
+    format!("{}_window", id.name())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::plan::{Hardware, Options};
+    use crate::run::analyses::histogram;
+    use crate::run::plan;
+    use std::path::Path;
+
+    /// The analyses after `step` steps that left these sections.
+    fn after(
+        step: u64,
+        sections: &[(String, Vec<u8>)],
+        (scene, model, plan): (&Scene, &Model, &Plan),
+    ) -> Result<Analyses, CheckpointError> {
+        Analyses::new(scene, model, plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
+    }
+
+    /// What is concluded from samples is concluded from their section too, for every analysis of particles.
+    #[test]
+    fn sections_restore_what_was_gathered() {
+        let scene: Scene = serde_json::from_value(serde_json::json!({
+            "title": "all", "space": { "box": [5.0, 5.0] }, "time": { "step": 0.5, "steps": 100 }, "temperature": 1.0,
+            "particles": [{ "species": "A", "count": 2 }],
+            "interactions": [{ "type": "dpd", "repulsion": 25.0 }],
+            "output": {
+                "radial_distribution": { "every": 1, "range": 2.0, "bins": 3 },
+                "diffusion": { "every": 1, "window": 2 },
+                "viscosity": { "every": 1, "window": 8 },
+                "autocorrelations": [
+                    { "quantity": "velocity", "every": 1, "window": 2 },
+                    { "quantity": "force", "every": 1, "window": 2 },
+                ],
+                "histograms": [
+                    { "quantity": "velocity", "every": 1, "bins": 4 },
+                    { "quantity": "speed", "every": 1, "bins": 4 },
+                    { "quantity": "acceleration", "every": 1, "bins": 4 },
+                ],
+            },
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+        let run = (&scene, &model, &plan);
+        let mut analyses = after(0, &[], run).unwrap();
+        for step in 0..3_i64 {
+            for (sampler, planned) in plan.samplers.iter().enumerate().skip(1) {
+                let sums = (0..planned.quantities as i64).map(|index| (1 + index * index * (step + 1)) << 20).collect();
+                analyses.add(&Sample { sampler, step: step as u64, sums });
+            }
+        }
+        assert_eq!(analyses.sampled.len(), 8);
+        let sections = analyses.sections_of_samples();
+        let restored = after(3, &sections, run).unwrap();
+        let fresh = after(0, &[], run).unwrap();
+        for (((id, analysis), (_, restored)), (_, fresh)) in analyses.all().zip(restored.all()).zip(fresh.all()) {
+            let text = |analysis: &dyn Analysis| {
+                let conclusion = analysis.conclude();
+                format!("{:?} {:?} {:?}", conclusion.tables, conclusion.result, conclusion.warnings)
+            };
+            assert_eq!(text(restored), text(analysis), "{id:?}");
+            assert_eq!(restored.section(), analysis.section(), "{id:?}");
+            assert_ne!(fresh.section(), analysis.section(), "{id:?}");
+        }
+        // What belongs to another step, was cut off, or is missing altogether, is refused.
+        for (index, (name, _)) in sections.iter().enumerate() {
+            let refused = |sections: &[(String, Vec<u8>)], step: u64| {
+                let error = after(step, sections, run).err().map(|error| error.to_string()).unwrap_or_default();
+                assert!(error.contains("is no valid checkpoint: its section"), "{name}: {error}");
+            };
+            for damage in
+                [|bytes: &mut Vec<u8>| bytes.truncate(bytes.len() - 1), |bytes: &mut Vec<u8>| bytes.extend([0; 8])]
+            {
+                let mut damaged = sections.clone();
+                damage(&mut damaged[index].1);
+                refused(&damaged, 3);
+            }
+            let mut fewer = sections.clone();
+            fewer.remove(index);
+            refused(&fewer, 3);
+            refused(&sections, 4);
+        }
+    }
+
+    /// Numbers worked out by hand.
+    #[test]
+    fn samples_become_means_in_real_units() {
+        let scene = |output: &str| -> Scene {
+            let text = format!(
+                r#"{{"title": "t", "space": {{"box": [5, 5]}}, "time": {{"step": 0.5, "steps": 100}}, "temperature": 1,
+                "particles": [{{"species": "A", "count": 2}}], "interactions": [{{"type": "dpd", "repulsion": 25}}],
+                "output": {output}}}"#
+            );
+            serde_json::from_str(&text).unwrap()
+        };
+        let gathered = |scene: &Scene, samples: &[&[i64]]| -> Conclusion {
+            let model = Model::new(scene);
+            let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+            let mut analyses = after(0, &[], (scene, &model, &plan)).unwrap();
+            for (step, sums) in samples.iter().enumerate() {
+                analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() });
+            }
+            analyses.sampled[0].analysis.conclude()
+        };
+        let correlated = scene(r#"{"autocorrelations": [{"quantity": "velocity", "every": 2, "window": 2}]}"#);
+        let conclusion = gathered(&correlated, &[&[8], &[4], &[16], &[4]]);
+        // Ratio 8/24; deviations (4 - 8/3)/12 and (4 - 16/3)/12, ±1/9, whose mean has the error 1/9.
+        let [first, second] = [&conclusion.tables[0].rows[0], &conclusion.tables[0].rows[1]];
+        assert_eq!(first[..3], [0.0, 1.0, 0.0]);
+        assert_eq!(second[0], 1.0);
+        assert!((second[1] - 1.0 / 3.0).abs() < 1e-15 && (second[2] - 1.0 / 9.0).abs() < 1e-15, "{second:?}");
+
+        let counted = scene(r#"{"histograms": [{"quantity": "velocity", "every": 1, "bins": 2, "range": 4}]}"#);
+        // Two particles of two components: one value below, one in the first bin, two in the second; then the powers.
+        let unit = 1.0 / histogram::moment_quantum(2);
+        let powers = [0.5, 1.5, 0.75, 1.5, 1.0].map(|power: f64| (power * unit) as i64);
+        let conclusion = gathered(&counted, &[&[&[1, 2, 1, 0, 0][..], &powers].concat()]);
+        let densities: Vec<f64> = conclusion.tables[0].rows.iter().map(|row| row[1]).collect();
+        assert_eq!(densities, [1.0 / 16.0, 2.0 / 16.0]);
+        let result = conclusion.result.unwrap();
+        // Means of x: 4 · 0.5/4, of x²: 16 · 1.5/4, of x⁴: 256 · 0.75/4; of r²: 16 · 1.5/2, of r⁴: 256 · 1/2.
+        assert_eq!((result["mean"].as_f64(), result["mean_square"].as_f64()), (Some(0.5), Some(12.0)));
+        assert_eq!(result["standard_deviation"].as_f64(), Some((6.0_f64 - 0.25).sqrt()));
+        assert_eq!(result["kurtosis"].as_f64(), Some(48.0 / 36.0));
+        assert_eq!(result["variance_of_square"].as_f64(), Some(128.0 - 144.0));
+        assert!(conclusion.warnings[0].contains("25.00 %"), "{:?}", conclusion.warnings);
+    }
+}
