@@ -47,6 +47,15 @@ impl Bath {
         *self == Self::default()
     }
 
+    /// Whether it does anything to what has such a friction.
+    #[must_use]
+    pub fn acts(&self, friction: f64) -> bool {
+        match self {
+            Self::White { .. } => friction > 0.0,
+            Self::Memory { rate, coupling, .. } => coupling.unwrap_or(rate * friction) > 0.0,
+        }
+    }
+
     /// The temperature of the bath in a scene of a temperature.
     #[must_use]
     pub fn temperature(&self, scene: f64) -> f64 {

@@ -131,13 +131,18 @@ fn oscillator(scheme: &str, a: f64, bath: f64, spring: f64, count: usize) -> (Sc
     (scene, law)
 }
 
+/// Where the spring of a particle ends; the origin for one without a spring.
+fn rest_of(state: &State, id: usize) -> [u32; 3] {
+    state.tethers.get(id).copied().unwrap_or_default()
+}
+
 /// Puts all oscillators of a state into the stationary law.
 fn settle(state: &mut State, model: &Model, law: &Linear) {
     for id in 0..state.len() {
         for axis in 0..model.units.dimension {
             let [q, p, s] = law.draw((3 * id + axis) as u32);
             let units = q / model.units.lengths[axis] * 4_294_967_296.0;
-            state.positions[id][axis] = state.tethers[id][axis].wrapping_add(units.round() as i64 as u32);
+            state.positions[id][axis] = rest_of(state, id)[axis].wrapping_add(units.round() as i64 as u32);
             state.momenta[id][axis] = (p / model.units.momentum).round() as i32;
             if let Some(bath) = state.position_baths.get_mut(id) {
                 bath[axis] = (s as f32).to_bits();
@@ -152,7 +157,7 @@ type Coordinates = dyn Fn(&Model, &State, &State) -> Vec<[f64; 4]>;
 /// The coordinates of particles on tethers, from the state at the report point and the one a step later, which has s.
 fn coordinates_of_oscillators(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
     let particle = |id: usize| {
-        let q = model.units.displacement(reported.positions[id], after.tethers[id]);
+        let q = model.units.displacement(reported.positions[id], rest_of(after, id));
         let p = model.units.momentum(reported.momenta[id]);
         let half = model.units.momentum(after.momenta[id]);
         let s = after.position_baths.get(id).map_or([0.0; 3], |bath| bath.map(|bits| f64::from(f32::from_bits(bits))));

@@ -12,7 +12,7 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     let athermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature == 0.0);
     let lent = baths.iter().any(|(step, _)| step.coupling > 0.0 && step.remembers());
     let mut ways = Vec::new();
-    if model.coloured_noise().is_some_and(|noise| noise.strength > 0.0) {
+    if model.coloured_noise().is_some() {
         ways.push("put in by the coloured noise");
     }
     if thermal {
@@ -33,13 +33,13 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 
 /// Whether neither a bath nor a noise exchanges energy with the particles.
 pub(super) fn is_conservative(model: &Model) -> bool {
-    let noise = model.coloured_noise().is_some_and(|noise| noise.strength > 0.0);
+    let noise = model.coloured_noise().is_some();
     !noise && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
 }
 
 /// Whether baths alone, at the temperature of the model, exchange energy with the particles.
 pub(super) fn has_thermostat(model: &Model) -> bool {
-    let noise = model.coloured_noise().is_some_and(|noise| noise.strength > 0.0);
+    let noise = model.coloured_noise().is_some();
     let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
     let any = acting.peek().is_some();
     !noise && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)

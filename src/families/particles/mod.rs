@@ -56,7 +56,7 @@ impl Particles {
         let (mut pair_force, mut position_bath, mut coloured_noise, mut tether) = (None, None, None, None);
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
         let mut chains = None;
-        for interaction in &scene.interactions {
+        for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
             match interaction {
                 Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, species, scene.temperature)),
                 Interaction::Langevin(langevin) => {

@@ -31,6 +31,12 @@ pub fn remove(scene: &mut Value, kind: &str) {
     scene["interactions"].as_array_mut().unwrap().retain(|interaction| interaction["type"] != kind);
 }
 
+/// Adds an interaction in the place of one of its kind.
+fn replace(scene: &mut Value, new: Value) {
+    remove(scene, new["type"].as_str().unwrap());
+    add(scene, new);
+}
+
 /// Sets a key, or leaves it out where the value is null.
 fn set_key(object: &mut Value, key: &str, value: Value) {
     let object = object.as_object_mut().unwrap();
@@ -199,6 +205,34 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
             "no frictions of species",
             |scene| set(scene, "langevin", "species", json!([])),
             |scene| set(scene, "langevin", "species", Value::Null),
+        ),
+        (
+            "no friction of particles",
+            |scene| replace(scene, json!({"type": "langevin", "friction": 0})),
+            |scene| remove(scene, "langevin"),
+        ),
+        (
+            "no memory of particles",
+            |scene| {
+                let bath = json!({"type": "memory", "rate": 3});
+                replace(scene, json!({"type": "langevin", "friction": 0, "bath": bath}));
+            },
+            |scene| remove(scene, "langevin"),
+        ),
+        (
+            "no random force",
+            |scene| replace(scene, json!({"type": "coloured-noise", "strength": 0, "time": 1})),
+            |scene| remove(scene, "coloured-noise"),
+        ),
+        (
+            "no stiffness of tethers",
+            |scene| replace(scene, json!({"type": "tether", "stiffness": 0})),
+            |scene| remove(scene, "tether"),
+        ),
+        (
+            "no stiffness of angles",
+            |scene| replace(scene, json!({"type": "angles", "stiffness": 0})),
+            |scene| remove(scene, "angles"),
         ),
         (
             "no friction of bonds",

@@ -52,12 +52,27 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
-        _ => true,
+        other => acts(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(|group| group.fixed)
             || scene.interactions.iter().any(coupled))
+}
+
+/// Whether an interaction does anything: one of a strength of zero is as good as none, and is not computed. Pairs decide by themselves
+/// what of them is.
+pub(super) fn acts(interaction: &Interaction) -> bool {
+    match interaction {
+        Interaction::Langevin(langevin) => {
+            let frictions = langevin.species.iter().map(|own| own.friction).chain([langevin.friction]);
+            frictions.into_iter().any(|friction| langevin.bath.acts(friction))
+        }
+        Interaction::ColouredNoise(noise) => noise.strength > 0.0,
+        Interaction::Tether(spring) => spring.stiffness > 0.0,
+        Interaction::Angles(angles) => angles.stiffness > 0.0,
+        _ => true,
+    }
 }
 
 /// Everything that acts on single particles is there at most once.

@@ -98,10 +98,7 @@ impl PairForce {
     /// Whether any pair of species has friction, with memory or without.
     #[must_use]
     pub fn has_friction(&self) -> bool {
-        match self.bath {
-            Bath::White { .. } => self.largest_friction() > 0.0,
-            Bath::Memory { rate, coupling, .. } => coupling.unwrap_or(rate * self.largest_friction()) > 0.0,
-        }
+        self.bath.acts(self.largest_friction())
     }
 
     /// Whether any pair of species has a force at all.
