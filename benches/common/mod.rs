@@ -1,14 +1,43 @@
-//! What all benchmarks begin and end with.
+//! What benchmarks have in common: how they begin and end, and what they time.
+
+// No benchmark takes everything.
+#![allow(dead_code)]
 
 pub mod machine;
 pub mod statistics;
 pub mod timed;
+pub mod timing;
 
 use std::time::Instant;
 
+use clap::Parser;
+use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
+use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::run;
+use mesoscope::scene::Scene;
 
 pub type Failure = Box<dyn std::error::Error>;
+
+/// What the command line asks for, after what has to come before everything else.
+pub fn settings<S: Parser>() -> S {
+    mesoscope::gpu::prepare_environment();
+    S::parse()
+}
+
+/// The plan of a scene.
+pub fn plan_of(scene: &Scene, hardware: Hardware, options: Options) -> Plan {
+    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options)
+}
+
+/// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, with buffers for all of these plans.
+pub fn open_for(plans: impl IntoIterator<Item = Result<Plan, Failure>>) -> Result<Gpu, Failure> {
+    let mut largest_buffer = 0;
+    for plan in plans {
+        largest_buffer = largest_buffer.max(plan?.largest_buffer());
+    }
+    Ok(open(largest_buffer)?)
+}
 
 /// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, with buffers of this size.
 pub fn open(largest_buffer: u64) -> Result<Gpu, GpuError> {

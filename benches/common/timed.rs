@@ -2,9 +2,13 @@
 
 use std::time::Instant;
 
-use mesoscope::engine::Engine;
+use mesoscope::engine::{Engine, StageClock, StageTime};
+use mesoscope::families::{Model, initial_state};
+use mesoscope::gpu::Gpu;
+use mesoscope::plan::Options;
+use mesoscope::scene::Scene;
 
-use super::Failure;
+use super::{Failure, plan_of};
 
 /// Time a submission should take, and the most steps in it: what `mesoscope run` settles on.
 const BATCH_SECONDS: f64 = 0.15;
@@ -34,6 +38,30 @@ impl<'a> Run<'a> {
         }
         run.batch = ((BATCH_SECONDS / run.step_seconds) as u64).clamp(1, LARGEST_BATCH);
         Ok(run)
+    }
+
+    /// A run of a scene with the best plan for the adapter, from the start and after some steps that are not timed.
+    pub fn of_scene(gpu: &'a Gpu, scene: &Scene, options: Options, before: u64) -> Result<Self, Failure> {
+        let state = initial_state(scene, &Model::new(scene));
+        let mut engine = Engine::new(gpu, plan_of(scene, gpu.into(), options), &state)?;
+        engine.advance(before, 50)?;
+        engine.finish()?;
+        Self::new(engine, state.len())
+    }
+
+    /// Times every kernel of a step: over how many steps and how, in words, and what each takes; then what a step of a batch takes.
+    pub fn stages(&mut self, seconds: f64) -> Result<(String, Vec<StageTime>, f64), Failure> {
+        let step = self.particles as f64 / self.rate(seconds)?;
+        // Not sorted or reported, as a step begins.
+        self.engine.advance(1, 1)?;
+        let clock = self.engine.stage_clock();
+        let steps = ((2.0 * seconds / step) as u64).clamp(5, 100);
+        let stages = self.engine.time_stages(steps, clock)?;
+        let how = match clock {
+            StageClock::Timestamps => "timestamps of the device",
+            StageClock::Submissions => "every kernel submitted alone, less an empty submission",
+        };
+        Ok((format!("medians of {steps} steps; {how}"), stages, step))
     }
 
     /// Seconds that a number of steps take, from the first submission until the device is done.

@@ -8,17 +8,15 @@
 mod common;
 
 use clap::Parser;
-use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::run;
+use mesoscope::plan::{Hardware, Options};
 use mesoscope::scene::{self, Scene};
-use mesoscope::state::State;
 
 use common::statistics::{grouped, ratios, spread};
 use common::timed::Run;
-use common::{Failure, Report};
+use common::timing::{Timing, Turns};
+use common::{Failure, Report, plan_of};
 
 /// Cost of couplings and baths.
 #[derive(Debug, Parser)]
@@ -26,15 +24,8 @@ struct Settings {
     /// Edges of the boxes of the fluid
     #[arg(long, value_delimiter = ',', default_values_t = [10.0, 20.0])]
     edges: Vec<f64>,
-    /// Rounds
-    #[arg(long, default_value_t = 5)]
-    rounds: usize,
-    /// Seconds of each measurement
-    #[arg(long, default_value_t = 0.5)]
-    seconds: f64,
-    /// Passed by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    #[command(flatten)]
+    timing: Timing,
 }
 
 /// A scene with the options of its plan.
@@ -50,21 +41,18 @@ fn variant(name: &'static str, changes: &[&str]) -> Variant {
 }
 
 fn main() -> Result<(), Failure> {
-    mesoscope::gpu::prepare_environment();
-    let settings = Settings::parse();
-    let mut largest_buffer = 0;
-    for &edge in &settings.edges {
-        for variant in fluids() {
-            largest_buffer = largest_buffer.max(fluid(edge, &variant)?.1.largest_buffer());
-        }
-    }
-    let gpu = common::open(largest_buffer)?;
+    let settings: Settings = common::settings();
+    let turns = settings.timing.or(5, 0.5);
+    let all = settings.edges.iter().flat_map(|edge| fluids().into_iter().map(|variant| (*edge, variant)));
+    let plan =
+        |(edge, variant): (f64, Variant)| Ok(plan_of(&fluid(edge, &variant)?, Hardware::default(), variant.options));
+    let gpu = common::open_for(all.map(plan))?;
     let peer = "compared with pairs without memory, searched in cells";
     let report = Report::begin("Couplings and baths: cost of a particle-step", &gpu, peer);
     for &edge in &settings.edges {
-        pairs(&gpu, edge, &settings)?;
+        pairs(&gpu, edge, turns)?;
     }
-    small_systems(&gpu, &settings)?;
+    small_systems(&gpu, turns)?;
     report.end();
     Ok(())
 }
@@ -99,7 +87,7 @@ fn fluids() -> Vec<Variant> {
     all
 }
 
-fn fluid(edge: f64, variant: &Variant) -> Result<(Scene, Plan), Failure> {
+fn fluid(edge: f64, variant: &Variant) -> Result<Scene, Failure> {
     let text = format!(
         r#"{{"title": "fluid", "space": {{"box": [{edge}, {edge}, {edge}]}}, "time": {{"step": 0.01, "steps": 1}},
         "temperature": 1, "integrator": {{"type": "cotter-reich"}},
@@ -107,58 +95,40 @@ fn fluid(edge: f64, variant: &Variant) -> Result<(Scene, Plan), Failure> {
         "interactions": [{{"type": "dpd", "repulsion": 25, "friction": 4.5}}],
         "output": {{"energies": {{"every": 1000000}}}}}}"#
     );
-    planned(&text, variant)
+    Ok(scene::parse(variant.name, &text, &variant.changes)?)
 }
 
-fn planned(text: &str, variant: &Variant) -> Result<(Scene, Plan), Failure> {
-    let scene = scene::parse(variant.name, text, &variant.changes)?;
-    let model = Model::new(&scene);
-    let hardware = Hardware::default();
-    let plan = run::plan(&model, 0, &scene.output, hardware, variant.options);
-    Ok((scene, plan))
-}
-
-/// An engine of a scene, with the best plan for the adapter.
-fn run<'a>(gpu: &'a Gpu, scene: &Scene, options: Options, warm: u64) -> Result<Run<'a>, Failure> {
-    let model = Model::new(scene);
-    let hardware = Hardware::from(gpu);
-    let plan = run::plan(&model, 0, &scene.output, hardware, options);
-    let state: State = mesoscope::families::initial_state(scene, &model);
-    let mut engine = Engine::new(gpu, plan, &state)?;
-    engine.advance(warm, 50)?;
-    engine.finish()?;
-    Run::new(engine, state.len())
-}
-
-fn pairs(gpu: &Gpu, edge: f64, settings: &Settings) -> Result<(), Failure> {
+fn pairs(gpu: &Gpu, edge: f64, turns: Turns) -> Result<(), Failure> {
     let variants = fluids();
-    let (scene, _) = fluid(edge, &variants[0])?;
+    let scene = fluid(edge, &variants[0])?;
     let particles = Model::new(&scene).particle_count() as usize;
     println!("\n### {} particles, density 3, time step 0.01\n", grouped(particles));
     println!("| | million particle-steps/s | time, no memory = 1 | bytes a particle |");
     println!("|:--|--:|--:|--:|");
-    let mut plain = run(gpu, &scene, variants[0].options, 300)?;
+    let mut plain = Run::of_scene(gpu, &scene, variants[0].options, 300)?;
     for variant in &variants {
-        let (scene, plan) = fluid(edge, variant)?;
-        let mut other = run(gpu, &scene, variant.options, 300)?;
-        let (mut own, mut reference) = (Vec::new(), Vec::new());
-        for _ in 0..settings.rounds {
-            own.push(1e-6 * other.rate(settings.seconds)?);
-            reference.push(1e-6 * plain.rate(settings.seconds)?);
-        }
+        let scene = fluid(edge, variant)?;
+        let bytes = plan_of(&scene, Hardware::default(), variant.options).bytes();
+        let mut other = Run::of_scene(gpu, &scene, variant.options, 300)?;
+        let rates = turns.rates(&mut [&mut other, &mut plain])?;
         println!(
             "| {} | {} | {} | {:.0} |",
             variant.name,
-            spread(&own, 2),
-            spread(&ratios(&reference, &own), 2),
-            plan.bytes() as f64 / particles as f64
+            millions(&rates[0]),
+            spread(&ratios(&rates[1], &rates[0]), 2),
+            bytes as f64 / particles as f64
         );
     }
     Ok(())
 }
 
+/// Rates in millions.
+fn millions(rates: &[f64]) -> String {
+    spread(&rates.iter().map(|rate| 1e-6 * rate).collect::<Vec<_>>(), 2)
+}
+
 /// Ten thousand oscillators of three coordinates, each by itself.
-fn small_systems(gpu: &Gpu, settings: &Settings) -> Result<(), Failure> {
+fn small_systems(gpu: &Gpu, turns: Turns) -> Result<(), Failure> {
     println!("\n### Many small systems at once\n");
     println!("| | systems | million system-steps/s |");
     println!("|:--|--:|--:|");
@@ -170,12 +140,9 @@ fn small_systems(gpu: &Gpu, settings: &Settings) -> Result<(), Failure> {
                 "interactions": [{{"type": "tether", "stiffness": 1}}, {{"type": "langevin", "friction": 1, "bath": {bath}}}],
                 "output": {{"energies": {{"every": 1000000}}}}}}"#
             );
-            let (scene, _) = planned(&text, &variant("oscillators", &[]))?;
-            let mut run = run(gpu, &scene, Options::default(), 10)?;
-            let rates = (0..settings.rounds)
-                .map(|_| Ok(1e-6 * run.rate(0.5 * settings.seconds)?))
-                .collect::<Result<Vec<f64>, Failure>>()?;
-            println!("| oscillators, {name} bath | {} | {} |", grouped(count), spread(&rates, 2));
+            let mut run = Run::of_scene(gpu, &scene::parse("oscillators", &text, &[])?, Options::default(), 10)?;
+            let rates = turns.half().rates(&mut [&mut run])?;
+            println!("| oscillators, {name} bath | {} | {} |", grouped(count), millions(&rates[0]));
         }
     }
     for count in [1_000, 10_000] {
@@ -187,12 +154,11 @@ fn small_systems(gpu: &Gpu, settings: &Settings) -> Result<(), Failure> {
             "output": {{"energies": {{"every": 1000000}}}}}}"#,
             2 * count
         );
-        let (scene, _) = planned(&text, &variant("dimers", &[]))?;
-        let mut run = run(gpu, &scene, Options::default(), 10)?;
-        let rates = (0..settings.rounds)
-            .map(|_| Ok(0.5e-6 * run.rate(0.5 * settings.seconds)?))
-            .collect::<Result<Vec<f64>, Failure>>()?;
-        println!("| dimers with memory | {} | {} |", grouped(count), spread(&rates, 2));
+        let mut run = Run::of_scene(gpu, &scene::parse("dimers", &text, &[])?, Options::default(), 10)?;
+        let rates = turns.half().rates(&mut [&mut run])?;
+        // A system has two particles.
+        let systems: Vec<f64> = rates[0].iter().map(|rate| 0.5 * rate).collect();
+        println!("| dimers with memory | {} | {} |", grouped(count), millions(&systems));
     }
     Ok(())
 }

@@ -1,17 +1,17 @@
 //! The same fluid computed otherwise: species, noise, and what a plan is free to choose.
 
 use mesoscope::engine::Engine;
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::run;
 use mesoscope::scene;
 use mesoscope::state::State;
 
+use crate::Failure;
+use crate::common::plan_of;
 use crate::common::statistics::{grouped, ratios, spread};
 use crate::common::timed::Run;
+use crate::common::timing::Turns;
 use crate::fluid::Fluid;
-use crate::{Failure, Settings};
 
 struct Alternative {
     name: &'static str,
@@ -69,12 +69,12 @@ impl Alternative {
         let scene = scene::load("dpd-fluid", &changes)?;
         let species = (0..self.species).cycle().take(fluid.particles()).map(Into::into).collect();
         let state = State { species, ..fluid.state.clone() };
-        let plan = run::plan(&Model::new(&scene), 0, &scene.output, gpu.into(), (self.options)());
+        let plan = plan_of(&scene, gpu.into(), (self.options)());
         Run::new(Engine::new(gpu, plan, &state)?, fluid.particles())
     }
 }
 
-pub fn compare(gpu: &Gpu, fluid: &Fluid, integrators: &[&str], settings: &Settings) -> Result<(), Failure> {
+pub fn compare(gpu: &Gpu, fluid: &Fluid, integrators: &[&str], turns: Turns) -> Result<(), Failure> {
     println!(
         "\n### Alternatives\n\nTime of a step relative to the default's of the same integrator, in turns; {} particles, time step 0.04.\n",
         grouped(fluid.particles())
@@ -84,13 +84,8 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, integrators: &[&str], settings: &Settin
     for alternative in &ALTERNATIVES {
         let mut cells = vec![alternative.name.to_owned()];
         for integrator in integrators {
-            let mut runs = [fluid.run(gpu, integrator, 0.04)?, alternative.run(gpu, fluid, integrator)?];
-            let mut rates = [Vec::new(), Vec::new()];
-            for _ in 0..settings.rounds {
-                for (run, rates) in runs.iter_mut().zip(&mut rates) {
-                    rates.push(run.rate(settings.seconds)?);
-                }
-            }
+            let mut usual = fluid.run(gpu, integrator, 0.04)?;
+            let rates = turns.rates(&mut [&mut usual, &mut alternative.run(gpu, fluid, integrator)?])?;
             cells.push(spread(&ratios(&rates[0], &rates[1]), 2));
         }
         println!("| {} |", cells.join(" | "));

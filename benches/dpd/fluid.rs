@@ -3,12 +3,12 @@
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::run;
+use mesoscope::plan::Options;
 use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
 use crate::Failure;
+use crate::common::plan_of;
 use crate::common::timed::Run;
 
 /// Integrators as scenes name them.
@@ -30,10 +30,6 @@ pub fn changes(edge: f64, integrator: &str, time_step: f64) -> Vec<String> {
 
 pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Scene, Failure> {
     Ok(scene::load("dpd-fluid", &changes(edge, integrator, time_step))?)
-}
-
-pub fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
-    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, Options::default())
 }
 
 /// Particles in equilibrium: all runs of this size begin with them, those of LAMMPS too.
@@ -65,6 +61,5 @@ impl Fluid {
 }
 
 fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
-    let plan = plan_of(scene, gpu.into());
-    Ok(Engine::new(gpu, plan, state)?)
+    Ok(Engine::new(gpu, plan_of(scene, gpu.into(), Options::default()), state)?)
 }

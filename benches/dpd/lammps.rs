@@ -9,7 +9,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use mesoscope::families::Model;
 use mesoscope::state::State;
 
-use crate::{Failure, Settings};
+use crate::Failure;
 
 /// Thicknesses of the neighbour list's skin that are tried.
 const SKINS: [f64; 5] = [0.2, 0.3, 0.4, 0.5, 0.6];
@@ -111,8 +111,8 @@ impl Lammps {
     }
 
     /// The fastest skin for a time step.
-    pub fn tune(&mut self, step: f64, particles: usize, settings: &Settings) -> Result<f64, Failure> {
-        let steps = ((2e6 * settings.seconds / particles as f64) as u64).max(fewest_steps(step));
+    pub fn tune(&mut self, step: f64, particles: usize, seconds: f64) -> Result<f64, Failure> {
+        let steps = ((2e6 * seconds / particles as f64) as u64).max(fewest_steps(step));
         let mut best = (f64::INFINITY, SKINS[0]);
         for skin in SKINS {
             self.set_time(step, skin)?;

@@ -15,11 +15,11 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::engine::StageClock;
 use mesoscope::gpu::Gpu;
-use mesoscope::plan::Hardware;
+use mesoscope::plan::{Hardware, Options};
 
 use common::statistics::{grouped, ratios, spread};
+use common::timing::{Timing, Turns};
 use common::{Failure, Report};
 use fluid::{Fluid, INTEGRATORS};
 use lammps::Lammps;
@@ -33,35 +33,26 @@ const MANY: usize = 100_000;
 /// Cost of the DPD fluid.
 #[derive(Debug, Parser)]
 struct Settings {
-    /// Short and rough, without the largest box
-    #[arg(long, conflicts_with_all = ["edges", "rounds", "seconds"])]
-    quick: bool,
-    /// Edges of the boxes
+    /// Edges of the boxes; the largest is left out if it is to be quick
     #[arg(long, value_delimiter = ',', default_values_t = [10.0, 20.0, 40.0, 69.34])]
     edges: Vec<f64>,
-    /// Rounds
-    #[arg(long, default_value_t = 7)]
-    rounds: usize,
-    /// Seconds of each measurement
-    #[arg(long, default_value_t = 0.5)]
-    seconds: f64,
     /// Leave LAMMPS out
     #[arg(long)]
     no_lammps: bool,
-    /// Passed by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    #[command(flatten)]
+    timing: Timing,
 }
 
 fn main() -> Result<(), Failure> {
-    mesoscope::gpu::prepare_environment();
-    let mut settings = Settings::parse();
-    if settings.quick {
-        settings.rounds = 3;
-        settings.seconds = 0.1;
+    let mut settings: Settings = common::settings();
+    let turns = settings.timing.or(7, 0.5);
+    if settings.timing.quick {
         settings.edges.retain(|&edge| edge < 50.0);
     }
-    let gpu = open(&settings)?;
+    let plan = |edge: &f64| {
+        Ok(common::plan_of(&fluid::scene(*edge, "splitting", 0.04)?, Hardware::default(), Options::default()))
+    };
+    let gpu = common::open_for(settings.edges.iter().map(plan))?;
     let peer = if settings.no_lammps {
         Err("left out".to_owned())
     } else {
@@ -70,27 +61,17 @@ fn main() -> Result<(), Failure> {
     let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
     let report = Report::begin("The DPD fluid: cost of a particle-step", &gpu, &format!("LAMMPS: {words}"));
     let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
-    let price = beside_lammps(&gpu, &fluids, peer.is_ok(), &settings)?;
+    let price = beside_lammps(&gpu, &fluids, peer.is_ok(), turns)?;
     price_of_accuracy(&price);
-    by_stage(&gpu, &fluids, &settings)?;
-    by_size(&gpu, &fluids, &settings)?;
-    by_batch(&gpu, &fluids, &settings)?;
+    by_stage(&gpu, &fluids, turns)?;
+    by_size(&gpu, &fluids, turns.at_most(5))?;
+    by_batch(&gpu, &fluids, turns.at_most(5).half())?;
     if let Some(fluid) = fluids.iter().rfind(|fluid| fluid.particles() < MANY) {
-        alternatives::compare(&gpu, fluid, &INTEGRATORS, &settings)?;
+        alternatives::compare(&gpu, fluid, &INTEGRATORS, turns)?;
     }
     start_up(&gpu)?;
     report.end();
     Ok(())
-}
-
-/// The adapter, with buffers for the largest box.
-fn open(settings: &Settings) -> Result<Gpu, Failure> {
-    let mut largest_buffer = 0;
-    for &edge in &settings.edges {
-        let plan = fluid::plan_of(&fluid::scene(edge, "splitting", 0.04)?, Hardware::default());
-        largest_buffer = largest_buffer.max(plan.largest_buffer());
-    }
-    Ok(common::open(largest_buffer)?)
 }
 
 /// Cost of a step of `splitting` in steps of `groot-warren`, round by round.
@@ -100,7 +81,7 @@ struct Price {
     ratios: Vec<f64>,
 }
 
-fn beside_lammps(gpu: &Gpu, fluids: &[Fluid], peer: bool, settings: &Settings) -> Result<Vec<Price>, Failure> {
+fn beside_lammps(gpu: &Gpu, fluids: &[Fluid], peer: bool, turns: Turns) -> Result<Vec<Price>, Failure> {
     println!(
         "\n### Speed\n\nMillion particle-steps a second: median (least–most) of rounds in turns; × is the ratio in a round.\n"
     );
@@ -110,7 +91,7 @@ fn beside_lammps(gpu: &Gpu, fluids: &[Fluid], peer: bool, settings: &Settings) -
     let mut skins = [None; TIME_STEPS.len()];
     for fluid in fluids {
         let particles = fluid.particles();
-        let rounds = if particles > LARGE { settings.rounds.min(3) } else { settings.rounds };
+        let rounds = if particles > LARGE { turns.rounds.min(3) } else { turns.rounds };
         let mut lammps = if peer { Some(Lammps::start()?) } else { None };
         if let Some(lammps) = &mut lammps {
             lammps.fluid(&fluid.model, &fluid.state)?;
@@ -125,23 +106,23 @@ fn beside_lammps(gpu: &Gpu, fluids: &[Fluid], peer: bool, settings: &Settings) -
             if let Some(lammps) = &mut lammps {
                 let skin = match *tuned {
                     Some(skin) if particles > LARGE => skin,
-                    _ => lammps.tune(time_step, particles, settings)?,
+                    _ => lammps.tune(time_step, particles, turns.seconds)?,
                 };
                 *tuned = Some(skin);
                 lammps.set_time(time_step, skin)?;
                 let least = lammps::fewest_steps(time_step);
                 let warm = lammps.run(least)? / least as f64;
-                lammps_steps = ((settings.seconds / warm) as u64).max(least);
+                lammps_steps = ((turns.seconds / warm) as u64).max(least);
             }
             let mut ours = [Vec::new(), Vec::new()];
             let mut theirs = Vec::new();
             for _ in 0..rounds {
-                ours[0].push(1e-6 * runs[0].rate(settings.seconds)?);
+                ours[0].push(1e-6 * runs[0].rate(turns.seconds)?);
                 if let Some(lammps) = &mut lammps {
                     let seconds = lammps.run(lammps_steps)?;
                     theirs.push(1e-6 * (lammps_steps * particles as u64) as f64 / seconds);
                 }
-                ours[1].push(1e-6 * runs[1].rate(settings.seconds)?);
+                ours[1].push(1e-6 * runs[1].rate(turns.seconds)?);
             }
             for (integrator, ours) in INTEGRATORS.iter().zip(&ours) {
                 println!(
@@ -172,27 +153,15 @@ fn price_of_accuracy(prices: &[Price]) {
     println!("| all | all | {} |", spread(&all, 3));
 }
 
-fn by_stage(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+fn by_stage(gpu: &Gpu, fluids: &[Fluid], turns: Turns) -> Result<(), Failure> {
     println!("\n### Where the time of a step goes");
     for fluid in fluids {
         for integrator in INTEGRATORS {
             let mut run = fluid.run(gpu, integrator, 0.04)?;
             let particles = fluid.particles();
-            let whole = 1e9 / run.rate(settings.seconds)?;
-            // Not sorted, as a step begins.
-            run.engine.advance(1, 1)?;
-            let clock = run.engine.stage_clock();
-            let steps = ((2.0 * settings.seconds / (1e-9 * whole * particles as f64)) as u64).clamp(5, 100);
-            let stages = run.engine.time_stages(steps, clock)?;
+            let (how, stages, step) = run.stages(turns.seconds)?;
             let sum: f64 = stages.iter().map(|stage| stage.seconds).sum();
-            let how = match clock {
-                StageClock::Timestamps => "timestamps of the device",
-                StageClock::Submissions => "every kernel submitted alone, less an empty submission",
-            };
-            println!(
-                "\n{} particles, `{integrator}`, time step 0.04; medians of {steps} steps; {how}.\n",
-                grouped(particles)
-            );
+            println!("\n{} particles, `{integrator}`, time step 0.04; {how}.\n", grouped(particles));
             println!("| kernel | µs a step | ns a particle | share |");
             println!("|:--|--:|--:|--:|");
             let row = |name: &str, seconds: f64| {
@@ -203,13 +172,13 @@ fn by_stage(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Fail
                 row(stage.name, stage.seconds);
             }
             row("sum", sum);
-            row("step of a batch", 1e-9 * whole * particles as f64);
+            row("step of a batch", step);
         }
     }
     Ok(())
 }
 
-fn by_size(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+fn by_size(gpu: &Gpu, fluids: &[Fluid], turns: Turns) -> Result<(), Failure> {
     let Some(reference) = fluids.iter().rposition(|fluid| fluid.particles() < LARGE) else { return Ok(()) };
     let named = grouped(fluids[reference].particles());
     println!(
@@ -223,10 +192,9 @@ fn by_size(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failu
         for fluid in fluids {
             runs.push(fluid.run(gpu, integrator, 0.04)?);
         }
-        for _ in 0..settings.rounds.min(5) {
-            for (run, costs) in runs.iter_mut().zip(&mut costs) {
-                costs[place].push(1.0 / run.rate(settings.seconds)?);
-            }
+        let rates = turns.rates(&mut runs.iter_mut().collect::<Vec<_>>())?;
+        for (costs, rates) in costs.iter_mut().zip(rates) {
+            costs[place] = rates.into_iter().map(f64::recip).collect();
         }
     }
     for (fluid, both) in fluids.iter().zip(&costs) {
@@ -236,7 +204,7 @@ fn by_size(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failu
     Ok(())
 }
 
-fn by_batch(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Failure> {
+fn by_batch(gpu: &Gpu, fluids: &[Fluid], turns: Turns) -> Result<(), Failure> {
     const BATCHES: [u64; 5] = [1, 4, 16, 64, 256];
     let Some(fluid) = fluids.iter().min_by_key(|fluid| fluid.particles()) else { return Ok(()) };
     println!(
@@ -247,9 +215,9 @@ fn by_batch(gpu: &Gpu, fluids: &[Fluid], settings: &Settings) -> Result<(), Fail
     println!("|--:|--:|");
     let mut run = fluid.run(gpu, "splitting", 0.04)?;
     let mut rates = BATCHES.map(|_| Vec::new());
-    for _ in 0..settings.rounds.min(5) {
+    for _ in 0..turns.rounds {
         for (rates, batch) in rates.iter_mut().zip(BATCHES) {
-            rates.push(1e-6 * run.rate_batched(0.5 * settings.seconds, batch)?);
+            rates.push(1e-6 * run.rate_batched(turns.seconds, batch)?);
         }
     }
     for (rates, batch) in rates.iter().zip(BATCHES) {

@@ -3,10 +3,11 @@
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 
+use crate::Failure;
 use crate::common::statistics::{grouped, ratios, spread};
 use crate::common::timed::Run;
+use crate::common::timing::Turns;
 use crate::flow::{Flow, Start};
-use crate::{Failure, Settings};
 
 struct Alternative {
     name: &'static str,
@@ -68,7 +69,7 @@ pub fn largest_buffer(size: crate::flow::Size) -> Result<u64, Failure> {
     Ok(largest)
 }
 
-pub fn compare(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Failure> {
+pub fn compare(gpu: &Gpu, flows: &[Flow], rounds: Turns) -> Result<(), Failure> {
     println!(
         "\n### Alternatives\n\nMedian (least–most) of rounds in which the default and the alternative take turns; default: \
          splines of order 3, `fft` with the five-point symbol, particles on a lattice."
@@ -81,7 +82,7 @@ pub fn compare(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Fai
         let mut all = Vec::new();
         let mut rows = Vec::new();
         for alternative in &ALTERNATIVES {
-            let (row, mut times) = match turns(gpu, flow, alternative, &mut default, settings) {
+            let (row, mut times) = match turns(gpu, flow, alternative, &mut default, rounds) {
                 Ok([own, reference]) => {
                     (format!("{} | {}", spread(&own, 2), spread(&ratios(&own, &reference), 2)), reference)
                 }
@@ -99,18 +100,14 @@ pub fn compare(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Fai
 }
 
 /// Milliseconds a step of the alternative and of the default, round by round.
-fn turns(
-    gpu: &Gpu,
+fn turns<'a>(
+    gpu: &'a Gpu,
     flow: &Flow,
     alternative: &Alternative,
-    default: &mut Run,
-    settings: &Settings,
+    default: &mut Run<'a>,
+    rounds: Turns,
 ) -> Result<[Vec<f64>; 2], Failure> {
     let mut run = flow.run(gpu, alternative.changes, (alternative.options)(), alternative.start)?;
-    let mut times = [Vec::new(), Vec::new()];
-    for _ in 0..settings.rounds.min(5) {
-        times[0].push(flow.milliseconds(run.rate(0.5 * settings.seconds)?));
-        times[1].push(flow.milliseconds(default.rate(0.5 * settings.seconds)?));
-    }
-    Ok(times)
+    let rates = rounds.rates(&mut [&mut run, default])?;
+    Ok([0, 1].map(|place: usize| rates[place].iter().map(|rate| flow.milliseconds(*rate)).collect()))
 }

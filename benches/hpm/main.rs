@@ -20,11 +20,11 @@ mod flow;
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::engine::StageClock;
 use mesoscope::gpu::{AdapterKind, Gpu, GpuError};
 use mesoscope::plan::{Hardware, Options, Plan};
 
 use common::statistics::{grouped, median, ratios, spread};
+use common::timing::{Timing, Turns};
 use common::{Failure, Report};
 use compiled_loop::CompiledLoop;
 use flow::{Flow, Size, Start};
@@ -40,43 +40,29 @@ const NODE_BYTES: f64 = 16.0;
 /// Cost of shallow water.
 #[derive(Debug, Parser)]
 struct Settings {
-    /// Short and rough, without the largest mesh
-    #[arg(long, conflicts_with_all = ["rounds", "seconds"])]
-    quick: bool,
     /// Meshes, each MESH or MESH:PARTICLES with the square of a whole number; 16 particles a cell if left out [default:
-    /// 64, 256 and 1024, the last with 4 particles a cell on software adapters and 16 on others with the memory]
+    /// 64, 256 and 1024, the last with 4 particles a cell on software adapters and 16 on others with the memory, and not if it is to be quick]
     #[arg(long, value_delimiter = ',')]
     sizes: Vec<Size>,
-    /// Rounds
-    #[arg(long, default_value_t = 7)]
-    rounds: usize,
-    /// Seconds of each measurement
-    #[arg(long, default_value_t = 0.5)]
-    seconds: f64,
     /// Compare other storages, splines, solvers and a crowd too
     #[arg(long)]
     alternatives: bool,
-    /// Passed by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    #[command(flatten)]
+    timing: Timing,
 }
 
 fn main() -> Result<(), Failure> {
-    mesoscope::gpu::prepare_environment();
-    let mut settings = Settings::parse();
-    if settings.quick {
-        settings.rounds = 3;
-        settings.seconds = 0.1;
-    }
+    let settings: Settings = common::settings();
+    let turns = settings.timing.or(7, 0.5);
     let (gpu, sizes) = open(&settings)?;
     let peer = format!("compiled loop: {}", CompiledLoop::describe());
     let report = Report::begin("Shallow water: cost of a particle-step", &gpu, &peer);
     let flows = sizes.into_iter().map(Flow::new).collect::<Result<Vec<_>, _>>()?;
-    let costs = beside_the_loop(&gpu, &flows, &settings)?;
-    by_stage(&gpu, &flows, &settings)?;
+    let costs = beside_the_loop(&gpu, &flows, turns)?;
+    by_stage(&gpu, &flows, turns)?;
     against_the_floor(&gpu, &costs)?;
     if settings.alternatives {
-        alternatives::compare(&gpu, &flows, &settings)?;
+        alternatives::compare(&gpu, &flows, turns.at_most(5).half())?;
     }
     report.end();
     Ok(())
@@ -101,12 +87,12 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
         return Ok((with_room(&settings.sizes)??, settings.sizes.clone()));
     }
     let mut sizes = vec![Size::filled(64, 16), Size::filled(256, 16)];
-    if !settings.quick {
+    if !settings.timing.quick {
         let software = common::open(0)?.description().kind == AdapterKind::Software;
         sizes.push(Size::filled(1024, if software { 4 } else { 16 }));
     }
     match with_room(&sizes)? {
-        Err(GpuError::TooSmall { .. }) if !settings.quick => {
+        Err(GpuError::TooSmall { .. }) if !settings.timing.quick => {
             sizes[2] = Size::filled(1024, 4);
             Ok((with_room(&sizes)??, sizes))
         }
@@ -121,7 +107,7 @@ struct Cost {
     nanoseconds: Vec<f64>,
 }
 
-fn beside_the_loop(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<Vec<Cost>, Failure> {
+fn beside_the_loop(gpu: &Gpu, flows: &[Flow], turns: Turns) -> Result<Vec<Cost>, Failure> {
     println!(
         "\n### Speed\n\nMedian (least–most) of rounds in which mesoscope and a plain compiled float64 loop on one thread take \
          turns; × is the ratio in a round.\n"
@@ -138,11 +124,11 @@ fn beside_the_loop(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<Vec
         checks.push(check(gpu, flow, &mut peer)?);
         let begun = Instant::now();
         peer.run(2);
-        let steps = ((settings.seconds / (0.5 * begun.elapsed().as_secs_f64())) as u64).max(2);
+        let steps = ((turns.seconds / (0.5 * begun.elapsed().as_secs_f64())) as u64).max(2);
         let mut run = flow.run(gpu, &[], Options::default(), Start::Even)?;
         let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-        for _ in 0..settings.rounds {
-            ours.push(run.rate(settings.seconds)?);
+        for _ in 0..turns.rounds {
+            ours.push(run.rate(turns.seconds)?);
             let begun = Instant::now();
             peer.run(steps);
             theirs.push((steps * particles as u64) as f64 / begun.elapsed().as_secs_f64());
@@ -208,24 +194,15 @@ fn parts_of(plan: &Plan) -> Vec<usize> {
     (0..before_report + plan.advance.len()).map(part).collect()
 }
 
-fn by_stage(gpu: &Gpu, flows: &[Flow], settings: &Settings) -> Result<(), Failure> {
+fn by_stage(gpu: &Gpu, flows: &[Flow], turns: Turns) -> Result<(), Failure> {
     println!("\n### Where the time of a step goes");
     for flow in flows {
         let mut run = flow.run(gpu, &[], Options::default(), Start::Even)?;
         let particles = flow.size.particles;
-        let step = particles as f64 / run.rate(settings.seconds)?;
-        // Not reported, as a step begins.
-        run.engine.advance(1, 1)?;
-        let clock = run.engine.stage_clock();
-        let steps = ((2.0 * settings.seconds / step) as u64).clamp(5, 100);
-        let stages = run.engine.time_stages(steps, clock)?;
+        let (how, stages, step) = run.stages(turns.seconds)?;
         let parts = parts_of(run.engine.plan());
         let sum: f64 = stages.iter().map(|stage| stage.seconds).sum();
-        let how = match clock {
-            StageClock::Timestamps => "timestamps of the device",
-            StageClock::Submissions => "every kernel submitted alone, less an empty submission",
-        };
-        println!("\nMesh {}², {} particles; medians of {steps} steps; {how}.\n", flow.size.mesh, grouped(particles));
+        println!("\nMesh {}², {} particles; {how}.\n", flow.size.mesh, grouped(particles));
         println!("| part | µs a step | ns a particle | share |");
         println!("|:--|--:|--:|--:|");
         let row = |name: &str, seconds: f64| {

@@ -11,32 +11,21 @@ mod common;
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 
 use common::statistics::{grouped, ratios, spread};
 use common::timed::Run;
+use common::timing::{Timing, Turns};
 use common::{Failure, Report};
 
 /// Cost of features that are off, and on.
 #[derive(Debug, Parser)]
 struct Settings {
-    /// Rounds
-    #[arg(long, default_value_t = 11)]
-    rounds: usize,
-    /// Seconds of each measurement
-    #[arg(long, default_value_t = 0.4)]
-    seconds: f64,
-    /// A rough estimate: three short rounds
-    #[arg(long)]
-    quick: bool,
-    /// Passed by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    #[command(flatten)]
+    timing: Timing,
 }
 
 /// The standard fluid and couplings of the same particles, water, and cells, without what is optional.
@@ -168,34 +157,19 @@ fn scene_of(feature: &Feature, change: &str) -> Result<Scene, Failure> {
     Ok(scene::parse(feature.name, feature.scene, &changes.collect::<Vec<_>>())?)
 }
 
-fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
-    let model = Model::new(scene);
-    // Chains are placed at random: some particles have more neighbours at first than lists have room for in a fluid.
-    let options = Options { list_growth: u32::from(model.bonds().is_some()), ..Options::default() };
-    run::plan(&model, 0, &scene.output, hardware, options)
+/// Chains are placed at random: some particles have more neighbours at first than lists have room for in a fluid.
+fn options_of(scene: &Scene) -> Options {
+    Options { list_growth: u32::from(Model::new(scene).bonds().is_some()), ..Options::default() }
 }
 
-/// A warm engine of a scene.
-fn run<'a>(gpu: &'a Gpu, scene: &Scene) -> Result<Run<'a>, Failure> {
-    let state = mesoscope::families::initial_state(scene, &Model::new(scene));
-    let mut engine = Engine::new(gpu, plan_of(scene, gpu.into()), &state)?;
-    engine.advance(200, 50)?;
-    engine.finish()?;
-    Run::new(engine, state.len())
+fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
+    common::plan_of(scene, hardware, options_of(scene))
 }
 
 fn main() -> Result<(), Failure> {
-    mesoscope::gpu::prepare_environment();
-    let mut settings = Settings::parse();
-    if settings.quick {
-        (settings.rounds, settings.seconds) = (3, 0.1);
-    }
-    let mut largest_buffer = 0;
-    for feature in features() {
-        largest_buffer =
-            largest_buffer.max(plan_of(&scene_of(&feature, &feature.on)?, Hardware::default()).largest_buffer());
-    }
-    let gpu = common::open(largest_buffer)?;
+    let turns = common::settings::<Settings>().timing.or(11, 0.4);
+    let plan = |feature: Feature| Ok(plan_of(&scene_of(&feature, &feature.on)?, Hardware::default()));
+    let gpu = common::open_for(features().into_iter().map(plan))?;
     let peer = "compared with the scene that never mentions the feature";
     let report = Report::begin("What a scene requires: time and memory of features, off and on", &gpu, peer);
     println!(
@@ -203,29 +177,29 @@ fn main() -> Result<(), Failure> {
     );
     println!("|:--|--:|--:|--:|--:|--:|--:|--:|--:|");
     for feature in features() {
-        compare(&gpu, &feature, &settings)?;
+        compare(&gpu, &feature, turns)?;
     }
     report.end();
     Ok(())
 }
 
 /// Times of steps, reports included, as parts of those of the scene that never mentions the feature.
-fn compare(gpu: &Gpu, feature: &Feature, settings: &Settings) -> Result<(), Failure> {
+fn compare(gpu: &Gpu, feature: &Feature, turns: Turns) -> Result<(), Failure> {
     let scenes = ["", &feature.off, &feature.on].map(|change| scene_of(feature, change));
     let [never, off, on] = scenes;
     let scenes = [never?, off?, on?];
     let mut runs = Vec::new();
     for scene in &scenes {
-        runs.push(run(gpu, scene)?);
+        runs.push(Run::of_scene(gpu, scene, options_of(scene), 200)?);
     }
     let mut rates: [Vec<f64>; 3] = [const { Vec::new() }; 3];
     let mut processors: [Vec<f64>; 3] = [const { Vec::new() }; 3];
-    for round in 0..settings.rounds {
+    for round in 0..turns.rounds {
         // There and back, so that what drifts does not add up.
         let order = if round % 2 == 0 { [0, 1, 2] } else { [2, 1, 0] };
         for place in order {
             let (begun, before) = (Instant::now(), processor_seconds());
-            let rate = runs[place].rate(settings.seconds)?;
+            let rate = runs[place].rate(turns.seconds)?;
             let steps = rate * begun.elapsed().as_secs_f64();
             rates[place].push(rate);
             processors[place].extend(before.zip(processor_seconds()).map(|(before, after)| (after - before) / steps));

@@ -13,13 +13,13 @@ use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use mesoscope::tessellation::Tessellation;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
 use common::statistics::{grouped, ratios, spread};
 use common::timed::Run;
+use common::timing::{Timing, Turns};
 use common::{Failure, Report};
 
 /// Changes of a scene, and their name in a table.
@@ -39,25 +39,15 @@ struct Settings {
     /// Numbers of cells
     #[arg(long, value_delimiter = ',', default_values_t = [5_000, 100_000, 1_000_000])]
     sizes: Vec<usize>,
-    /// Rounds
-    #[arg(long, default_value_t = 5)]
-    rounds: usize,
-    /// Seconds of each measurement on the device
-    #[arg(long, default_value_t = 1.0)]
-    seconds: f64,
-    /// Passed by cargo
-    #[arg(long, hide = true)]
-    bench: bool,
+    #[command(flatten)]
+    timing: Timing,
 }
 
 fn main() -> Result<(), Failure> {
-    mesoscope::gpu::prepare_environment();
-    let settings = Settings::parse();
-    let mut largest_buffer = 0;
-    for &size in &settings.sizes {
-        largest_buffer = largest_buffer.max(plan_of(&cells(size, &[])?, Hardware::default()).largest_buffer());
-    }
-    let gpu = common::open(largest_buffer)?;
+    let settings: Settings = common::settings();
+    let turns = settings.timing.or(5, 1.0);
+    let plan = |size: &usize| Ok(plan_of(&cells(*size, &[])?, Hardware::default()));
+    let gpu = common::open_for(settings.sizes.iter().map(plan))?;
     let peer = "compared with the crate spade on one core: Delaunay triangulation of the same points by bulk load, without \
         periodic images; and the cells of `mesoscope::tessellation` made from it, with them";
     let report = Report::begin("Voronoi cells: cost of the tessellation", &gpu, peer);
@@ -65,7 +55,7 @@ fn main() -> Result<(), Failure> {
     println!("| cells | device | spade | device / spade | cells from spade | device / cells from spade |");
     println!("|--:|--:|--:|--:|--:|--:|");
     for &size in &settings.sizes {
-        compare(&gpu, size, &settings)?;
+        compare(&gpu, size, turns)?;
     }
     println!(
         "\nMillion cell-steps/s from a jittered lattice, dt = .002, and the tessellation by itself for comparison.\n"
@@ -74,7 +64,7 @@ fn main() -> Result<(), Failure> {
     println!("|--:|:--|--:|--:|");
     for &size in &settings.sizes {
         for variant in &STEPS {
-            step(&gpu, size, variant, &settings)?;
+            step(&gpu, size, variant, turns)?;
         }
     }
     report.end();
@@ -94,7 +84,7 @@ fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
 }
 
 fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
-    run::plan(&Model::new(scene), 0, &scene.output, hardware, Options::default())
+    common::plan_of(scene, hardware, Options::default())
 }
 
 /// The plan of a scene with nothing in a step but the tessellation.
@@ -122,7 +112,7 @@ fn tessellation(scene: &Scene, hardware: Hardware) -> Plan {
     plan
 }
 
-fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
+fn compare(gpu: &Gpu, size: usize, turns: Turns) -> Result<(), Failure> {
     let scene = cells(size, &[])?;
     let model = Model::new(&scene);
     let state = mesoscope::families::initial_state(&scene, &model);
@@ -138,8 +128,8 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
     let mut device = Run::new(Engine::new(gpu, tessellation(&scene, gpu.into()), &state)?, size)?;
     let (mut own, mut crate_alone, mut crate_cells) = (Vec::new(), Vec::new(), Vec::new());
     let rate = |seconds: f64| 1e-6 * size as f64 / seconds;
-    for _ in 0..settings.rounds {
-        own.push(1e-6 * device.rate(settings.seconds)?);
+    for _ in 0..turns.rounds {
+        own.push(1e-6 * device.rate(turns.seconds)?);
         let copy = points.clone();
         let begun = Instant::now();
         let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load(copy)?;
@@ -163,18 +153,15 @@ fn compare(gpu: &Gpu, size: usize, settings: &Settings) -> Result<(), Failure> {
 }
 
 /// A whole step, compared with the tessellation of the same cells.
-fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, settings: &Settings) -> Result<(), Failure> {
+fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, turns: Turns) -> Result<(), Failure> {
     let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
     let scene = cells(size, &[&[lattice], *changes].concat())?;
     let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
     let mut whole = Run::new(Engine::new(gpu, plan_of(&scene, gpu.into()), &state)?, size)?;
     let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?, gpu.into()), &state)?, size)?;
-    let (mut rates, mut shares) = (Vec::new(), Vec::new());
-    for _ in 0..settings.rounds {
-        let rate = 1e-6 * whole.rate(settings.seconds)?;
-        shares.push(rate / (1e-6 * alone.rate(settings.seconds)?));
-        rates.push(rate);
-    }
-    println!("| {} | {name} | {} | {} |", grouped(size), spread(&rates, 3), spread(&shares, 2));
+    let rates = turns.rates(&mut [&mut whole, &mut alone])?;
+    let millions: Vec<f64> = rates[0].iter().map(|rate| 1e-6 * rate).collect();
+    let shares = ratios(&rates[0], &rates[1]);
+    println!("| {} | {name} | {} | {} |", grouped(size), spread(&millions, 3), spread(&shares, 2));
     Ok(())
 }
