@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 23] = [
+const LAYERS: [&str; 24] = [
     "printable",
     "numbers",
     "table",
@@ -25,6 +25,7 @@ const LAYERS: [&str; 23] = [
     "plot",
     "run",
     "self_test",
+    "study",
     "sweep",
     "tradeoff",
     "stability",

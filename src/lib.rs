@@ -3,7 +3,8 @@
 //! A [`scene`] is what the user wrote, typed and checked. A model of one of the [`families`] is the physics it asks for in numbers.
 //! A [`plan`] is pure data: the kernels, constants and buffers this scene needs, in order. The [`engine`] executes a
 //! plan on an adapter opened by [`gpu`]. [`measure`] turns integer sums into averages with errors, [`output`] and
-//! [`plot`] write what the user sees. A [`sweep`] is many runs that differ in a few values. [`families::reference`] is the
+//! [`plot`] write what the user sees. A [`study`] is many runs that differ in a few values: a [`sweep`],
+//! a [`tradeoff`], a map of [`stability`]. [`families::reference`] is the
 //! plain float64 implementation every kernel is tested against.
 //!
 //! All of these in a small run; [`mod@run`] does the same in two lines, and writes files:
@@ -57,6 +58,7 @@ pub mod self_test;
 pub mod shaders;
 pub mod stability;
 pub mod state;
+pub mod study;
 pub mod sweep;
 pub mod table;
 pub mod tessellation;

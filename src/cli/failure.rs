@@ -8,6 +8,7 @@ use mesoscope::output::{OutputError, files};
 use mesoscope::plot::PlotError;
 use mesoscope::run::RunError;
 use mesoscope::scene::SceneError;
+use mesoscope::study::StudyError;
 
 /// As of other programs that an interrupt ends.
 pub const INTERRUPTED: u8 = 130;
@@ -114,6 +115,23 @@ impl From<RunError> for Failure {
                 "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene again with --force"
             )),
             error => Self::of_run(&error, error.to_string()),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Scene(error) => error.into(),
+            StudyError::Gpu(error) => error.into(),
+            StudyError::Common(error) => error.into(),
+            StudyError::Interrupted { .. } => Self::interrupted(error.to_string()),
+            StudyError::Variants { .. } => Self::usage(format!(
+                "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
+            )),
+            StudyError::Arguments { .. } | StudyError::Long { .. } => Self::usage(error.to_string()),
+            StudyError::Run { ref source, .. } => Self::of_run(source, error.to_string()),
+            _ => Self::input_output(error.to_string()),
         }
     }
 }

@@ -16,6 +16,8 @@ mod scene_arguments;
 mod scenes;
 mod schema;
 mod stability;
+mod study_arguments;
+mod study_report;
 mod sweep;
 mod sweep_report;
 mod table;
@@ -32,6 +34,7 @@ pub use failure::Failure;
 pub use print::{line, print};
 pub use run_arguments::RunArguments;
 pub use scene_arguments::{SceneArguments, whole_number};
+pub use study_arguments::{ComparisonArguments, StudyArguments, VariantArguments};
 
 /// Stochastic mesoscale particle simulations on any GPU.
 #[derive(Debug, Parser)]

@@ -1,20 +1,18 @@
 //! `mesoscope tradeoff`: what accuracy costs, and what to choose.
 
 use std::fs;
-use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-use indicatif::ProgressBar;
-use mesoscope::numbers::{prefixed, with_error};
+use mesoscope::numbers::with_error;
 use mesoscope::printable;
+use mesoscope::study::StudyError;
 use mesoscope::tradeoff::{
-    Choice, ChoiceState, Length, References, Request, Target, TradeoffError, TradeoffEvent, TradeoffOutcome,
-    TradeoffRun, TradeoffSummary, error_in_words,
+    Choice, ChoiceState, Length, References, Request, Target, TradeoffOutcome, TradeoffRun, TradeoffSummary,
+    error_in_words,
 };
 
-use super::report::{self, duration};
 use super::table::aligned;
-use super::{Failure, RunArguments, line, print, progress};
+use super::{ComparisonArguments, Failure, StudyArguments, VariantArguments, print};
 
 /// Run variants of a scene over the same time, and compare what they cost with how far they are off
 #[derive(Debug, clap::Args)]
@@ -30,67 +28,40 @@ Every choice covers the same simulated time and is sampled at the same times; it
 ordinary run. What measures are compared with is given (--reference), or a law that the scene has to obey, or a finer
 run: the scene with half the smallest time step, or as --finer says.")]
 pub struct Arguments {
-    /// A scene file, or the name of a built-in scene (see `mesoscope scenes`)
-    #[arg(required_unless_present = "resume")]
-    scene: Option<String>,
-
-    /// A key of the scene and the values to try, as for `mesoscope sweep`; repeated, every combination is a choice
-    #[arg(long, value_name = "PATH=VALUE,…", required_unless_present = "resume")]
-    vary: Vec<String>,
-
-    /// One more choice besides the combinations, with settings of its own; may be repeated
-    #[arg(long, value_name = "PATH=VALUE,…")]
-    also: Vec<String>,
-
-    /// Change one value in all choices, as for `mesoscope run`; may be repeated
-    #[arg(long, value_name = "PATH=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    variants: VariantArguments,
 
     /// Make all runs so long that every mean has at most this relative standard error [default: as long as the scene]
-    #[arg(long, value_name = "PART", value_parser = part)]
+    #[arg(long, value_name = "PART", value_parser = part, conflicts_with = "resume")]
     error: Option<f64>,
 
     /// Time that all steps may take together, as in `30s`, `10m`, `2h`
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, value_name = "TIME", value_parser = time, conflicts_with = "resume")]
     budget: Option<f64>,
 
-    /// What a measure should be, as in `pressure=23.635` or `pressure=23.635+-0.005`; may be repeated
-    #[arg(long, value_name = "MEASURE=VALUE")]
-    reference: Vec<String>,
-
     /// Settings of the run that references are taken from [default: half the smallest time step]
-    #[arg(long, value_name = "PATH=VALUE,…")]
+    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
     finer: Option<String>,
 
     /// Measures to compare: columns of the table of energies, `diffusion.diffusion_einstein` of an analysis; may be repeated
     /// [default: temperatures, pressure and energy, or the drift of the energy, and what analyses find]
-    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',')]
+    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
     measure: Vec<String>,
 
     /// The largest error of a measure, as in `pressure=1%` or `pressure=0.2`; may be repeated. The cheapest choice that
     /// meets all of them, with their uncertainties, is named
-    #[arg(long, value_name = "MEASURE=ERROR")]
+    #[arg(long, value_name = "MEASURE=ERROR", conflicts_with = "resume")]
     target: Vec<String>,
 
     /// Write the scene of the choice that meets the targets
     #[arg(long, value_name = "NEW.json")]
     write: Option<PathBuf>,
 
-    /// Run even if it takes more than eight hours
-    #[arg(long)]
-    yes: bool,
-
-    /// Directory for all runs [default: the scene's name and `-tradeoff`, in the working directory]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-
-    /// Go on with the tradeoff in this directory
-    #[arg(long, value_name = "DIR", conflicts_with_all =
-        ["scene", "vary", "also", "set", "error", "budget", "reference", "finer", "measure", "target", "out", "force"])]
-    resume: Option<PathBuf>,
+    #[command(flatten)]
+    comparison: ComparisonArguments,
 
     #[command(flatten)]
-    how: RunArguments,
+    study: StudyArguments,
 }
 
 pub(super) fn part(text: &str) -> Result<f64, String> {
@@ -111,24 +82,16 @@ fn time(text: &str) -> Result<f64, String> {
 
 /// Runs the choices.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (run, directory) = if let Some(directory) = &arguments.resume {
-        (TradeoffRun::resume(directory)?, directory.clone())
-    } else {
-        let request = request(arguments)?;
-        let scene = arguments.scene.as_deref().unwrap_or_default();
-        let directory = arguments.out.clone().unwrap_or_else(|| format!("{}-tradeoff", report::stem(scene)).into());
-        (TradeoffRun::start(request, &directory, arguments.how.force), directory)
-    };
+    let study = &arguments.study;
+    let run: TradeoffRun = study.study(|scene| request(scene, arguments))?;
     if let Some(path) = &arguments.write {
         check_place(path, run.request())?;
     }
-    let run = run.unless_long(arguments.yes).until(&super::interruption::interrupt());
-    let mut reporter = Reporter::new(run.request().title(), arguments.how.quiet);
-    let executed = run.execute(&arguments.how.adapter.choice(), &mut |event| reporter.show(event));
-    reporter.clear();
-    let outcome = executed?;
-    if !arguments.how.quiet {
-        print(&results(&outcome, &printable::path(&directory)))?;
+    let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
+    let run = run.unless_long(arguments.comparison.yes);
+    let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
+    if !study.how.quiet {
+        print(&results(&outcome, &directory))?;
     }
     if let Some(path) = &arguments.write {
         write(&outcome.summary, path)?;
@@ -136,10 +99,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn request(arguments: &Arguments) -> Result<Request, Failure> {
-    let scene = arguments.scene.as_deref().unwrap_or_default();
+fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
     let mut mistakes = Vec::new();
-    let references = References::parse(&arguments.reference).unwrap_or_else(|wrong| {
+    let references = arguments.comparison.references().unwrap_or_else(|wrong| {
         mistakes.extend(wrong);
         References::default()
     });
@@ -151,10 +113,11 @@ fn request(arguments: &Arguments) -> Result<Request, Failure> {
         }
     }
     if !mistakes.is_empty() {
-        return Err(TradeoffError::Arguments { mistakes }.into());
+        return Err(StudyError::Arguments { mistakes }.into());
     }
     let length = Length { error: arguments.error, budget: arguments.budget };
-    let request = Request::load(scene, &arguments.set, &arguments.vary, &arguments.also)?
+    let VariantArguments { vary, also } = &arguments.variants;
+    let request = Request::load(scene, &arguments.study.set, vary, also)?
         .with_length(length)
         .with_measures(&arguments.measure)?
         .with_references(references)?
@@ -197,82 +160,6 @@ fn write(summary: &TradeoffSummary, path: &Path) -> Result<(), Failure> {
     print(&format!("wrote {}\n", printable::path(path)))
 }
 
-/// Shows how far a tradeoff is: a bar on a terminal, else a line for every run.
-struct Reporter {
-    title: String,
-    quiet: bool,
-    bar: Option<ProgressBar>,
-    runs: usize,
-    ended: usize,
-}
-
-impl Reporter {
-    fn new(title: &str, quiet: bool) -> Self {
-        Self { title: printable::name(title).into_owned(), quiet, bar: None, runs: 0, ended: 0 }
-    }
-
-    fn clear(&mut self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
-        }
-    }
-
-    fn say(&self, text: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| line(text)),
-            None => line(text),
-        }
-    }
-
-    fn show(&mut self, event: TradeoffEvent<'_>) {
-        if self.quiet {
-            return;
-        }
-        match event {
-            TradeoffEvent::Started { adapter, runs, seconds } => {
-                self.runs = runs;
-                let expected = duration(seconds.ceil() as u64);
-                let text = format!("{}: {runs} runs on {}, about {expected} at first\n", self.title, adapter.name);
-                // A closed standard output will be noticed when the results are printed.
-                let _ = print(&text);
-                if std::io::stderr().is_terminal() {
-                    self.bar = Some(progress::bar(0, "{wide_bar} {percent:>3}%  {msg}"));
-                }
-            }
-            TradeoffEvent::Advanced { name, progress } => {
-                if let Some(bar) = &self.bar {
-                    bar.set_length(progress.last_step.max(1));
-                    bar.set_position(progress.step);
-                    let rate = prefixed(progress.particle_steps_per_second);
-                    bar.set_message(format!("{} of {}  {name}  {rate} particle-steps/s", self.ended + 1, self.runs));
-                }
-            }
-            TradeoffEvent::Ended { choice } => {
-                self.ended += 1;
-                let what = match (choice.state, &choice.failure) {
-                    (ChoiceState::Unstable, Some(failure)) => format!("unstable: {failure}"),
-                    _ => format!("{} steps", choice.steps),
-                };
-                self.say(&format!("{} of {}  {}  {what}", self.ended, self.runs, choice.name));
-            }
-            TradeoffEvent::Extended { factor, worst } => {
-                self.ended = 0;
-                let why = worst.map_or_else(String::new, |worst| {
-                    format!("the largest standard error is {} %: ", with_error(100.0 * worst, None))
-                });
-                self.say(&format!("{why}means are taken over {factor:.1} times the time"));
-            }
-            TradeoffEvent::Timing => self.say("timing steps in turns"),
-            TradeoffEvent::Finishing => {
-                if let Some(bar) = &self.bar {
-                    bar.set_message("drawing");
-                }
-            }
-            _ => {}
-        }
-    }
-}
-
 /// The table at the end, what to choose, and the files written.
 fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
     let summary = &outcome.summary;
@@ -306,24 +193,6 @@ fn cell(choice: &Choice, measure: &str) -> String {
         let mark = if error.on_front { " *" } else { "" };
         format!("{}{mark}", error_in_words(error))
     })
-}
-
-impl From<TradeoffError> for Failure {
-    fn from(error: TradeoffError) -> Self {
-        match error {
-            TradeoffError::Sweep(error) => error.into(),
-            TradeoffError::Gpu(error) => error.into(),
-            TradeoffError::Interrupted { .. } => Self::interrupted(error.to_string()),
-            TradeoffError::Arguments { .. } | TradeoffError::Variant { .. } | TradeoffError::Long { .. } => {
-                Self::usage(error.to_string())
-            }
-            TradeoffError::Run { ref source, .. } => Self::of_run(source, error.to_string()),
-            TradeoffError::Output(mesoscope::output::OutputError::ResultExists { .. }) => Self::input_output(format!(
-                "{error}\nhint: `mesoscope tradeoff --resume DIR` goes on with an interrupted one"
-            )),
-            _ => Self::input_output(error.to_string()),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -69,10 +69,14 @@ impl Id {
     /// ```
     #[must_use]
     pub fn of_sweep(runs: impl IntoIterator<Item = Self>) -> Self {
-        let mut sum = Fnv::new();
-        for run in runs {
-            sum.add(&run.checksum.to_le_bytes());
-        }
+        Self { kind: Kind::Sweep, checksum: sum_of(runs).0 }
+    }
+
+    /// The id of a study that consists of these runs and was asked for in this way.
+    pub(crate) fn of_study(runs: impl IntoIterator<Item = Self>, asked: &impl Serialize) -> Self {
+        let mut sum = sum_of(runs);
+        // A request is numbers and text, which can always be written.
+        sum.add(&serde_json::to_vec(asked).unwrap_or_default());
         Self { kind: Kind::Sweep, checksum: sum.0 }
     }
 
@@ -109,6 +113,14 @@ impl Id {
             Kind::Sweep => SWEEP_KEY,
         }
     }
+}
+
+fn sum_of(runs: impl IntoIterator<Item = Id>) -> Fnv {
+    let mut sum = Fnv::new();
+    for run in runs {
+        sum.add(&run.checksum.to_le_bytes());
+    }
+    sum
 }
 
 /// Number of characters of an id.

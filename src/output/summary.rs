@@ -1,6 +1,7 @@
 //! The summary of a run, `run.json`.
 
 use super::{Extent, Id, OutputError, RunDirectory, files, of_one_run, write_atomically};
+use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -147,6 +148,13 @@ pub struct AdapterSummary {
     pub driver: String,
     /// The graphics interface it was reached through.
     pub backend: String,
+}
+
+impl From<&AdapterDescription> for AdapterSummary {
+    fn from(adapter: &AdapterDescription) -> Self {
+        let AdapterDescription { name, driver, backend, .. } = adapter.clone();
+        Self { name, driver, backend }
+    }
 }
 
 impl Summary {

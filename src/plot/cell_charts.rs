@@ -1,6 +1,7 @@
 //! The charts of Voronoi DPD, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
+use super::points::{pairs, since_first, steps};
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
 use crate::table::Table;
 
@@ -27,8 +28,7 @@ pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, av
     let mut changes = Panel::new(TIME, "Change of energy per cell (energy units)");
     for column in ["kinetic_energy", "internal_energy", "total_energy"] {
         let points = table.over_time(column, particle_count.max(1) as f64).unwrap_or_default();
-        let first = points.first().map_or(f64::NAN, |point| point[1]);
-        changes.series.push(series(column, points.iter().map(|point| [point[0], point[1] - first]).collect()));
+        changes.series.push(series(column, since_first(&points)));
     }
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
 }
@@ -52,27 +52,25 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     let [numbers, fractions, errors, random] =
         ["neighbours", "fraction", "fraction_error", "random_points"].map(|name| table.values(name));
     let highest = fractions.iter().chain(&random).copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
-    let mut steps: Vec<[f64; 2]> =
-        numbers.iter().zip(&fractions).flat_map(|(n, f)| [[n - 0.5, *f], [n + 0.5, *f]]).collect();
+    let mut outline = steps(numbers.iter().zip(&fractions).map(|(n, f)| ([n - 0.5, n + 0.5], *f)));
     // From the axis and back to it.
-    if let (Some([left, _]), Some([right, _])) = (steps.first().copied(), steps.last().copied()) {
-        steps.insert(0, [left, 0.0]);
-        steps.push([right, 0.0]);
+    if let (Some([left, _]), Some([right, _])) = (outline.first().copied(), outline.last().copied()) {
+        outline.insert(0, [left, 0.0]);
+        outline.push([right, 0.0]);
     }
     let mean = numbers.iter().zip(&fractions).map(|(n, f)| n * f).sum::<f64>();
     let square = numbers.iter().zip(&fractions).map(|(n, f)| n * n * f).sum::<f64>();
     let mut panel = Panel::new("Neighbours of a cell", "Fraction of cells");
-    panel.series.push(Series::line("measured", steps));
-    let compared = numbers.iter().zip(&random).map(|(n, f)| [*n, *f]).collect();
-    panel.series.push(Series::markers("random points", compared));
-    let points = numbers.iter().zip(&fractions).map(|(n, f)| [*n, *f]).collect();
+    panel.series.push(Series::line("measured", outline));
+    panel.series.push(Series::markers("random points", pairs(&numbers, &random)));
     if errors.iter().any(|error| error.is_finite() && *error > 0.0) {
-        let bars = Series::markers("", points).with_errors(errors).with_ink(SeriesInk::Ink { pattern: 0 });
+        let bars = Series::markers("", pairs(&numbers, &fractions))
+            .with_errors(errors)
+            .with_ink(SeriesInk::Ink { pattern: 0 });
         panel.series.push(bars);
     }
     let top = 1.08 * highest.max(1e-9);
-    let exact = Series::line("mean of every tessellation, 6", vec![[6.0, 0.0], [6.0, top]]);
-    panel.series.push(exact.with_ink(SeriesInk::Ink { pattern: 1 }));
+    panel.series.push(Series::compared("mean of every tessellation, 6", vec![[6.0, 0.0], [6.0, top]]));
     panel.y.range = Some([0.0, top]);
     let subtitle = format!("mean {mean:.4}, variance {:.3}; 1.78 for random points", square - mean * mean);
     Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
@@ -106,8 +104,7 @@ pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &Tab
         let name = |name: &str| if panels.is_empty() { name.to_owned() } else { String::new() };
         let mut panel = Panel::new(TIME, label).with(Series::line(&name("measured"), points));
         if fitted {
-            let fit = Series::line(&name(fit_name), fit.clone());
-            panel.series.push(fit.with_ink(SeriesInk::Ink { pattern: 1 }));
+            panel.series.push(Series::compared(&name(fit_name), fit.clone()));
         }
         panels.push(panel);
     }

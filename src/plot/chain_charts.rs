@@ -1,6 +1,7 @@
 //! The charts of harmonic chains, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
+use super::points::pairs;
 use crate::numbers::short;
 use crate::table::Table;
 
@@ -12,7 +13,7 @@ const REDUCED_TIME: &str = "Reduced time τ = ω_{0}t/n";
 
 /// Points of two columns; not numbers where there is no such column.
 fn points(table: &Table, x: &str, y: &str) -> Vec<[f64; 2]> {
-    table.values(x).into_iter().zip(table.values(y)).map(|(x, y)| [x, y]).collect()
+    pairs(&table.values(x), &table.values(y))
 }
 
 /// Markers of a series are this many at most, so that they stay apart.
@@ -129,8 +130,7 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
 pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     let mut panel = Panel::new(REDUCED_TIME, "Momentum autocorrelation C_{PP}(τ)");
     panel.series = compared(table, "correlation");
-    let limit = Series::line("large clusters of beads: max(0, 1 − τ)", points(table, "tau", "limit"));
-    panel.series.push(limit.with_ink(SeriesInk::Ink { pattern: 1 }));
+    panel.series.push(Series::compared("large clusters of beads: max(0, 1 − τ)", points(table, "tau", "limit")));
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel.with_reference("", 0.0)] }
 }
 
@@ -165,7 +165,7 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
         let height = line.first().map_or(f64::NAN, |point| point[1]);
         let line = line.into_iter().filter(|point| point[0] > 0.0).collect();
         let name = format!("plateau, from γ* = {height:.3}");
-        panel.series.push(Series::line(&name, line).with_ink(SeriesInk::Ink { pattern: 1 }));
+        panel.series.push(Series::compared(&name, line));
     }
     let panel = panel.with_reference("γ* = ½", 0.5).with_reference("over all times: 0", 0.0);
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }

@@ -148,6 +148,12 @@ impl Series {
         Self { name: name.to_owned(), points, ..Self::default() }
     }
 
+    /// A line that others are compared with, dashed in the ink of the axes: a fit, or what is exact.
+    #[must_use]
+    pub fn compared(name: &str, points: Vec<[f64; 2]>) -> Self {
+        Self::line(name, points).with_ink(SeriesInk::Ink { pattern: 1 })
+    }
+
     /// Separate markers.
     #[must_use]
     pub fn markers(name: &str, points: Vec<[f64; 2]>) -> Self {

@@ -47,6 +47,7 @@ mod palette;
 mod particles;
 mod periodic_curve;
 mod pipelines;
+mod points;
 mod presets;
 mod quantities;
 mod readback;

@@ -1,6 +1,7 @@
 //! The charts a run writes, made from its tables.
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::points::{pairs, since_first, steps};
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, pressure_label, series, with_set_temperature};
 use crate::numbers::grouped;
 use crate::table::Table;
@@ -112,9 +113,8 @@ pub fn circulation_chart(title: &str, table: &Table) -> Chart {
     };
     let mut panel = Panel::new(TIME, label).with_reference("no change", 0.0);
     for (name, points) in &loops {
-        let first = first(points);
-        let scale = if relative { first } else { 1.0 };
-        let changes = points.iter().map(|[time, value]| [*time, (value - first) / scale]).collect();
+        let scale = if relative { first(points) } else { 1.0 };
+        let changes = since_first(points).into_iter().map(|[time, change]| [time, change / scale]).collect();
         panel.series.push(Series::line(name, changes));
     }
     Chart { title: title.to_owned(), panels: vec![panel], ..Chart::default() }
@@ -130,9 +130,8 @@ pub fn circulation_chart(title: &str, table: &Table) -> Chart {
 /// ```
 #[must_use]
 pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64]) -> Chart {
-    let points = distances.iter().zip(values).map(|(r, g)| [*r, *g]).collect();
     let mut panel = Panel::new("Distance r (length units)", "Radial distribution g(r)")
-        .with(Series::line("g(r)", points))
+        .with(Series::line("g(r)", pairs(distances, values)))
         .with_reference("ideal gas", 1.0);
     let highest = values.iter().copied().filter(|value| value.is_finite()).fold(1.0_f64, f64::max);
     panel.y.range = Some([0.0, 1.1 * highest]);
@@ -160,21 +159,20 @@ pub fn autocorrelation_chart(
     (lags, values, errors): (&[f64], &[f64], &[f64]),
     (fit_name, fit): (&str, &[f64]),
 ) -> Chart {
-    let points = |values: &[f64]| lags.iter().zip(values).map(|(lag, value)| [*lag, *value]).collect::<Vec<_>>();
     let mut panel = Panel::new("Lag (time units)", &format!("Normalised {quantity} autocorrelation"));
     let name = if fit.is_empty() { "autocorrelation" } else { "measured" };
     let few = lags.len() <= MOST_MARKERS;
     let measured = if few {
-        Series::markers(name, points(values))
+        Series::markers(name, pairs(lags, values))
     } else {
-        Series { style: SeriesStyle::Band, ..Series::line(name, points(values)) }
+        Series { style: SeriesStyle::Band, ..Series::line(name, pairs(lags, values)) }
     };
     let known = errors.iter().any(|error| error.is_finite());
     panel.series.push(if known { measured.with_errors(errors.to_vec()) } else { measured });
     if !fit.is_empty() {
         // Over separate points; under a line, which it would hide.
         let ink = SeriesInk::Ink { pattern: usize::from(!few) };
-        panel.series.insert(usize::from(!few), Series::line(fit_name, points(fit)).with_ink(ink));
+        panel.series.insert(usize::from(!few), Series::line(fit_name, pairs(lags, fit)).with_ink(ink));
     }
     panel = panel.with_reference("zero", 0.0);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
@@ -205,9 +203,9 @@ pub fn histogram_chart(
     let unit = if quantity == "acceleration" { "length units/time unit²" } else { "length units/time unit" };
     let mut panel =
         Panel::new(&format!("{} ({unit})", capitalised(quantity)), &format!("Probability density (1/({unit}))"));
-    let steps = edges.windows(2).zip(densities).flat_map(|(edge, density)| edge.iter().map(|x| [*x, *density]));
-    panel.series.push(Series::line("histogram", steps.collect()));
-    panel.series.push(Series::line(name, compared.to_vec()).with_ink(SeriesInk::Ink { pattern: 1 }));
+    let bins = edges.windows(2).zip(densities).map(|(edges, density)| ([edges[0], edges[1]], *density));
+    panel.series.push(Series::line("histogram", steps(bins)));
+    panel.series.push(Series::compared(name, compared.to_vec()));
     let heights = densities.iter().copied().chain(compared.iter().map(|point| point[1]));
     let highest = heights.filter(|value| value.is_finite()).fold(0.0, f64::max);
     if highest > 0.0 {

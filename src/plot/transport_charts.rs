@@ -47,8 +47,7 @@ pub fn diffusion_chart(
         if let Some((coefficient, error)) = einstein {
             let slope = 2.0 * dimension as f64 * coefficient;
             let name = format!("{} D t + b, D = {}", 2 * dimension, with_error(coefficient, error));
-            let line = Series::line(&name, displacement_line(&points, slope));
-            panel.series.push(line.with_ink(SeriesInk::Ink { pattern: 1 }));
+            panel.series.push(Series::compared(&name, displacement_line(&points, slope)));
         }
         chart.panels.push(panel);
     }
@@ -108,7 +107,7 @@ pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Found], all: O
         let fit: Vec<[f64; 2]> = column(3).into_iter().filter(|point| point[1].is_finite()).collect();
         if !fit.is_empty() {
             let name = if fits.is_empty() { "exponential decays fitted" } else { "" };
-            fits.push(Series::line(name, fit).with_ink(SeriesInk::Ink { pattern: 1 }));
+            fits.push(Series::compared(name, fit));
         }
     }
     panel.series.extend(fits);

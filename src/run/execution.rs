@@ -268,12 +268,7 @@ impl<'a> Run<'a> {
         warnings: Vec<String>,
         (steps, spent): (u64, Duration),
     ) -> Result<Outcome, RunError> {
-        let description = self.gpu.description();
-        let adapter = AdapterSummary {
-            name: description.name.clone(),
-            driver: description.driver.clone(),
-            backend: description.backend.clone(),
-        };
+        let adapter = AdapterSummary::from(self.gpu.description());
         let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());

@@ -4,8 +4,9 @@ use super::verdict::{Verdict, verdict};
 use crate::gpu::{AdapterChoice, GpuError};
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::Scene;
-use crate::tradeoff::{self, Deviation, ENERGY_DRIFT, Measured, Reference, References};
+use crate::tradeoff::{self, Deviation, ENERGY_DRIFT, Measured, Reference, References, error_in_words};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// Parts of the averaged time after which a verdict that is certain ends a run.
 const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
@@ -45,6 +46,21 @@ impl Cell {
     #[must_use]
     pub fn error(&self, measure: &str) -> Option<&Deviation> {
         self.errors.iter().find(|error| error.measure == measure)
+    }
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.verdict.name())?;
+        let what = match self.verdict {
+            Verdict::Right | Verdict::Biased if self.reason.is_none() => {
+                let words =
+                    |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
+                self.errors.iter().map(words).collect::<Vec<_>>().join(", ")
+            }
+            _ => self.reason.as_deref().and_then(|reason| reason.lines().next()).unwrap_or_default().to_owned(),
+        };
+        if what.is_empty() { Ok(()) } else { write!(formatter, ": {what}") }
     }
 }
 

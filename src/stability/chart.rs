@@ -6,7 +6,7 @@ use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::short;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
-use crate::sweep::readable;
+use crate::study::readable;
 
 /// The place of an edge on its axis: the middle between two neighbours.
 fn middle(summary: &StabilitySummary, low: f64, high: f64) -> f64 {
@@ -93,10 +93,7 @@ fn of_a_row(summary: &StabilitySummary) -> Panel {
     for measure in &summary.measures {
         let of_cell = |cell: &super::Cell| {
             let error = cell.error(measure)?;
-            // What is zero by chance lies at its uncertainty: a logarithm has no zero.
-            let size =
-                if error.size() > 0.0 { error.size() } else { error.uncertainty.filter(|error| *error > 0.0)? };
-            Some(([cell.value, 100.0 * size], 100.0 * error.uncertainty.unwrap_or(0.0)))
+            Some(([cell.value, 100.0 * error.on_log_axis()?], 100.0 * error.uncertainty.unwrap_or(0.0)))
         };
         let (points, bars): (Vec<[f64; 2]>, Vec<f64>) = row.cells.iter().filter_map(of_cell).unzip();
         for [_, size] in &points {

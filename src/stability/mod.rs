@@ -14,7 +14,7 @@
 //! # let results = directory.path().join("map");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=20", "time.steps=100", "output={}"].map(str::to_owned);
 //! let request = Request::load("dpd-fluid", &small, &["time.step=0.02..2/3".to_owned()])?.with_bisections(1);
-//! let outcome = StabilityRun::start(request, &results, false).execute(&AdapterChoice::Best, None, &mut |_| {})?;
+//! let outcome = StabilityRun::start(request, &results, false).execute(&AdapterChoice::Best, &mut |_| {})?;
 //! let row = &outcome.summary.rows[0];
 //! assert_ne!(row.cells[row.cells.len() - 1].verdict, Verdict::Right, "no fluid is right with a step of 2");
 //! assert!(row.edges().iter().all(|edge| edge.low < edge.high) && results.join("stability.png").exists());
@@ -24,7 +24,6 @@
 mod bounds;
 mod cell;
 mod chart;
-mod error;
 pub mod files;
 mod page;
 mod range;
@@ -36,9 +35,8 @@ mod verdict;
 
 pub use bounds::Bound;
 pub use cell::Cell;
-pub use error::StabilityError;
 pub use range::Spacing;
 pub use request::Request;
-pub use run::{StabilityEvent, StabilityOutcome, StabilityRun};
+pub use run::{Bisecting, StabilityOutcome, StabilityRun};
 pub use summary::{Edge, Row, StabilitySummary};
 pub use verdict::Verdict;

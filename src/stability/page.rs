@@ -102,7 +102,8 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
 
 /// The page.
 pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
-    let key = request.short(&summary.key);
+    let keys = request.short_keys();
+    let key = keys.short(&summary.key);
     let measures: Vec<String> = summary.measures.iter().map(|measure| format!("`{measure}`")).collect();
     let right = if measures.is_empty() {
         "What runs to its end counts as right.".to_owned()

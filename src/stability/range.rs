@@ -1,6 +1,6 @@
 //! What a user wants varied: a range of numbers, or a list of values.
 
-use crate::sweep::Variation;
+use crate::study::Variation;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

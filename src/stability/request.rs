@@ -1,12 +1,11 @@
 //! What a map of stability is asked for.
 
-use super::error::StabilityError;
 use super::range::{Range, Spacing, number_of};
 use crate::families::Model;
 use crate::output::Id;
 use crate::run;
 use crate::scene::{self, Scene, SceneError, nearest};
-use crate::sweep::{Setting, readable, short_keys};
+use crate::study::{Setting, ShortKeys, StudyError};
 use crate::tradeoff::{ENERGY_DRIFT, References, Stretch};
 use serde::{Deserialize, Serialize};
 
@@ -76,8 +75,8 @@ impl Request {
     /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is.
     ///
     /// # Errors
-    /// [`StabilityError::Arguments`] with all mistakes at once, [`StabilityError::Scene`] where no scene of the map is accepted.
-    pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StabilityError> {
+    /// [`StudyError::Arguments`] with all mistakes at once, [`StudyError::Scene`] where no scene of the map is accepted.
+    pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StudyError> {
         let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
             scene,
@@ -91,7 +90,7 @@ impl Request {
         })
     }
 
-    pub(super) fn new(arguments: Arguments) -> Result<Self, StabilityError> {
+    pub(super) fn new(arguments: Arguments) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
         let mut ranges = Vec::new();
         for argument in &arguments.vary {
@@ -117,7 +116,7 @@ impl Request {
             ranges.extend(Range::parse(&format!("{STEP}={}..{}/{points}", low * step, high * step)));
         }
         if !mistakes.is_empty() {
-            return Err(StabilityError::Arguments { mistakes });
+            return Err(StudyError::Arguments { mistakes });
         }
         let place = ranges.iter().position(|range| range.key == STEP).unwrap_or(ranges.len().saturating_sub(1));
         let along = ranges.remove(place);
@@ -126,7 +125,7 @@ impl Request {
                 "`{}` is varied along rows, which takes numbers that increase; accepted: key=low..high/points",
                 along.key
             );
-            return Err(StabilityError::Arguments { mistakes: vec![mistake] });
+            return Err(StudyError::mistake(mistake));
         };
         let along = Along { key: along.key, values, spacing: along.spacing };
         let request = Self { arguments, base, along, rows: ranges.pop() };
@@ -139,18 +138,16 @@ impl Request {
                 Err(error) => first = first.or(Some(error)),
             }
         }
-        Err(first.map_or_else(|| StabilityError::Arguments { mistakes: Vec::new() }, StabilityError::Scene))
+        Err(first.map_or_else(|| StudyError::Arguments { mistakes: Vec::new() }, StudyError::Scene))
     }
 
     /// The same, in which errors up to this part are right.
     ///
     /// # Errors
-    /// [`StabilityError::Arguments`] unless it is a number above zero.
-    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StabilityError> {
+    /// [`StudyError::Arguments`] unless it is a number above zero.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StudyError> {
         if !(tolerance.is_finite() && tolerance > 0.0) {
-            return Err(StabilityError::Arguments {
-                mistakes: vec![format!("a tolerance of {tolerance}; accepted: a number above zero")],
-            });
+            return Err(StudyError::mistake(format!("a tolerance of {tolerance}; accepted: a number above zero")));
         }
         self.arguments.tolerance = tolerance;
         Ok(self)
@@ -166,8 +163,8 @@ impl Request {
     /// The same with measures to compare, and what they should be where no law says it.
     ///
     /// # Errors
-    /// [`StabilityError::Arguments`] names those that no run has, and those that there is nothing to compare with.
-    pub fn with_measures(mut self, measures: &[String], references: References) -> Result<Self, StabilityError> {
+    /// [`StudyError::Arguments`] names those that no run has, and those that there is nothing to compare with.
+    pub fn with_measures(mut self, measures: &[String], references: References) -> Result<Self, StudyError> {
         let known = self.known_measures();
         let mut mistakes = Vec::new();
         for measure in measures.iter().map(String::as_str).chain(references.measures()) {
@@ -181,7 +178,7 @@ impl Request {
             }
         }
         if !mistakes.is_empty() {
-            return Err(StabilityError::Arguments { mistakes });
+            return Err(StudyError::Arguments { mistakes });
         }
         self.arguments.measures = measures.to_vec();
         self.arguments.references = references;
@@ -246,15 +243,12 @@ impl Request {
 
     /// What a row is called: `friction = 4.5`.
     pub(super) fn row_label(&self, row: usize) -> String {
-        self.setting(row)
-            .map_or_else(String::new, |setting| format!("{} = {}", self.short(&setting.key), readable(&setting.value)))
+        self.setting(row).map_or_else(String::new, |setting| self.short_keys().label(&[setting]))
     }
 
-    /// The short name of a key that is varied.
-    pub(super) fn short(&self, key: &str) -> String {
-        let keys: Vec<&str> = self.row_key().into_iter().chain([self.along.key.as_str()]).collect();
-        let place = keys.iter().position(|known| *known == key);
-        place.and_then(|place| short_keys(&keys).into_iter().nth(place)).unwrap_or_else(|| key.to_owned())
+    /// The short names of the keys that are varied.
+    pub(super) fn short_keys(&self) -> ShortKeys {
+        ShortKeys::of(&self.row_key().into_iter().chain([self.along.key.as_str()]).collect::<Vec<_>>())
     }
 
     /// The overrides of a scene of the map.
@@ -280,10 +274,11 @@ impl Request {
         Ok(found)
     }
 
-    /// What tells this map from others.
+    /// What tells this map from others: its scenes, and what is right.
     pub(super) fn id(&self) -> Id {
         let all = (0..self.row_count()).flat_map(|row| self.along.values.iter().map(move |value| (row, *value)));
-        Id::of_sweep(all.filter_map(|(row, value)| self.scene(row, value).ok()).map(|scene| Id::of_run(&scene)))
+        let scenes = all.filter_map(|(row, value)| self.scene(row, value).ok());
+        Id::of_study(scenes.map(|scene| Id::of_run(&scene)), &self.arguments)
     }
 }
 
@@ -292,7 +287,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn request(vary: &[&str]) -> Result<Request, StabilityError> {
+    fn request(vary: &[&str]) -> Result<Request, StudyError> {
         let vary: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
         Request::load("dpd-fluid", &["space.box=[6,6,6]".to_owned()], &vary)
     }

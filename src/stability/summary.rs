@@ -2,14 +2,14 @@
 
 use super::bounds::Bound;
 use super::cell::Cell;
-use super::error::StabilityError;
 use super::files;
 use super::range::Spacing;
 use super::request::{Arguments, Request};
+use super::run::Bisecting;
 use super::verdict::Verdict;
+use crate::output::Id;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Id, OutputError, write_atomically};
-use crate::sweep::Setting;
+use crate::study::{self, Kind, Record, Setting, StudyError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -113,8 +113,29 @@ impl Row {
 }
 
 impl StabilitySummary {
-    /// Before anything was run.
-    pub(super) fn before(request: &Request) -> Self {
+    /// The largest error of what is right.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.arguments.tolerance
+    }
+
+    /// Reads the summary in the directory of a map.
+    ///
+    /// # Errors
+    /// [`StudyError::Nothing`] when there is none, [`StudyError::Output`] when it cannot be read or is no summary.
+    pub fn load(directory: &Path) -> Result<Self, StudyError> {
+        study::load(directory)
+    }
+}
+
+impl Record for StabilitySummary {
+    type Request = Request;
+    type Ended = Cell;
+    type Phase = Bisecting;
+
+    const KIND: &'static Kind = &files::KIND;
+
+    fn before(request: &Request) -> Self {
         let row = |row: usize| Row {
             label: request.row_label(row),
             setting: request.setting(row),
@@ -135,44 +156,28 @@ impl StabilitySummary {
         }
     }
 
-    /// The largest error of what is right.
-    #[must_use]
-    pub fn tolerance(&self) -> f64 {
-        self.arguments.tolerance
+    fn request(&self) -> Result<Request, StudyError> {
+        Request::new(self.arguments.clone())
     }
 
-    /// Whether it is one of a request.
-    pub(super) fn is_of(&self, request: &Request) -> bool {
-        self.stability_id == request.id()
-            && self.rows.len() == request.row_count()
-            && self.measures == request.measures()
+    fn misfits(&self, request: &Request) -> Vec<&'static str> {
+        let misfits = [
+            (
+                !self.is_of_this_version() || self.stability_id == request.id(),
+                "asks for something else than what its id stands for",
+            ),
+            (self.rows.len() == request.row_count(), "has other rows than those that it asks for"),
+            (self.measures == request.measures(), "compares other measures than those that it asks for"),
+        ];
+        misfits.into_iter().filter(|(fits, _)| !fits).map(|(_, reason)| reason).collect()
     }
 
-    pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {
-        let path = directory.join(files::SUMMARY);
-        let text =
-            serde_json::to_string_pretty(self).map_err(|source| OutputError::Json { path: path.clone(), source })?;
-        write_atomically(&path, |writer| writeln!(writer, "{text}"))
+    fn version(&self) -> &str {
+        &self.mesoscope_version
     }
 
-    /// Reads the summary in the directory of a map.
-    ///
-    /// # Errors
-    /// [`StabilityError::NoMap`] when there is none, [`StabilityError::Output`] when it cannot be read or is no summary.
-    pub fn load(directory: &Path) -> Result<Self, StabilityError> {
-        let path = directory.join(files::SUMMARY);
-        let text = match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Err(StabilityError::NoMap { path: directory.to_path_buf() });
-            }
-            read => read.map_err(OutputError::io("read", &path))?,
-        };
-        let summary = serde_json::from_slice(&text).map_err(|error| OutputError::Line {
-            path,
-            line: error.line() as u64,
-            problem: error.to_string(),
-        })?;
-        Ok(summary)
+    fn id(&self) -> Id {
+        self.stability_id
     }
 }
 

@@ -3,8 +3,8 @@
 use super::cell::Cell;
 use super::files;
 use super::summary::{Row, StabilitySummary};
-use crate::numbers::push_exact;
-use crate::output::{OutputError, quoted, write_atomically};
+use crate::output::{OutputError, write_atomically};
+use crate::study::table::{line, number, plain};
 use std::path::Path;
 
 pub(super) fn write(directory: &Path, summary: &StabilitySummary) -> Result<(), OutputError> {
@@ -30,11 +30,7 @@ fn text(summary: &StabilitySummary) -> String {
 }
 
 fn cells(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<String> {
-    let setting = row
-        .setting
-        .as_ref()
-        .map(|setting| setting.value.as_str().map_or_else(|| setting.value.to_string(), str::to_owned));
-    let mut cells: Vec<String> = setting.into_iter().collect();
+    let mut cells: Vec<String> = row.setting.iter().map(|setting| plain(&setting.value)).collect();
     cells.extend([
         number(Some(cell.value)),
         cell.verdict.name().to_owned(),
@@ -49,15 +45,4 @@ fn cells(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<String> {
     }
     cells.push(cell.reason.clone().unwrap_or_default().replace('\n', "; "));
     cells
-}
-
-fn number(value: Option<f64>) -> String {
-    let mut text = Vec::new();
-    push_exact(&mut text, value.unwrap_or(f64::NAN));
-    String::from_utf8(text).unwrap_or_default()
-}
-
-fn line(cells: &[String]) -> String {
-    let cells: Vec<String> = cells.iter().map(|cell| quoted(cell).into_owned()).collect();
-    format!("{}\n", cells.join(","))
 }

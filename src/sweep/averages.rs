@@ -1,10 +1,9 @@
 //! Averages over the seed: variants that differ in nothing else are samples of one.
 
-use super::naming;
 use super::observables::{Observable, observables};
 use super::variant::{VariantState, VariantSummary};
-use super::variation::Setting;
 use crate::measure::statistics::Estimate;
+use crate::study::{Setting, ShortKeys};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -90,11 +89,6 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
     several
         .map(|group| {
             let seeds = group.finished.len();
-            let keys: Vec<&str> = group.settings.iter().map(|setting| setting.key.as_str()).collect();
-            let short = naming::short_keys(&keys);
-            let short = |key: &str| {
-                keys.iter().position(|known| *known == key).map_or_else(|| key.to_owned(), |index| short[index].clone())
-            };
             let settings: Vec<Setting> = group.settings.iter().map(|setting| (*setting).clone()).collect();
             let observables = group.observables();
             let spoilt = observables.iter().filter(|observable| observable.unequilibrated);
@@ -110,7 +104,8 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
                 // Plain numbers and nothing else: this conversion cannot fail.
                 (name, serde_json::to_value(estimate).unwrap_or_default())
             });
-            let label = if settings.is_empty() { "all".to_owned() } else { naming::label(&settings, short) };
+            let label =
+                if settings.is_empty() { "all".to_owned() } else { ShortKeys::of_settings(&settings).label(&settings) };
             SeedAverage { label, settings, seeds, means: means.collect(), unequilibrated }
         })
         .collect()

@@ -1,5 +1,18 @@
 //! The names of the files in the directory of a sweep, in addition to the directories of its variants.
 
+use crate::study::{self, Kind};
+
+/// What messages say of sweeps.
+pub(super) const KIND: Kind = Kind {
+    command: "sweep",
+    noun: "sweep",
+    summary: SUMMARY,
+    again: "run the sweep again",
+    resumed: "finishes the sweep",
+    shortened: "shorten them with --steps",
+    has_file: is_of_a_sweep,
+};
+
 /// The table: a row for every variant.
 pub const TABLE: &str = "sweep.csv";
 /// The summary: what was varied and what came out.
@@ -26,7 +39,7 @@ pub fn means(number: usize) -> String {
 /// ```
 #[must_use]
 pub fn plot(quantity: &str) -> String {
-    format!("sweep-{quantity}.png")
+    study::plot(KIND.command, quantity)
 }
 
 /// Whether a sweep may have written a file of this name.
@@ -39,8 +52,7 @@ pub fn plot(quantity: &str) -> String {
 /// ```
 #[must_use]
 pub fn is_of_a_sweep(name: &str) -> bool {
-    let is_plot = name.strip_prefix("sweep-").and_then(|rest| rest.strip_suffix(".png")).is_some_and(|q| !q.is_empty());
-    [TABLE, SUMMARY, AVERAGES].contains(&name) || is_plot
+    [TABLE, SUMMARY, AVERAGES].contains(&name) || study::is_plot(KIND.command, name)
 }
 
 #[cfg(test)]

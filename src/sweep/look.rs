@@ -1,9 +1,8 @@
 //! What the plots of a sweep show.
 
-use super::error::SweepError;
-use super::expansion::Sweep;
 use crate::families::Model;
 use crate::run;
+use crate::study::{StudyError, Sweep};
 use serde::{Deserialize, Serialize};
 
 /// What the plots of a sweep show.
@@ -19,8 +18,8 @@ impl Look {
     /// Looks for quantities that no variant measures.
     ///
     /// # Errors
-    /// [`SweepError::Quantity`] names the first.
-    pub(super) fn check(&self, sweep: &Sweep) -> Result<(), SweepError> {
+    /// [`StudyError::Arguments`] names the first.
+    pub(super) fn check(&self, sweep: &Sweep) -> Result<(), StudyError> {
         let mut accepted: Vec<String> = Vec::new();
         for variant in sweep.variants() {
             for quantity in run::quantities(&Model::new(&variant.scene)) {
@@ -30,7 +29,10 @@ impl Look {
             }
         }
         match self.quantities.iter().find(|wanted| !accepted.contains(wanted)) {
-            Some(wanted) => Err(SweepError::Quantity { wanted: wanted.clone(), accepted }),
+            Some(wanted) => Err(StudyError::mistake(format!(
+                "there is no quantity `{wanted}` to plot; accepted: {}",
+                accepted.join(", ")
+            ))),
             None => Ok(()),
         }
     }

@@ -1,13 +1,11 @@
 //! Means against what is varied: one panel a quantity, with errors.
 
 use super::averages::{Group, SEED, groups};
-use super::expansion::Sweep;
 use super::look::Look;
-use super::naming::{readable, short_keys};
 use super::observables::Observable;
 use super::summary::SweepSummary;
-use super::variation::Setting;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
+use crate::study::{Setting, ShortKeys, Sweep, Variation, readable};
 use serde_json::Value;
 
 /// Panels of one picture.
@@ -88,21 +86,22 @@ impl<'a> MeansAxis<'a> {
     fn of(sweep: &'a Sweep) -> Option<Self> {
         let varied = || sweep.variations().iter().filter(|varied| varied.key != SEED && varied.values.len() > 1);
         let numbers = |values: &[Value]| values.iter().all(Value::is_number);
-        let most = |varied: &&super::Variation| (numbers(&varied.values), varied.values.len());
+        let most = |varied: &&Variation| (numbers(&varied.values), varied.values.len());
         // Of equals the first.
         let chosen = varied().rev().max_by_key(most)?;
-        let label = short_keys(&[&chosen.key]).remove(0);
+        let short = ShortKeys::of(&[&chosen.key]);
+        let label = short.short(&chosen.key);
         let places: Vec<f64> = if numbers(&chosen.values) {
             chosen.values.iter().filter_map(Value::as_f64).collect()
         } else {
             (0..chosen.values.len()).map(|place| place as f64).collect()
         };
         let axis = if !numbers(&chosen.values) {
-            Axis::categories(&label, chosen.values.iter().map(readable).collect())
+            Axis::categories(label, chosen.values.iter().map(readable).collect())
         } else if is_geometric(&places) {
-            Axis::log(&label)
+            Axis::log(label)
         } else {
-            Axis::linear(&label)
+            Axis::linear(label)
         };
         Some(Self { key: &chosen.key, axis, values: &chosen.values, places })
     }
@@ -129,7 +128,7 @@ impl<'a> MeansAxis<'a> {
                 .filter(|setting| setting.key != self.key)
                 .map(|setting| (*setting).clone())
                 .collect();
-            let name = name(&others);
+            let name = if others.is_empty() { String::new() } else { ShortKeys::of_settings(&others).label(&others) };
             let Some(place) = self.place(&group.settings) else {
                 panel = panel.with_reference(&name, observable.value);
                 continue;
@@ -157,14 +156,6 @@ impl<'a> MeansAxis<'a> {
     }
 }
 
-/// What a legend says of settings: `step = 0.02`.
-fn name(settings: &[Setting]) -> String {
-    let keys: Vec<&str> = settings.iter().map(|setting| setting.key.as_str()).collect();
-    let short = short_keys(&keys);
-    let parts = settings.iter().zip(short).map(|(setting, key)| format!("{key} = {}", readable(&setting.value)));
-    parts.collect::<Vec<_>>().join(", ")
-}
-
 /// Whether numbers lie more evenly by their ratios than by their differences, over a factor of at least ten.
 fn is_geometric(values: &[f64]) -> bool {
     let mut sorted = values.to_vec();
@@ -188,13 +179,14 @@ mod tests {
     use super::super::variant::VariantState;
     use super::*;
     use crate::plot::Scale;
+    use crate::study::Record;
     use serde_json::json;
 
     /// The charts of a sweep whose variants are finished, with the temperature that a function gives for their number.
     fn drawn(vary: &[&str], also: &[&str], temperature: impl Fn(usize) -> f64) -> Vec<Chart> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
         let sweep = Sweep::load("dpd-fluid", &[], None, &owned(vary), &owned(also)).unwrap();
-        let mut summary = SweepSummary::new(&sweep, Look::default());
+        let mut summary = SweepSummary::before(&sweep);
         for (number, variant) in summary.variants.iter_mut().enumerate() {
             variant.state = VariantState::Finished;
             let value = json!({"mean": temperature(number), "standard_error": 0.125});
@@ -235,7 +227,7 @@ mod tests {
     #[test]
     fn means_with_the_way_to_equilibrium_are_marked() {
         let sweep = Sweep::load("dpd-fluid", &[], None, &["temperature=1,2".to_owned()], &[]).unwrap();
-        let mut summary = SweepSummary::new(&sweep, Look::default());
+        let mut summary = SweepSummary::before(&sweep);
         for (number, variant) in summary.variants.iter_mut().enumerate() {
             variant.state = VariantState::Finished;
             let value = json!({"mean": number, "standard_error": 0.125});

@@ -19,8 +19,8 @@
 //! let vary = ["interactions.0.friction=1,4.5".to_owned()];
 //! let asked = Sweep::load("dpd-fluid", &small, None, &vary, &[])?;
 //! let look = Look { quantities: vec!["temperature".to_owned()], ..Look::default() };
-//! let run = SweepRun::start(asked, &results, look, false);
-//! let outcome = run.execute(&AdapterChoice::Best, None, &mut |_| {})?;
+//! let run = SweepRun::start(asked, &results, false).with_look(look);
+//! let outcome = run.execute(&AdapterChoice::Best, &mut |_| {})?;
 //! for variant in &outcome.summary.variants {
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
 //! }
@@ -31,33 +31,21 @@
 //! ```
 
 mod averages;
-mod concurrency;
-mod directory;
-mod error;
-mod expansion;
 pub mod files;
 mod look;
 mod means_chart;
-mod naming;
 mod observables;
 mod plots;
 mod run;
 mod summary;
 mod table;
 mod variant;
-mod variation;
 
+pub use crate::study::{Setting, Sweep, Variant, Variation};
 pub use averages::SeedAverage;
-pub use concurrency::default_jobs;
-pub(crate) use directory::is_plain;
-pub use error::{Mistake, SweepError};
-pub use expansion::{Sweep, Variant};
 pub use look::Look;
-pub(crate) use naming::{readable, short_keys};
 pub(crate) use observables::numbers_of;
 pub use plots::redraw;
-pub use run::{SweepEvent, SweepOutcome, SweepRun};
+pub use run::{SweepOutcome, SweepRun};
 pub use summary::SweepSummary;
 pub use variant::{VariantState, VariantSummary};
-pub(crate) use variation::settings;
-pub use variation::{Setting, Variation};

@@ -1,16 +1,15 @@
 //! One plot of all variants for every quantity.
 
-use super::error::SweepError;
-use super::expansion::{Sweep, Variant};
 use super::files;
 use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::output::{RunDirectory, Summary, files as run_files};
-use crate::plot::{Curve, Plotter, SeriesInk, overlay_chart};
+use crate::plot::{Chart, Curve, SeriesInk, overlay_chart};
 use crate::run;
 use crate::scene::{self, PlotStyle};
+use crate::study::{self, Setting, StudyError, Sweep, Variant};
 use crate::table::Table;
 use serde_json::Value;
 use std::path::Path;
@@ -22,28 +21,21 @@ const FEW: usize = 5;
 /// (`output.plot.width=800`). Returns the names of the files written.
 ///
 /// # Errors
-/// [`SweepError`] when there is no sweep in the directory, an override does not fit, or a plot cannot be drawn.
-pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, SweepError> {
-    let summary = SweepSummary::load(directory)?;
-    let directory = RunDirectory::claim(directory)?;
-    let sweep = summary.sweep(directory.path())?;
-    directory.check_pictures(summary.sweep_id, files::SUMMARY, files::is_of_a_sweep)?;
+/// [`StudyError`] when there is no sweep in the directory, an override does not fit, or a plot cannot be drawn.
+pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
+    let (summary, sweep, directory) = study::reopen::<SweepSummary>(directory)?;
     let mut style = style(&sweep);
     if !overrides.is_empty() {
         let overrides = [summary.set.as_slice(), &first_settings(&sweep), overrides].concat();
         let scene = scene::parse_for(&summary.scene, &summary.base.to_string(), &overrides, summary.steps);
-        style = scene.map_err(SweepError::Scene)?.0.output.plot;
+        style = scene.map_err(StudyError::Scene)?.0.output.plot;
     }
     let gpu = Gpu::open(choice, Requirements::default())?;
     draw(&directory, &sweep, &summary, &style, &gpu, &|| Ok(()))
 }
 
 fn first_settings(sweep: &Sweep) -> Vec<String> {
-    sweep
-        .variants()
-        .first()
-        .map(|variant| variant.settings.iter().map(super::Setting::argument).collect())
-        .unwrap_or_default()
+    sweep.variants().first().map(|variant| variant.settings.iter().map(Setting::argument).collect()).unwrap_or_default()
 }
 
 /// The look of the plots: that of the first variant.
@@ -58,8 +50,8 @@ pub(super) fn draw(
     summary: &SweepSummary,
     style: &PlotStyle,
     gpu: &Gpu,
-    proceed: &dyn Fn() -> Result<(), SweepError>,
-) -> Result<Vec<String>, SweepError> {
+    proceed: &dyn Fn() -> Result<(), StudyError>,
+) -> Result<Vec<String>, StudyError> {
     let mut finished: Vec<(&Variant, Table)> = Vec::new();
     for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
         if ended.state == VariantState::Finished {
@@ -79,16 +71,7 @@ pub(super) fn draw(
         }
     }
     let inks = inks(sweep);
-    let plotter = Plotter::new(gpu.device(), gpu.queue());
-    let plotter = plotter.map_err(|source| run::RunError::Plot { name: files::plot("*"), source })?;
-    let mut written = Vec::new();
-    for (number, chart) in (1..).zip(means_chart::charts(sweep, summary, look)) {
-        let name = files::means(number);
-        run::save(place, &name, summary.sweep_id, plotter.draw_chart(&chart, style))?;
-        written.push(name);
-    }
-    for quantity in quantities {
-        proceed()?;
+    let of_quantity = |quantity: &str| -> Option<(String, Chart)> {
         let mut curves: Vec<Curve> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {
@@ -100,19 +83,19 @@ pub(super) fn draw(
             curves.push(Curve { name: variant.label.clone(), points, ink: inks[index] });
         }
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
-            continue;
+            return None;
         }
         let title = finished.first().map_or("", |(variant, _)| variant.scene.title.as_str());
         let mut subtitle = subtitle(sweep, summary);
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
         }
-        let chart = overlay_chart(title, &subtitle, quantity, look.relative, curves);
-        let name = files::plot(quantity);
-        run::save(place, &name, summary.sweep_id, plotter.draw_chart(&chart, style))?;
-        written.push(name);
-    }
-    Ok(written)
+        Some((files::plot(quantity), overlay_chart(title, &subtitle, quantity, look.relative, curves)))
+    };
+    let means =
+        (1..).zip(means_chart::charts(sweep, summary, look)).map(|(number, chart)| (files::means(number), chart));
+    let charts = means.chain(quantities.into_iter().filter_map(of_quantity));
+    study::draw(place, summary.sweep_id, gpu, style, charts, proceed)
 }
 
 /// What is varied, and what is not in the picture.

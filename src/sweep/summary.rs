@@ -1,16 +1,15 @@
 //! The summary of a sweep, `sweep.json`.
 
 use super::averages::{SeedAverage, averages};
-use super::error::SweepError;
-use super::expansion::Sweep;
 use super::files;
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
-use super::variation::{Setting, Variation};
 use crate::output::summary::AdapterSummary;
-use crate::output::{Id, OutputError, write_atomically};
+use crate::output::{Id, RunDirectory, Summary, files as run_files, of_one_run};
+use crate::study::{self, Kind, Record, Setting, StudyError, Sweep, Variant, Variation};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
+use std::convert::Infallible;
 use std::path::Path;
 
 /// What was varied, on what, and what came out of every variant.
@@ -45,25 +44,39 @@ pub struct SweepSummary {
 }
 
 impl SweepSummary {
-    /// The summary of a sweep before anything has run.
-    pub(super) fn new(sweep: &Sweep, look: Look) -> Self {
-        let waiting = |variant: &super::Variant| VariantSummary {
-            name: variant.name.clone(),
-            run_id: Id::of_run(&variant.scene),
-            label: variant.label.clone(),
-            settings: variant.settings.clone(),
-            state: VariantState::Waiting,
-            failure: None,
-            particles: 0,
-            steps: 0,
-            wall_seconds: 0.0,
-            particle_steps_per_second: 0.0,
-            means: Map::new(),
-            results: Map::new(),
-            unequilibrated: None,
-            warnings: Vec::new(),
-        };
-        let variants: Vec<VariantSummary> = sweep.variants().iter().map(waiting).collect();
+    /// Takes the means over the seed of all variants that are finished.
+    pub(super) fn average(&mut self) {
+        self.averages = averages(&self.variants);
+    }
+
+    /// Reads the summary in the directory of a sweep.
+    ///
+    /// # Errors
+    /// [`StudyError::Nothing`] when there is none, [`StudyError::Output`] when it cannot be read or is no summary.
+    pub fn load(directory: &Path) -> Result<Self, StudyError> {
+        study::load(directory)
+    }
+
+    /// Numbers of the variants that are not finished.
+    pub(super) fn waiting(&self) -> Vec<usize> {
+        let variants = self.variants.iter().enumerate();
+        variants.filter(|(_, variant)| variant.state != VariantState::Finished).map(|(number, _)| number).collect()
+    }
+
+    fn ids(&self) -> impl Iterator<Item = Id> {
+        self.variants.iter().map(|variant| variant.run_id)
+    }
+}
+
+impl Record for SweepSummary {
+    type Request = Sweep;
+    type Ended = VariantSummary;
+    type Phase = Infallible;
+
+    const KIND: &'static Kind = &files::KIND;
+
+    fn before(sweep: &Sweep) -> Self {
+        let variants: Vec<VariantSummary> = sweep.variants().iter().map(VariantSummary::before).collect();
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             sweep_id: Id::of_sweep(variants.iter().map(|variant| variant.run_id)),
@@ -73,71 +86,68 @@ impl SweepSummary {
             also: sweep.also.clone(),
             set: sweep.set.clone(),
             steps: sweep.steps,
-            plots: look,
+            plots: Look::default(),
             variants,
             averages: Vec::new(),
             base: sweep.base.clone(),
         }
     }
 
-    /// Takes the means over the seed of all variants that are finished.
-    pub(super) fn average(&mut self) {
-        self.averages = averages(&self.variants);
-    }
-
-    /// Writes the summary into the directory of the sweep.
-    pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {
-        let path = directory.join(files::SUMMARY);
-        let text =
-            serde_json::to_string_pretty(self).map_err(|source| OutputError::Json { path: path.clone(), source })?;
-        write_atomically(&path, |writer| writeln!(writer, "{text}"))
-    }
-
-    /// Reads the summary in the directory of a sweep.
-    ///
-    /// # Errors
-    /// [`SweepError::NoSweep`] when there is none, [`SweepError::Output`] when it cannot be read or is no summary.
-    pub fn load(directory: &Path) -> Result<Self, SweepError> {
-        let path = directory.join(files::SUMMARY);
-        let text = match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Err(SweepError::NoSweep { path: directory.to_path_buf() });
-            }
-            read => read.map_err(|source| OutputError::Io { attempted: "read", path: path.clone(), source })?,
-        };
-        serde_json::from_slice(&text).map_err(|error| {
-            let problem = format!("this is no summary of a sweep ({error}); run the sweep again with --force");
-            let line = error.line() as u64;
-            SweepError::Output(OutputError::Line { path, line, problem })
-        })
-    }
-
-    /// The sweep that this is the summary of, if the ids of its runs are those in the summary.
-    ///
-    /// # Errors
-    /// [`SweepError::Changed`], and what [`Sweep::load`] gives rise to.
-    pub(super) fn sweep(&self, directory: &Path) -> Result<Sweep, SweepError> {
+    fn request(&self) -> Result<Sweep, StudyError> {
         let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
-        let sweep = Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())?;
-        let ids = |summary: &Self| summary.variants.iter().map(|variant| variant.run_id).collect::<Vec<_>>();
-        let expected = Self::new(&sweep, self.plots.clone());
-        // Another version may have keys in its scenes that change the ids.
-        let same_version = self.mesoscope_version == expected.mesoscope_version;
-        let same_names = self.variants.iter().map(|v| &v.name).eq(expected.variants.iter().map(|v| &v.name));
-        let same_ids = !same_version || ids(self) == ids(&expected);
-        if same_names && same_ids && self.sweep_id == Id::of_sweep(ids(self)) {
-            return Ok(sweep);
-        }
-        Err(SweepError::Changed { path: directory.join(files::SUMMARY) })
+        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())
     }
 
-    /// The summary of the same sweep before any of its variants was run.
-    pub(super) fn begun_again(self, sweep: &Sweep, look: Look) -> Self {
-        let mut new = Self::new(sweep, look);
-        (new.sweep_id, new.adapter) = (self.sweep_id, self.adapter);
-        for (variant, earlier) in new.variants.iter_mut().zip(&self.variants) {
-            variant.run_id = earlier.run_id;
+    fn misfits(&self, sweep: &Sweep) -> Vec<&'static str> {
+        let expected = Self::before(sweep);
+        let same_names = self.variants.iter().map(|v| &v.name).eq(expected.variants.iter().map(|v| &v.name));
+        let same_ids = !self.is_of_this_version() || self.ids().eq(expected.ids());
+        let fits = same_names && same_ids && self.sweep_id == Id::of_sweep(self.ids());
+        if fits { Vec::new() } else { vec!["describes other runs than those whose ids are in it"] }
+    }
+
+    fn version(&self) -> &str {
+        &self.mesoscope_version
+    }
+
+    fn id(&self) -> Id {
+        self.sweep_id
+    }
+
+    fn runs(&self) -> Vec<&str> {
+        self.variants.iter().map(|variant| variant.name.as_str()).collect()
+    }
+
+    /// The summary before any of the variants was run, but for those that are finished.
+    fn resumed(self, sweep: &Sweep, directory: &RunDirectory) -> Self {
+        let mut new = Self::before(sweep);
+        (new.sweep_id, new.adapter, new.plots) = (self.sweep_id, self.adapter, self.plots);
+        for ((entry, earlier), variant) in new.variants.iter_mut().zip(self.variants).zip(sweep.variants()) {
+            entry.run_id = earlier.run_id;
+            if let Some(run) = finished(&directory.file(&variant.name), variant, entry.run_id) {
+                entry.finish(&run);
+            }
         }
         new
     }
+
+    fn progress(&self) -> String {
+        let all = self.variants.len();
+        format!(" after {} of {all} variants", all - self.waiting().len())
+    }
+}
+
+/// The summary of the run of a variant, if it reached its last step and left all of its files.
+fn finished(directory: &Path, variant: &Variant, id: Id) -> Option<Summary> {
+    if !directory.is_dir() {
+        return None;
+    }
+    // A process that still writes there is not finished; what a killed one left half-written is removed.
+    let directory = RunDirectory::claim(directory).ok()?;
+    directory.check_run(id, files::SUMMARY).ok()?;
+    let reached_its_end = |summary: &Summary| {
+        summary.run_id == id && summary.steps >= variant.scene.time.steps && of_one_run(&summary.scene, &variant.scene)
+    };
+    let summary = Summary::load(&directory.file(run_files::SUMMARY)).ok().filter(reached_its_end)?;
+    summary.is_complete(&directory).then_some(summary)
 }

@@ -1,13 +1,12 @@
 //! The table of a sweep, `sweep.csv`: a row for every variant.
 
 use super::averages::{SEED, SeedAverage};
+use super::files;
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
-use super::variation::Setting;
-use super::{files, naming};
-use crate::numbers::push_exact;
-use crate::output::{OutputError, quoted, write_atomically};
-use serde_json::Value;
+use crate::output::{OutputError, write_atomically};
+use crate::study::Setting;
+use crate::study::table::{line, number, plain};
 use std::path::Path;
 
 /// Writes the table into the directory of the sweep, and that of averages over the seed where there are any; `keys` are those
@@ -36,7 +35,7 @@ fn text(summary: &SweepSummary, keys: &[&str]) -> String {
                 variant.wall_seconds,
                 variant.particle_steps_per_second,
             ] {
-                cells.push(if ended { number(value) } else { String::new() });
+                cells.push(number(ended.then_some(value)));
             }
             (cells, observables(variant))
         })
@@ -94,34 +93,14 @@ fn table(mut header: Vec<String>, rows: &[Row]) -> String {
         let mut cells = cells.clone();
         for (name, has_error) in &columns {
             let found = observables.iter().find(|known| known.name == *name);
-            cells.push(found.map(|found| number(found.value)).unwrap_or_default());
+            cells.push(number(found.map(|found| found.value)));
             if *has_error {
-                cells.push(found.and_then(|found| found.error).map(number).unwrap_or_default());
+                cells.push(number(found.and_then(|found| found.error)));
             }
         }
         lines.push(line(&cells));
     }
     lines.concat()
-}
-
-fn line(cells: &[String]) -> String {
-    let cells: Vec<_> = cells.iter().map(|cell| quoted(cell)).collect();
-    format!("{}\n", cells.join(","))
-}
-
-/// Text bare and all else as JSON.
-fn plain(value: &Value) -> String {
-    match value {
-        Value::String(_) => naming::readable(value),
-        other => other.to_string(),
-    }
-}
-
-fn number(value: f64) -> String {
-    let mut bytes = Vec::new();
-    push_exact(&mut bytes, value);
-    // Digits are ASCII.
-    String::from_utf8(bytes).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -130,7 +109,7 @@ mod tests {
     use super::super::variant::{VariantState, VariantSummary};
     use super::*;
     use crate::output::Id;
-    use serde_json::{Map, json};
+    use serde_json::{Map, Value, json};
 
     fn variant(name: &str, setting: Option<Value>, means: Value, results: Value) -> VariantSummary {
         let object = |value: Value| value.as_object().cloned().unwrap_or_default();

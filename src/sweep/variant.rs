@@ -1,10 +1,11 @@
 //! What came out of one variant of a sweep.
 
-use super::variation::Setting;
 use crate::output::summary::Unequilibrated;
 use crate::output::{Id, Summary};
+use crate::study::{Setting, Variant};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use std::fmt;
 
 /// What came out of one variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,6 +67,26 @@ impl VariantState {
 }
 
 impl VariantSummary {
+    /// Before it has run.
+    pub(super) fn before(variant: &Variant) -> Self {
+        Self {
+            name: variant.name.clone(),
+            run_id: Id::of_run(&variant.scene),
+            label: variant.label.clone(),
+            settings: variant.settings.clone(),
+            state: VariantState::Waiting,
+            failure: None,
+            particles: 0,
+            steps: 0,
+            wall_seconds: 0.0,
+            particle_steps_per_second: 0.0,
+            means: Map::new(),
+            results: Map::new(),
+            unequilibrated: None,
+            warnings: Vec::new(),
+        }
+    }
+
     /// Takes over what a finished run says.
     pub(super) fn finish(&mut self, run: &Summary) {
         self.state = VariantState::Finished;
@@ -84,5 +105,18 @@ impl VariantSummary {
     pub(super) fn fail(&mut self, message: String) {
         self.state = VariantState::Failed;
         self.failure = Some(message);
+    }
+}
+
+impl fmt::Display for VariantSummary {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.state {
+            VariantState::Waiting => formatter.write_str("waiting"),
+            VariantState::Finished => write!(formatter, "finished in {:.2} s", self.wall_seconds),
+            VariantState::Failed => {
+                let failure = self.failure.as_deref().unwrap_or_default();
+                write!(formatter, "failed: {}", failure.lines().next().unwrap_or_default())
+            }
+        }
     }
 }

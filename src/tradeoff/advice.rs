@@ -5,7 +5,7 @@ use super::reference::Source;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{short, with_error};
-use crate::sweep::Setting;
+use crate::study::Setting;
 use std::fmt::Write as _;
 
 /// Errors that the page names the cheapest choice for.
@@ -23,12 +23,6 @@ pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
 /// A duration in seconds or minutes.
 pub(super) fn duration(seconds: f64) -> String {
     if seconds < 120.0 { format!("{seconds:.0} s") } else { format!("{:.0} minutes", seconds / 60.0) }
-}
-
-/// A duration in hours or days.
-pub(crate) fn hours(seconds: f64) -> String {
-    let hours = seconds / 3600.0;
-    if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
 }
 
 /// What a measure is compared with.

@@ -1,19 +1,19 @@
 //! From what was measured to errors, Pareto fronts and verdicts.
 
 use super::deviation::Deviation;
-use super::error::TradeoffError;
 use super::reference::{self, Reference};
 use super::request::{FINER, Request};
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
 use super::{measures, pareto};
+use crate::study::StudyError;
 
 impl TradeoffSummary {
     /// References, errors and Pareto fronts.
     ///
     /// # Errors
-    /// [`TradeoffError::Arguments`] if a measure was asked for that no run has.
-    pub(super) fn assess(&mut self, request: &Request) -> Result<(), TradeoffError> {
+    /// [`StudyError::Arguments`] if a measure was asked for that no run has.
+    pub(super) fn assess(&mut self, request: &Request) -> Result<(), StudyError> {
         let summary = self;
         let arguments = &request.arguments;
         if summary.measures.is_empty() {
@@ -36,7 +36,7 @@ impl TradeoffSummary {
             let mistake = |measure| format!("no run measured `{measure}`");
             let mistakes: Vec<String> = summary.measures.iter().filter(lacks).map(mistake).collect();
             if !mistakes.is_empty() {
-                return Err(TradeoffError::Arguments { mistakes });
+                return Err(StudyError::Arguments { mistakes });
             }
         }
         let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());

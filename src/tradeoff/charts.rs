@@ -4,7 +4,7 @@ use super::deviation::Deviation;
 use super::request::Request;
 use super::summary::{Choice, TradeoffSummary};
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
-use crate::sweep::{Setting, readable, short_keys};
+use crate::study::{Setting, ShortKeys, readable};
 use serde_json::Value;
 
 /// A choice in the picture.
@@ -24,9 +24,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let point = |choice| {
         let choice: &Choice = choice;
         let (error, cost) = (choice.error(measure)?, choice.cost?);
-        // What is zero by chance lies at its uncertainty: a logarithm has no zero.
-        let size = if error.size() > 0.0 { error.size() } else { error.uncertainty.filter(|error| *error > 0.0)? };
-        let place = [cost.seconds_per_time, scale * size];
+        let place = [cost.seconds_per_time, scale * error.on_log_axis()?];
         Some(Point { choice, error, place, bar: scale * error.uncertainty.unwrap_or(0.0) })
     };
     let points: Vec<Point<'_>> = summary.choices.iter().filter_map(point).collect();
@@ -61,7 +59,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
         let series = series("dominated", &dominated, &groups).with_ink(SeriesInk::Faint);
         panel.series.push(series.with_labels(labels));
     }
-    panel.series.push(Series::line("Pareto front", front).with_ink(SeriesInk::Ink { pattern: 1 }));
+    panel.series.push(Series::compared("Pareto front", front));
     let target = summary.arguments.targets.iter().find(|target| target.measure == measure);
     if let Some(most) =
         target.map(|target| target.most(summary.reference(measure).map_or(0.0, |found| found.value), relative))
@@ -81,8 +79,7 @@ fn series(name: &str, points: &[&Point<'_>], groups: &Groups<'_>) -> Series {
 
 /// Choices that differ in one key of numbers alone are of one colour, and labelled by their numbers.
 struct Groups<'a> {
-    keys: Vec<&'a str>,
-    short: Vec<String>,
+    short: ShortKeys,
     /// The key whose values are the labels.
     labelled: Option<&'a str>,
 }
@@ -90,17 +87,16 @@ struct Groups<'a> {
 impl<'a> Groups<'a> {
     fn of(request: &'a Request) -> Self {
         let sweep = request.sweep();
-        let keys = sweep.keys();
-        let short = short_keys(&keys);
+        let short = ShortKeys::of(&sweep.keys());
         let varied = sweep.variations().iter().filter(|varied| varied.values.iter().all(Value::is_number));
         let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());
-        Self { keys, short, labelled }
+        Self { short, labelled }
     }
 
     fn in_words(&self, settings: &[Setting], wanted: impl Fn(&str) -> bool) -> String {
         let own = settings.iter().filter(|setting| wanted(&setting.key));
         let words = own.map(|setting| {
-            let key = self.keys.iter().position(|key| *key == setting.key).map_or("", |index| &self.short[index]);
+            let key = self.short.short(&setting.key);
             let value = readable(&setting.value);
             // A word says what it is of by itself.
             if setting.value.is_string() || setting.value.is_object() { value } else { format!("{key} {value}") }

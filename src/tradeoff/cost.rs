@@ -1,6 +1,5 @@
 //! What a step costs: all choices timed in turns, round by round, in one process.
 
-use super::error::TradeoffError;
 use crate::engine::{Engine, EngineError};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
@@ -8,6 +7,7 @@ use crate::plan::{Hardware, Options, Plan};
 use crate::run::{self, RunError};
 use crate::scene::Scene;
 use crate::state::State;
+use crate::study::StudyError;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -54,8 +54,8 @@ struct Runner<'a> {
 pub(super) fn measure(
     choices: &[Timed<'_>],
     adapter: &AdapterChoice,
-    proceed: &dyn Fn() -> Result<(), TradeoffError>,
-) -> Result<Vec<Option<Cost>>, TradeoffError> {
+    proceed: &dyn Fn() -> Result<(), StudyError>,
+) -> Result<Vec<Option<Cost>>, StudyError> {
     let plans = |hardware: Hardware| choices.iter().map(move |choice| steps_of(choice, hardware, Options::default()));
     let mut requirements = Requirements::default();
     for plan in plans(Hardware::default()) {
@@ -77,10 +77,7 @@ pub(super) fn measure(
         for index in order.into_iter().filter(|index| !ended[*index]).collect::<Vec<_>>() {
             proceed()?;
             let choice = &choices[index];
-            let wrong = |source: EngineError| TradeoffError::Run {
-                name: choice.name.to_owned(),
-                source: Box::new(source.into()),
-            };
+            let wrong = |source: EngineError| StudyError::of_run(choice.name, source);
             let mut runner = match runners[index].take() {
                 Some(runner) => runner,
                 None => match open(&gpu, choice, steps[index], &mut options[index]) {

@@ -51,6 +51,11 @@ impl Deviation {
         self.error.abs()
     }
 
+    /// Where it lies on a logarithmic axis, which has no zero: what is zero by chance lies at its uncertainty.
+    pub(crate) fn on_log_axis(&self) -> Option<f64> {
+        if self.size() > 0.0 { Some(self.size()) } else { self.uncertainty.filter(|error| *error > 0.0) }
+    }
+
     /// Whether the error may as well be zero: it is within two standard errors.
     #[must_use]
     pub fn is_within_noise(&self) -> bool {

@@ -1,10 +1,10 @@
 //! How far what a run draws is from that of a finer run, and from what is exact: fields on nodes, and the radial distribution function.
 
-use super::error::TradeoffError;
 use super::measures::Measured;
 use crate::families::{Model, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
 use crate::scene::{AnalysisId, FieldQuantity, Scene};
+use crate::study::StudyError;
 
 /// How the names of these measures end.
 pub(super) const DISTANCE: &str = "_distance";
@@ -15,7 +15,7 @@ type Array = (Vec<usize>, Vec<f64>);
 
 /// The distances of a run from a finer one at the same time, by name: √(Σ(a-b)²/Σ(b-⟨b⟩)²) for every field that both leave on common
 /// nodes, and √(Σ(g-g')²/n) for radial distributions on the same bins.
-pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<Measured>, TradeoffError> {
+pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let mut found = Vec::new();
     for field in run_files::FIELDS {
         let [own, other] = [run, finer].map(|place| place.file(&run_files::field(field, None, "npy")));
@@ -61,7 +61,7 @@ pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> impl Iterator<It
 
 /// The distances of the fields that a run has drawn from those of the steady flow that it starts with, measured as those from a
 /// finer run.
-pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, TradeoffError> {
+pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let model = Model::new(scene);
     let mut found = Vec::new();
     for field in drawn(scene, &model) {

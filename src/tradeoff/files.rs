@@ -1,5 +1,18 @@
 //! The names of the files in the directory of a tradeoff, in addition to the directories of its runs.
 
+use crate::study::{self, Kind};
+
+/// What messages say of tradeoffs.
+pub(super) const KIND: Kind = Kind {
+    command: "tradeoff",
+    noun: "tradeoff",
+    summary: SUMMARY,
+    again: "run the tradeoff again",
+    resumed: "goes on",
+    shortened: "--budget to shorten them",
+    has_file: is_of_a_tradeoff,
+};
+
 /// The table: a row for every choice.
 pub const TABLE: &str = "tradeoff.csv";
 /// The summary: what was asked, what every choice costs, and how far off it is.
@@ -14,7 +27,7 @@ pub const PAGE: &str = "tradeoff.md";
 /// ```
 #[must_use]
 pub fn plot(measure: &str) -> String {
-    format!("tradeoff-{measure}.png")
+    study::plot(KIND.command, measure)
 }
 
 /// Whether a tradeoff may have written a file of this name.
@@ -27,6 +40,5 @@ pub fn plot(measure: &str) -> String {
 /// ```
 #[must_use]
 pub fn is_of_a_tradeoff(name: &str) -> bool {
-    let measure = name.strip_prefix("tradeoff-").and_then(|rest| rest.strip_suffix(".png"));
-    [TABLE, SUMMARY, PAGE].contains(&name) || measure.is_some_and(|measure| !measure.is_empty())
+    [TABLE, SUMMARY, PAGE].contains(&name) || study::is_plot(KIND.command, name)
 }

@@ -1,11 +1,11 @@
 //! What is measured of a choice.
 
-use super::error::TradeoffError;
 use super::fields;
 use crate::families::{Model, column};
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
 use crate::scene::Scene;
+use crate::study::StudyError;
 use crate::sweep::numbers_of;
 use crate::table::Table;
 use serde::{Deserialize, Serialize};
@@ -36,11 +36,7 @@ pub struct Measured {
 }
 
 /// Everything that a finished run says by itself.
-pub(super) fn of_run(
-    summary: &Summary,
-    scene: &Scene,
-    directory: &RunDirectory,
-) -> Result<Vec<Measured>, TradeoffError> {
+pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let mut measured: Vec<Measured> = numbers_of(&summary.means, &summary.results)
         .into_iter()
         .filter(|(_, value, _)| value.is_finite())

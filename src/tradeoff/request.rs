@@ -1,6 +1,5 @@
 //! What a tradeoff is asked for.
 
-use super::error::TradeoffError;
 use super::length::Length;
 use super::reference::References;
 use super::target::Target;
@@ -8,7 +7,8 @@ use super::{fields, measures};
 use crate::families::Model;
 use crate::run;
 use crate::scene::{self, AnalysisId, Scene, nearest};
-use crate::sweep::{Setting, Sweep, Variation, settings};
+use crate::study::StudyError;
+use crate::study::{Setting, Sweep, Variation, settings};
 use serde::{Deserialize, Serialize};
 
 /// Keys that the length of the runs is made of, and that cannot be varied for that reason.
@@ -57,9 +57,9 @@ impl Request {
     /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does.
     ///
     /// # Errors
-    /// [`TradeoffError::Sweep`] or [`TradeoffError::Arguments`] with all mistakes at once.
-    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, TradeoffError> {
-        let (scene, text) = scene::read(source).map_err(crate::sweep::SweepError::Scene)?;
+    /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
+    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, StudyError> {
+        let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
             scene,
             text,
@@ -75,7 +75,7 @@ impl Request {
     }
 
     /// The request of a summary, or of a command line.
-    pub(super) fn new(arguments: Arguments) -> Result<Self, TradeoffError> {
+    pub(super) fn new(arguments: Arguments) -> Result<Self, StudyError> {
         let Arguments { scene, text, set, vary, also, .. } = &arguments;
         let mut mistakes = Vec::new();
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
@@ -87,16 +87,16 @@ impl Request {
             ));
         }
         if !mistakes.is_empty() {
-            return Err(TradeoffError::Arguments { mistakes });
+            return Err(StudyError::Arguments { mistakes });
         }
         let sweep = Sweep::of_text(scene, text, (set, None), vary, also)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
             mistakes.push(format!("`{FINER}` is the name of the run that references are taken from"));
         }
         if !mistakes.is_empty() {
-            return Err(TradeoffError::Arguments { mistakes });
+            return Err(StudyError::Arguments { mistakes });
         }
-        let base = scene::parse(scene, text, set).map_err(crate::sweep::SweepError::Scene)?;
+        let base = scene::parse(scene, text, set)?;
         Ok(Self { arguments, sweep, base })
     }
 
@@ -110,8 +110,8 @@ impl Request {
     /// The same with references that the user gives.
     ///
     /// # Errors
-    /// [`TradeoffError::Arguments`] names those of measures that no run has.
-    pub fn with_references(mut self, references: References) -> Result<Self, TradeoffError> {
+    /// [`StudyError::Arguments`] names those of measures that no run has.
+    pub fn with_references(mut self, references: References) -> Result<Self, StudyError> {
         self.check_names("--reference", references.measures())?;
         self.arguments.references = references;
         Ok(self)
@@ -120,8 +120,8 @@ impl Request {
     /// The same with targets, whose measures are assessed too.
     ///
     /// # Errors
-    /// [`TradeoffError::Arguments`] names those of measures that no run has.
-    pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, TradeoffError> {
+    /// [`StudyError::Arguments`] names those of measures that no run has.
+    pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, StudyError> {
         self.check_names("--target", targets.iter().map(|target| target.measure.as_str()))?;
         self.arguments.targets = targets;
         Ok(self)
@@ -130,8 +130,8 @@ impl Request {
     /// The same, which assesses these measures.
     ///
     /// # Errors
-    /// [`TradeoffError::Arguments`] names those that no run has.
-    pub fn with_measures(mut self, measures: &[String]) -> Result<Self, TradeoffError> {
+    /// [`StudyError::Arguments`] names those that no run has.
+    pub fn with_measures(mut self, measures: &[String]) -> Result<Self, StudyError> {
         self.check_names("--measure", measures.iter().map(String::as_str))?;
         for measure in measures {
             if !self.arguments.measures.contains(measure) {
@@ -145,10 +145,9 @@ impl Request {
     /// step.
     ///
     /// # Errors
-    /// [`TradeoffError::Arguments`] if they are not settings, [`TradeoffError::Variant`] if they make no scene.
-    pub fn with_finer(mut self, argument: &str) -> Result<Self, TradeoffError> {
-        let mistake =
-            |message: String| TradeoffError::Arguments { mistakes: vec![format!("`--finer {argument}`: {message}")] };
+    /// [`StudyError::Arguments`] if they are not settings, [`StudyError::Variants`] if they make no scene.
+    pub fn with_finer(mut self, argument: &str) -> Result<Self, StudyError> {
+        let mistake = |message: String| StudyError::mistake(format!("`--finer {argument}`: {message}"));
         for setting in settings(argument).map_err(mistake)? {
             if LENGTHS.contains(&setting.key.as_str()) {
                 return Err(mistake(format!("`{}` follows from the choices", setting.key)));
@@ -163,7 +162,7 @@ impl Request {
     }
 
     /// The scenes of the run that references are taken from, and of the one with twice its step that says how good they are.
-    pub(super) fn finer_scenes(&self) -> Result<[Scene; 2], TradeoffError> {
+    pub(super) fn finer_scenes(&self) -> Result<[Scene; 2], StudyError> {
         let smallest =
             self.sweep.variants().iter().map(|variant| variant.scene.time.step).fold(self.base.time.step, f64::min);
         let asked = self.arguments.finer.as_deref().map(settings).transpose().unwrap_or_default().unwrap_or_default();
@@ -172,7 +171,7 @@ impl Request {
         let scene = |name: &str, step: f64| {
             let set: Vec<String> = set.iter().cloned().chain([format!("time.step={step}")]).collect();
             scene::parse(&self.arguments.scene, &self.arguments.text, &set)
-                .map_err(|source| TradeoffError::Variant { variant: name.to_owned(), source })
+                .map_err(|source| StudyError::of_variant(name, &source))
         };
         let own = asked.iter().find(|_| sets_step).and_then(|_| {
             asked.iter().find(|setting| setting.key == "time.step").and_then(|setting| setting.value.as_f64())
@@ -211,7 +210,7 @@ impl Request {
     }
 
     /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
-    fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), TradeoffError> {
+    fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
         let columns = measures::names(&self.base);
         let drawn = fields::drawn(&self.base, &Model::new(&self.base));
         let analyses: Vec<&str> =
@@ -242,7 +241,7 @@ impl Request {
                 columns.join(", ")
             ));
         }
-        if mistakes.is_empty() { Ok(()) } else { Err(TradeoffError::Arguments { mistakes }) }
+        if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
     }
 }
 
@@ -251,7 +250,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn request(vary: &[&str]) -> Result<Request, TradeoffError> {
+    fn request(vary: &[&str]) -> Result<Request, StudyError> {
         let owned: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
         Request::load("dpd-fluid", &[], &owned, &[])
     }

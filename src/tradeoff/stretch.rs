@@ -1,7 +1,7 @@
 //! The same stretch of simulated time for every variant, whatever its time step.
 
-use super::error::TradeoffError;
 use crate::scene::{self, Scene, SceneError};
+use crate::study::StudyError;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -42,9 +42,9 @@ impl Stretch {
     /// A variant over this stretch, sampled at the same times as the scene as far as its step allows.
     ///
     /// # Errors
-    /// [`TradeoffError::Variant`] where that is no scene: a window of an analysis that does not fit, say.
-    pub(super) fn applied(&self, name: &str, variant: &Scene) -> Result<Scene, TradeoffError> {
-        let wrong = |source: SceneError| TradeoffError::Variant { variant: name.to_owned(), source };
+    /// [`StudyError::Variants`] where that is no scene: a window of an analysis that does not fit, say.
+    pub(super) fn applied(&self, name: &str, variant: &Scene) -> Result<Scene, StudyError> {
+        let wrong = |source: SceneError| StudyError::of_variant(name, &source);
         let mismatch = |error: serde_json::Error| {
             wrong(SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })
         };

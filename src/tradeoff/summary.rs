@@ -2,18 +2,19 @@
 
 use super::cost::Cost;
 use super::deviation::Deviation;
-use super::error::TradeoffError;
 use super::files;
 use super::measures::Measured;
 use super::reference::Reference;
 use super::request::{Arguments, COARSER, FINER, Request};
+use super::run::Phase;
 use super::stretch::Stretch;
 use super::target::Verdict;
+use crate::output::Id;
 use crate::output::summary::AdapterSummary;
-use crate::output::{Id, OutputError, write_atomically};
 use crate::scene;
-use crate::sweep::{Setting, Variant};
+use crate::study::{self, Kind, Record, Setting, StudyError, Variant};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::path::Path;
 
 /// What was asked, and what every choice costs and misses.
@@ -129,43 +130,20 @@ impl Choice {
     }
 }
 
-impl TradeoffSummary {
-    /// Before anything has run.
-    pub(super) fn before(request: &Request) -> Self {
-        let variants = request.sweep.variants();
-        let choice =
-            |variant: &Variant| Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step);
-        let reference = |name: &str| Choice::new(name, name, &[], 0.0);
-        Self {
-            mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
-            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
-            tradeoff_id: Id::of_sweep(variants.iter().map(|variant| Id::of_run(&variant.scene))),
-            adapter: None,
-            arguments: request.arguments.clone(),
-            stretch: Stretch::of(&request.base),
-            spent: 0.0,
-            is_long_enough: false,
-            extensions: 0,
-            is_short: false,
-            measures: Vec::new(),
-            references: Vec::new(),
-            physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
-            choices: variants.iter().map(choice).collect(),
-            finer: [FINER, COARSER].map(reference).to_vec(),
-            chosen: None,
+impl fmt::Display for Choice {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.state, &self.failure) {
+            (ChoiceState::Unstable, Some(failure)) => write!(formatter, "unstable: {failure}"),
+            _ => write!(formatter, "{} steps", self.steps),
         }
     }
+}
 
+impl TradeoffSummary {
     /// The reference of a measure.
     #[must_use]
     pub fn reference(&self, measure: &str) -> Option<&Reference> {
         self.references.iter().find(|reference| reference.measure == measure)
-    }
-
-    /// Whether its runs are those of a request.
-    pub(super) fn is_of(&self, request: &Request) -> bool {
-        let names = self.choices.iter().map(|choice| choice.name.as_str());
-        names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str())) && self.finer.len() == 2
     }
 
     /// The simulated time that means are taken over.
@@ -207,39 +185,93 @@ impl TradeoffSummary {
     /// The text of the scene with the settings of the choice that meets the targets, as JSON; none where no choice does.
     ///
     /// # Errors
-    /// [`TradeoffError::Variant`] if the scene cannot be read again.
-    pub fn chosen_scene(&self) -> Result<Option<String>, TradeoffError> {
+    /// [`StudyError::Scene`] if the scene cannot be read again.
+    pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
         let overrides = self.arguments.set.iter().cloned().chain(choice.settings.iter().map(Setting::argument));
-        let text = scene::with_overrides(&self.arguments.scene, &self.arguments.text, &overrides.collect::<Vec<_>>())
-            .map_err(|source| TradeoffError::Variant { variant: choice.name.clone(), source })?;
+        let text = scene::with_overrides(&self.arguments.scene, &self.arguments.text, &overrides.collect::<Vec<_>>())?;
         Ok(Some(text))
-    }
-
-    pub(super) fn save(&self, directory: &Path) -> Result<(), OutputError> {
-        let path = directory.join(files::SUMMARY);
-        let text =
-            serde_json::to_string_pretty(self).map_err(|source| OutputError::Json { path: path.clone(), source })?;
-        write_atomically(&path, |writer| writeln!(writer, "{text}"))
     }
 
     /// Reads the summary in the directory of a tradeoff.
     ///
     /// # Errors
-    /// [`TradeoffError::NoTradeoff`] when there is none, [`TradeoffError::Output`] when it cannot be read or is no summary.
-    pub fn load(directory: &Path) -> Result<Self, TradeoffError> {
-        let path = directory.join(files::SUMMARY);
-        let text = match std::fs::read(&path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                return Err(TradeoffError::NoTradeoff { path: directory.to_path_buf() });
-            }
-            read => read.map_err(OutputError::io("read", &path))?,
-        };
-        let summary = serde_json::from_slice(&text).map_err(|error| OutputError::Line {
-            path,
-            line: error.line() as u64,
-            problem: error.to_string(),
-        })?;
-        Ok(summary)
+    /// [`StudyError::Nothing`] when there is none, [`StudyError::Output`] when it cannot be read or is no summary.
+    pub fn load(directory: &Path) -> Result<Self, StudyError> {
+        study::load(directory)
+    }
+
+    fn id_of(request: &Request) -> Id {
+        let runs = request.sweep.variants().iter().map(|variant| Id::of_run(&variant.scene));
+        Id::of_study(runs, &request.arguments)
+    }
+}
+
+impl Record for TradeoffSummary {
+    type Request = Request;
+    type Ended = Choice;
+    type Phase = Phase;
+
+    const KIND: &'static Kind = &files::KIND;
+
+    fn before(request: &Request) -> Self {
+        let variants = request.sweep.variants();
+        let choice =
+            |variant: &Variant| Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step);
+        let reference = |name: &str| Choice::new(name, name, &[], 0.0);
+        Self {
+            mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
+            date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
+            tradeoff_id: Self::id_of(request),
+            adapter: None,
+            arguments: request.arguments.clone(),
+            stretch: Stretch::of(&request.base),
+            spent: 0.0,
+            is_long_enough: false,
+            extensions: 0,
+            is_short: false,
+            measures: Vec::new(),
+            references: Vec::new(),
+            physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
+            choices: variants.iter().map(choice).collect(),
+            finer: [FINER, COARSER].map(reference).to_vec(),
+            chosen: None,
+        }
+    }
+
+    fn request(&self) -> Result<Request, StudyError> {
+        Request::new(self.arguments.clone())
+    }
+
+    fn misfits(&self, request: &Request) -> Vec<&'static str> {
+        let Arguments { measures, references, targets, .. } = &request.arguments;
+        let mut asked = measures
+            .iter()
+            .map(String::as_str)
+            .chain(references.measures())
+            .chain(targets.iter().map(|target| target.measure.as_str()));
+        let same_id = !self.is_of_this_version() || self.tradeoff_id == Self::id_of(request);
+        let names = self.choices.iter().map(|choice| choice.name.as_str());
+        let same_runs =
+            names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str())) && self.finer.len() == 2;
+        let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
+        let misfits = [
+            (same_id, "asks for something else than what its id stands for"),
+            (same_runs, "has other runs than those that it asks for"),
+            (same_measures, "lacks measures that it asks for"),
+        ];
+        misfits.into_iter().filter(|(fits, _)| !fits).map(|(_, reason)| reason).collect()
+    }
+
+    fn version(&self) -> &str {
+        &self.mesoscope_version
+    }
+
+    fn id(&self) -> Id {
+        self.tradeoff_id
+    }
+
+    fn runs(&self) -> Vec<&str> {
+        self.choices.iter().chain(&self.finer).map(|run| run.name.as_str()).collect()
     }
 }

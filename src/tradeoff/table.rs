@@ -2,8 +2,8 @@
 
 use super::files;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
-use crate::numbers::push_exact;
-use crate::output::{OutputError, quoted, write_atomically};
+use crate::output::{OutputError, write_atomically};
+use crate::study::table::{line, number, plain};
 use std::path::Path;
 
 pub(super) fn write(directory: &Path, summary: &TradeoffSummary, keys: &[&str]) -> Result<(), OutputError> {
@@ -49,7 +49,7 @@ fn is_known_of_schemes(summary: &TradeoffSummary, measure: &str) -> bool {
 fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String> {
     let setting = |key: &&str| {
         let found = choice.settings.iter().find(|setting| setting.key == *key)?;
-        Some(found.value.as_str().map_or_else(|| found.value.to_string(), str::to_owned))
+        Some(plain(&found.value))
     };
     let mut cells = vec![choice.name.clone()];
     cells.extend(keys.iter().map(|key| setting(key).unwrap_or_default()));
@@ -80,16 +80,4 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String>
         cells.push(verdict.unwrap_or_default().to_owned());
     }
     cells
-}
-
-fn number(value: Option<f64>) -> String {
-    let mut text = Vec::new();
-    push_exact(&mut text, value.unwrap_or(f64::NAN));
-    String::from_utf8(text).unwrap_or_default()
-}
-
-fn line(cells: &[String]) -> String {
-    let mut text = cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
-    text.push('\n');
-    text
 }

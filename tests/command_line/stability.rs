@@ -5,7 +5,8 @@ use std::fs;
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
 use mesoscope::run::Interrupt;
-use mesoscope::stability::{Request, StabilityError, StabilityEvent, StabilityRun, StabilitySummary, Verdict, files};
+use mesoscope::stability::{Request, StabilityRun, StabilitySummary, Verdict, files};
+use mesoscope::study::{StudyError, StudyEvent};
 use serde_json::json;
 
 use crate::support::program::{Place, fails, listing, size, succeeds};
@@ -132,27 +133,26 @@ fn an_interrupted_map_goes_on() {
     let place = place();
     let request =
         || Request::load(&place.scene(), &[], &["time.step=0.05..0.4/4".to_owned()]).unwrap().with_bisections(1);
-    let whole = StabilityRun::start(request(), place.path("whole"), false);
-    let whole = whole.execute(&AdapterChoice::Best, Some(1), &mut |_| {}).unwrap();
+    let whole = StabilityRun::start(request(), place.path("whole"), false).with_jobs(Some(1));
+    let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let interrupt = Interrupt::default();
     let out = place.path("out");
-    let stopped = StabilityRun::start(request(), &out, false).until(&interrupt).execute(
+    let stopped = StabilityRun::start(request(), &out, false).with_jobs(Some(1)).until(&interrupt).execute(
         &AdapterChoice::Best,
-        Some(1),
         &mut |event| {
-            if let StabilityEvent::Ended { cell, .. } = event
-                && cell.value > 0.1
+            if let StudyEvent::Ended { ended, .. } = event
+                && ended.value > 0.1
             {
                 interrupt.ask();
             }
         },
     );
-    assert!(matches!(stopped, Err(StabilityError::Interrupted { .. })));
+    assert!(matches!(stopped, Err(StudyError::Interrupted { .. })));
     let before = StabilitySummary::load(&out).unwrap();
     assert!((1..4).contains(&before.rows[0].cells.len()));
     // A map that is not finished is in the way of another.
-    let again = StabilityRun::start(request(), &out, false).execute(&AdapterChoice::Best, Some(1), &mut |_| {});
-    assert!(matches!(again, Err(StabilityError::Output(OutputError::ResultExists { .. }))));
+    let again = StabilityRun::start(request(), &out, false).execute(&AdapterChoice::Best, &mut |_| {});
+    assert!(matches!(again, Err(StudyError::Output(OutputError::ResultExists { .. }))));
     let said = succeeds(&["stability", "--resume", &place.argument("out")]);
     assert!(said.contains("RIGHT: time.step UP TO"), "{said}");
     let after = StabilitySummary::load(&out).unwrap();
@@ -161,9 +161,19 @@ fn an_interrupted_map_goes_on() {
     assert!(tables[0] == tables[1]);
     // One that was changed is none of ours.
     let path = out.join(files::SUMMARY);
-    let text = fs::read_to_string(&path).unwrap().replace("\"time.step=0.05..0.4/4\"", "\"time.step=0.05..0.4/5\"");
-    fs::write(&path, text).unwrap();
-    fails(&["stability", "--resume", &place.argument("out")], 5, &["was changed"]);
+    let kept = fs::read_to_string(&path).unwrap();
+    let reference = r#""references": [{"measure": "temperature", "value": 2, "uncertainty": 0, "source": "given"}],"#;
+    for (old, new, part) in [
+        ("\"time.step=0.05..0.4/4\"", "\"time.step=0.05..0.4/5\"", "asks for something else"),
+        ("\"tolerance\": 0.05", "\"tolerance\": 0.5", "asks for something else"),
+        ("\"references\": [],", reference, "and it compares other measures"),
+        ("\"mesoscope_version\": \"", "\"mesoscope_version\": \"9", "later than this one"),
+    ] {
+        assert!(kept.contains(old), "{old}");
+        fs::write(&path, kept.replacen(old, new, 1)).unwrap();
+        let changed = if part.starts_with("later") { "was written by version" } else { "was changed" };
+        fails(&["stability", "--resume", &place.argument("out")], 5, &[changed, part]);
+    }
 }
 
 #[test]

@@ -6,9 +6,8 @@ use std::fs;
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::{files as run_files, read_table};
 use mesoscope::run::Interrupt;
-use mesoscope::tradeoff::{
-    ChoiceState, Length, Request, TradeoffError, TradeoffEvent, TradeoffRun, TradeoffSummary, Verdict, files,
-};
+use mesoscope::study::{StudyError, StudyEvent};
+use mesoscope::tradeoff::{ChoiceState, Length, Phase, Request, TradeoffRun, TradeoffSummary, Verdict, files};
 use serde_json::{Value, json};
 
 use crate::support::program::{Place, fails, listing, size, succeeds};
@@ -182,11 +181,11 @@ fn an_interrupted_tradeoff_goes_on() {
     let interrupt = Interrupt::default();
     let stopped = TradeoffRun::start(request(), place.path("parts"), false).until(&interrupt);
     let stopped = stopped.execute(&AdapterChoice::Best, &mut |event| {
-        if matches!(event, TradeoffEvent::Ended { .. }) {
+        if matches!(event, StudyEvent::Ended { .. }) {
             interrupt.ask();
         }
     });
-    assert!(matches!(stopped, Err(TradeoffError::Interrupted { .. })), "{stopped:?}");
+    assert!(matches!(stopped, Err(StudyError::Interrupted { .. })), "{stopped:?}");
     assert!(!place.path("parts").join(files::TABLE).exists());
     let parts = TradeoffRun::resume(place.path("parts")).unwrap();
     let parts = parts.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
@@ -195,6 +194,21 @@ fn an_interrupted_tradeoff_goes_on() {
         assert_eq!((one.steps, &one.measured), (other.steps, &other.measured), "{}", one.label);
     }
     assert_eq!(parts.summary.references, whole.summary.references);
+    // One that was changed is none of ours.
+    let path = place.path("parts").join(files::SUMMARY);
+    let kept = fs::read_to_string(&path).unwrap();
+    let reference = r#""references": [{"measure": "pressure", "value": 2, "uncertainty": 0, "source": "given"}],"#;
+    let target = r#""targets": [{"measure": "temperature", "amount": {"relative": 0.01}}],"#;
+    for (old, new, part) in [
+        ("\"references\": [],", reference, "asks for something else"),
+        ("\"targets\": [],", target, "and it lacks measures"),
+        ("\"error\": null", "\"error\": 0.5", "asks for something else"),
+        ("\"also\": []", "\"also\": [\"seed=7\"]", "and it has other runs"),
+    ] {
+        assert!(kept.contains(old), "{old}");
+        fs::write(&path, kept.replacen(old, new, 1)).unwrap();
+        fails(&["tradeoff", "--resume", &place.argument("parts")], 5, &["was changed", part]);
+    }
 }
 
 /// What the run of the small fluid has to become longer for: the mean of 40 rows, each of which scatters by 6 %, errs by .95 % at least, and
@@ -215,8 +229,8 @@ fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
     let mut factors = Vec::new();
     let whole = TradeoffRun::start(longer(&place), place.path("whole"), false);
     let whole = whole.execute(&AdapterChoice::Best, &mut |event| {
-        if let TradeoffEvent::Extended { factor, .. } = event {
-            factors.push(factor);
+        if let StudyEvent::Phase { phase: Phase::Extended { factor, .. }, .. } = event {
+            factors.push(*factor);
         }
     });
     let whole = whole.unwrap().summary;
@@ -236,13 +250,13 @@ fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
 
     let interrupt = Interrupt::default();
     let mut extended = false;
-    let stopped = TradeoffRun::start(longer(&place), place.path("parts"), false).until(&interrupt);
+    let stopped = TradeoffRun::start(longer(&place), place.path("parts"), false).with_jobs(Some(1)).until(&interrupt);
     let stopped = stopped.execute(&AdapterChoice::Best, &mut |event| match event {
-        TradeoffEvent::Extended { .. } => extended = true,
-        TradeoffEvent::Advanced { .. } if extended => interrupt.ask(),
+        StudyEvent::Phase { phase: Phase::Extended { .. }, .. } => extended = true,
+        StudyEvent::Advanced { .. } if extended => interrupt.ask(),
         _ => {}
     });
-    assert!(matches!(stopped, Err(TradeoffError::Interrupted { .. })), "{stopped:?}");
+    assert!(matches!(stopped, Err(StudyError::Interrupted { .. })), "{stopped:?}");
     let before = TradeoffSummary::load(&place.path("parts")).unwrap();
     assert_eq!(before.extensions, 1);
     assert!(before.choices.iter().any(|choice| choice.steps < whole.choices[0].steps), "nothing was left to do");

@@ -1,7 +1,7 @@
 //! From what is to be varied to checked variants.
 
-use super::error::{Mistake, SweepError};
-use super::naming;
+use super::error::{Mistake, StudyError};
+use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
 use crate::scene::{self, Scene, SceneError, Warning};
 use serde_json::Value;
@@ -13,15 +13,15 @@ const MOST_VARIANTS: usize = 4096;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     /// File or built-in name of the scene.
-    pub(super) scene: String,
+    pub(crate) scene: String,
     /// The scene as it was written.
-    pub(super) base: Value,
+    pub(crate) base: Value,
     /// Overrides that apply to all variants.
-    pub(super) set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// The number of steps of all variants that do not set it, to which what is longer is shortened.
-    pub(super) steps: Option<u64>,
-    pub(super) vary: Vec<Variation>,
-    pub(super) also: Vec<Vec<Setting>>,
+    pub(crate) steps: Option<u64>,
+    pub(crate) vary: Vec<Variation>,
+    pub(crate) also: Vec<Vec<Setting>>,
     variants: Vec<Variant>,
 }
 
@@ -40,7 +40,7 @@ pub struct Variant {
     /// What was shortened in it to suit the number of steps.
     pub notices: Vec<Warning>,
     /// Number of the value of each variation; empty for a variant that is none of the combinations.
-    pub(super) places: Vec<usize>,
+    pub(crate) places: Vec<usize>,
 }
 
 impl Sweep {
@@ -52,15 +52,15 @@ impl Sweep {
     /// so many, as [`scene::load_for`] does it.
     ///
     /// # Errors
-    /// [`SweepError::Arguments`] or [`SweepError::Variants`] with all mistakes at once; [`SweepError::Scene`] when there is no
+    /// [`StudyError::Arguments`] or [`StudyError::Variants`] with all mistakes at once; [`StudyError::Scene`] when there is no
     /// such scene.
     ///
     /// ```
-    /// use mesoscope::sweep::Sweep;
+    /// use mesoscope::study::Sweep;
     /// let vary = ["interactions.0.friction=1,4.5", "time.step=0.02,0.04"].map(str::to_owned);
     /// let sweep = Sweep::load("dpd-fluid", &[], None, &vary, &[])?;
     /// assert_eq!(sweep.variants()[1].name, "friction=1,step=0.04");
-    /// # Ok::<(), mesoscope::sweep::SweepError>(())
+    /// # Ok::<(), mesoscope::study::StudyError>(())
     /// ```
     pub fn load(
         source: &str,
@@ -68,8 +68,8 @@ impl Sweep {
         steps: Option<u64>,
         vary: &[String],
         also: &[String],
-    ) -> Result<Self, SweepError> {
-        let (name, text) = scene::read(source).map_err(SweepError::Scene)?;
+    ) -> Result<Self, StudyError> {
+        let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
         Self::of_text(&name, &text, (set, steps), vary, also)
     }
 
@@ -80,7 +80,7 @@ impl Sweep {
         (set, steps): (&[String], Option<u64>),
         vary: &[String],
         also: &[String],
-    ) -> Result<Self, SweepError> {
+    ) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
         let mut read = Vec::new();
         for argument in vary {
@@ -115,24 +115,24 @@ impl Sweep {
             mistakes.push(format!("there are more than {MOST_VARIANTS} combinations of values to vary"));
         }
         if !mistakes.is_empty() {
-            return Err(SweepError::Arguments { mistakes });
+            return Err(StudyError::Arguments { mistakes });
         }
         let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
             // The reader of scenes says what is wrong in better words.
-            return Err(scene::parse(name, text, set).err().map_or_else(unreadable, SweepError::Scene));
+            return Err(scene::parse(name, text, set).err().map_or_else(unreadable, StudyError::Scene));
         };
         let variants = expand(name, text, (set, steps), &read, &further)?;
         Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, variants })
     }
 
     /// The sweep of a summary.
-    pub(super) fn again(
+    pub(crate) fn again(
         scene: String,
         base: Value,
         (set, steps): (Vec<String>, Option<u64>),
         vary: Vec<Variation>,
         also: Vec<Vec<Setting>>,
-    ) -> Result<Self, SweepError> {
+    ) -> Result<Self, StudyError> {
         let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also)?;
         Ok(Self { scene, base, set, steps, vary, also, variants })
     }
@@ -155,8 +155,8 @@ impl Sweep {
     }
 }
 
-fn unreadable() -> SweepError {
-    SweepError::Arguments { mistakes: vec!["the scene is not JSON".to_owned()] }
+fn unreadable() -> StudyError {
+    StudyError::Arguments { mistakes: vec!["the scene is not JSON".to_owned()] }
 }
 
 fn keys<'a>(vary: &'a [Variation], also: &'a [Vec<Setting>]) -> Vec<&'a str> {
@@ -187,7 +187,7 @@ fn expand(
     (set, steps): (&[String], Option<u64>),
     vary: &[Variation],
     also: &[Vec<Setting>],
-) -> Result<Vec<Variant>, SweepError> {
+) -> Result<Vec<Variant>, StudyError> {
     let counts: Vec<usize> = vary.iter().map(|variation| variation.values.len()).collect();
     let combined = combinations(&counts).into_iter().map(|places| {
         let setting = |(variation, place): (&Variation, &usize)| Setting {
@@ -198,12 +198,8 @@ fn expand(
     });
     let further = also.iter().map(|settings| (settings.clone(), Vec::new()));
     let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(further).collect();
-    let keys = keys(vary, also);
-    let short_keys = naming::short_keys(&keys);
-    let short = |key: &str| {
-        keys.iter().position(|known| *known == key).map_or_else(|| key.to_owned(), |index| short_keys[index].clone())
-    };
-    let names = naming::distinct(all.iter().map(|(settings, _)| naming::directory(settings, short)).collect());
+    let short = ShortKeys::of(&keys(vary, also));
+    let names = naming::distinct(all.iter().map(|(settings, _)| naming::directory(settings, &short)).collect());
     let mut variants = Vec::new();
     let mut mistakes: Vec<Mistake> = Vec::new();
     for ((settings, places), variant) in all.into_iter().zip(names) {
@@ -218,10 +214,10 @@ fn expand(
                     mistakes.push(Mistake { variants: vec![variant], message });
                     continue;
                 }
-                let label = naming::label(&settings, short);
+                let label = short.label(&settings);
                 variants.push(Variant { name: variant, label, settings, scene, notices, places });
             }
-            Err(error @ SceneError::Read { .. }) => return Err(SweepError::Scene(error)),
+            Err(error @ SceneError::Read { .. }) => return Err(StudyError::Scene(error)),
             Err(error) => {
                 let message = error.to_string();
                 match mistakes.iter_mut().find(|known| known.message == message) {
@@ -231,7 +227,7 @@ fn expand(
             }
         }
     }
-    if mistakes.is_empty() { Ok(variants) } else { Err(SweepError::Variants { mistakes }) }
+    if mistakes.is_empty() { Ok(variants) } else { Err(StudyError::Variants { mistakes }) }
 }
 
 #[cfg(test)]
@@ -239,7 +235,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn sweep(vary: &[&str], also: &[&str]) -> Result<Sweep, SweepError> {
+    fn sweep(vary: &[&str], also: &[&str]) -> Result<Sweep, StudyError> {
         let owned = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
         Sweep::load("dpd-fluid", &owned(&["time.equilibration=0", "time.steps=100"]), None, &owned(vary), &owned(also))
     }
@@ -289,7 +285,7 @@ mod tests {
     #[test]
     fn all_mistakes_are_named_with_their_variants() {
         let error = sweep(&["interactions.0.friction=-1,4.5,-2", "time.step=0,.04"], &[]).unwrap_err();
-        let SweepError::Variants { mistakes } = &error else { unreachable!("{error}") };
+        let StudyError::Variants { mistakes } = &error else { unreachable!("{error}") };
         assert_eq!(mistakes.iter().map(|mistake| mistake.variants.len()).sum::<usize>(), 5);
         let text = error.to_string();
         for part in ["variant `friction=-1,step=0`: ", "`friction=4.5,step=0`", "found -2", "time.step: found 0"] {
@@ -314,6 +310,6 @@ mod tests {
         let many: Vec<String> = (0..70).map(|number| number.to_string()).collect();
         let many = [format!("seed={}", many.join(",")), format!("temperature={}", many.join(","))];
         assert!(sweep(&[&many[0], &many[1]], &[]).unwrap_err().to_string().contains("more than 4096"));
-        assert!(matches!(Sweep::load("no-such", &[], None, &["seed=1".to_owned()], &[]), Err(SweepError::Scene(_))));
+        assert!(matches!(Sweep::load("no-such", &[], None, &["seed=1".to_owned()], &[]), Err(StudyError::Scene(_))));
     }
 }

@@ -9,45 +9,57 @@ const UNCHANGED: &str = "unchanged";
 /// Longest name of a directory, in bytes; all common file systems take 255.
 const LONGEST: usize = 120;
 
-/// The shortest ends of paths that tell them apart: `friction` for `interactions.0.friction`. An end never begins with
-/// the index of a list.
-pub(crate) fn short_keys(keys: &[&str]) -> Vec<String> {
-    let end = |key: &str, length: usize| -> String {
-        let parts: Vec<&str> = key.split('.').collect();
-        let mut first = parts.len().saturating_sub(length);
-        while first > 0 && parts[first].parse::<u64>().is_ok() {
-            first -= 1;
-        }
-        parts[first..].join(".")
-    };
-    let short = |key: &&str| {
-        let unlike = |length: &usize| keys.iter().all(|other| other == key || end(other, *length) != end(key, *length));
-        let length = (1..=key.split('.').count()).find(unlike);
-        length.map_or_else(|| (*key).to_owned(), |length| end(key, length))
-    };
-    keys.iter().map(short).collect()
-}
+/// Keys that settings are made of, and the shortest ends of their paths that tell them apart: `friction` for
+/// `interactions.0.friction`. An end never begins with the index of a list.
+pub(crate) struct ShortKeys(Vec<(String, String)>);
 
-/// What a legend says of a variant: `friction = 4.5, step = 0.02`.
-pub(super) fn label(settings: &[Setting], short: impl Fn(&str) -> String) -> String {
-    if settings.is_empty() {
-        return UNCHANGED.to_owned();
+impl ShortKeys {
+    pub(crate) fn of(keys: &[&str]) -> Self {
+        let end = |key: &str, length: usize| -> String {
+            let parts: Vec<&str> = key.split('.').collect();
+            let mut first = parts.len().saturating_sub(length);
+            while first > 0 && parts[first].parse::<u64>().is_ok() {
+                first -= 1;
+            }
+            parts[first..].join(".")
+        };
+        let short = |key: &&str| {
+            let unlike =
+                |length: &usize| keys.iter().all(|other| other == key || end(other, *length) != end(key, *length));
+            let length = (1..=key.split('.').count()).find(unlike);
+            length.map_or_else(|| (*key).to_owned(), |length| end(key, length))
+        };
+        Self(keys.iter().map(|key| ((*key).to_owned(), short(key))).collect())
     }
-    let parts: Vec<String> =
-        settings.iter().map(|setting| format!("{} = {}", short(&setting.key), readable(&setting.value))).collect();
-    parts.join(", ")
+
+    /// Those of settings, among each other.
+    pub(crate) fn of_settings(settings: &[Setting]) -> Self {
+        Self::of(&settings.iter().map(|setting| setting.key.as_str()).collect::<Vec<_>>())
+    }
+
+    /// The short form of a key; a key that is not among them as it is.
+    pub(crate) fn short<'a>(&'a self, key: &'a str) -> &'a str {
+        self.0.iter().find(|(known, _)| known == key).map_or(key, |(_, short)| short)
+    }
+
+    /// What a legend says of a variant: `friction = 4.5, step = 0.02`.
+    pub(crate) fn label(&self, settings: &[Setting]) -> String {
+        if settings.is_empty() {
+            return UNCHANGED.to_owned();
+        }
+        let part = |setting: &Setting| format!("{} = {}", self.short(&setting.key), readable(&setting.value));
+        settings.iter().map(part).collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// The name of the directory of a variant: `friction=4.5,step=0.02`.
-pub(super) fn directory(settings: &[Setting], short: impl Fn(&str) -> String) -> String {
+pub(super) fn directory(settings: &[Setting], short: &ShortKeys) -> String {
     if settings.is_empty() {
         return UNCHANGED.to_owned();
     }
-    let parts: Vec<String> = settings
-        .iter()
-        .map(|setting| format!("{}={}", portable(&short(&setting.key)), portable(&readable(&setting.value))))
-        .collect();
-    let mut name = parts.join(",");
+    let part =
+        |setting: &Setting| format!("{}={}", portable(short.short(&setting.key)), portable(&readable(&setting.value)));
+    let mut name = settings.iter().map(part).collect::<Vec<_>>().join(",");
     // All of it is ASCII.
     name.truncate(LONGEST);
     name
@@ -103,10 +115,8 @@ mod tests {
     fn named(settings: &[(&str, Value)]) -> (String, String) {
         let settings: Vec<Setting> =
             settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
-        let keys: Vec<&str> = settings.iter().map(|setting| setting.key.as_str()).collect();
-        let short = short_keys(&keys);
-        let find = |key: &str| short[keys.iter().position(|known| *known == key).unwrap_or(0)].clone();
-        (directory(&settings, find), label(&settings, find))
+        let short = ShortKeys::of_settings(&settings);
+        (directory(&settings, &short), short.label(&settings))
     }
 
     fn pair(directory: &str, label: &str) -> (String, String) {
@@ -134,9 +144,14 @@ mod tests {
 
     #[test]
     fn keys_that_end_alike_say_more() {
+        let short = |keys: [&str; 3]| {
+            let found = ShortKeys::of(&keys);
+            keys.map(|key| found.short(key).to_owned())
+        };
         let keys = ["particles.0.mass", "particles.1.mass", "time.step"];
-        assert_eq!(short_keys(&keys), ["particles.0.mass", "particles.1.mass", "step"]);
-        assert_eq!(short_keys(&["a.b.every", "c.every", "every"]), ["b.every", "c.every", "every"]);
+        assert_eq!(short(keys), ["particles.0.mass", "particles.1.mass", "step"]);
+        assert_eq!(short(["a.b.every", "c.every", "every"]), ["b.every", "c.every", "every"]);
+        assert_eq!(ShortKeys::of(&keys).short("time.steps"), "time.steps");
     }
 
     #[test]

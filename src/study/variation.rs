@@ -37,7 +37,7 @@ impl Variation {
     /// What is wrong, in words.
     ///
     /// ```
-    /// use mesoscope::sweep::Variation;
+    /// use mesoscope::study::Variation;
     /// let boxes = Variation::parse("space.box=[5,5,5],[10,10,10]")?;
     /// assert_eq!((boxes.key.as_str(), boxes.values.len()), ("space.box", 2));
     /// # Ok::<(), String>(())

@@ -1,0 +1,116 @@
+//! Arguments of the commands of many runs, and how all of them run.
+
+use std::path::PathBuf;
+
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::output::OutputError;
+use mesoscope::study::{Observer, Record, StudyError, StudyRun};
+use mesoscope::tradeoff::References;
+
+use super::study_report::Reporter;
+use super::{Failure, RunArguments, interruption, report};
+
+/// Which scene, where to, and how.
+#[derive(Debug, clap::Args)]
+pub struct StudyArguments {
+    /// A scene file, or the name of a built-in scene (see `mesoscope scenes`)
+    #[arg(required_unless_present = "resume", conflicts_with = "resume")]
+    scene: Option<String>,
+
+    /// Change one value in all runs, as for `mesoscope run`; may be repeated
+    #[arg(long, value_name = "PATH=VALUE", conflicts_with = "resume")]
+    pub set: Vec<String>,
+
+    /// Runs at once [default: 2 on a software adapter where a step is short, as of fewer than 18,000 particles of a DPD fluid
+    /// or 280,000 of shallow water, which is 1.1 to 1.5 times as fast; otherwise 1]. Results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+
+    /// Directory for all results [default: the names of scene and command, `dpd-fluid-sweep`, in the working directory]
+    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    out: Option<PathBuf>,
+
+    /// Go on in this directory with what was interrupted, and draw its pictures again
+    #[arg(long, value_name = "DIR", conflicts_with = "force")]
+    resume: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub how: RunArguments,
+}
+
+/// Which variants, where every combination of values is one.
+#[derive(Debug, clap::Args)]
+pub struct VariantArguments {
+    /// A key of the scene and the values to try. Repeated, every combination is run. A value is JSON, or else text;
+    /// the path is as in `--set`
+    #[arg(long, value_name = "PATH=VALUE,…", required_unless_present = "resume", conflicts_with = "resume")]
+    pub vary: Vec<String>,
+
+    /// One more variant besides the combinations, with settings of its own; may be repeated
+    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
+    pub also: Vec<String>,
+}
+
+/// What is right, for commands whose time is estimated before they begin.
+#[derive(Debug, clap::Args)]
+pub struct ComparisonArguments {
+    /// What a measure should be, as in `pressure=23.635` or `pressure=23.635+-0.005`; may be repeated
+    #[arg(long, value_name = "MEASURE=VALUE", conflicts_with = "resume")]
+    reference: Vec<String>,
+
+    /// Run even if it takes more than eight hours
+    #[arg(long)]
+    pub yes: bool,
+}
+
+impl ComparisonArguments {
+    /// What measures should be, or all mistakes.
+    pub fn references(&self) -> Result<References, Vec<String>> {
+        References::parse(&self.reference)
+    }
+}
+
+impl StudyArguments {
+    /// The study in the directory to go on in, or else a new one of what is asked of a scene.
+    pub fn study<R: Record>(
+        &self,
+        request: impl FnOnce(&str) -> Result<R::Request, Failure>,
+    ) -> Result<StudyRun<R>, Failure> {
+        let study = if let Some(directory) = &self.resume {
+            StudyRun::resume(directory)?
+        } else {
+            // The scene is there, or the command line would have been refused.
+            let scene = self.scene.as_deref().unwrap_or_default();
+            let default = || format!("{}-{}", report::stem(scene), R::KIND.command).into();
+            StudyRun::start(request(scene)?, self.out.clone().unwrap_or_else(default), self.how.force)
+        };
+        Ok(study.with_jobs(self.jobs.map(usize::from)).until(&interruption::interrupt()))
+    }
+
+    /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
+    pub fn execute<R: Record, O>(
+        &self,
+        study: StudyRun<R>,
+        title: &str,
+        runs: impl Fn(usize) -> String,
+        execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
+    ) -> Result<O, Failure> {
+        let adapter = self.how.adapter.choice();
+        let executed = if self.how.quiet {
+            execute(study, &adapter, &mut |_| {})
+        } else {
+            let mut reporter = Reporter::new(title);
+            let executed = execute(study, &adapter, &mut |event| reporter.show(&event, &runs));
+            reporter.clear();
+            executed
+        };
+        executed.map_err(|error| match error {
+            StudyError::Output(OutputError::ResultExists { .. }) => {
+                let command = R::KIND.command;
+                let hint = format!("hint: `mesoscope {command} --resume DIR` goes on with an interrupted one");
+                Failure::input_output(format!("{error}\n{hint}"))
+            }
+            error => error.into(),
+        })
+    }
+}

@@ -1,0 +1,17 @@
+//! Points made of columns.
+
+/// Points of two columns.
+pub(super) fn pairs(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
+    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+}
+
+/// The outline of a histogram, from edge to edge of each bin at its height.
+pub(super) fn steps(bins: impl IntoIterator<Item = ([f64; 2], f64)>) -> Vec<[f64; 2]> {
+    bins.into_iter().flat_map(|(edges, height)| edges.map(|edge| [edge, height])).collect()
+}
+
+/// What values have changed by since the first.
+pub(super) fn since_first(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let first = points.first().map_or(f64::NAN, |point| point[1]);
+    points.iter().map(|[time, value]| [*time, value - first]).collect()
+}

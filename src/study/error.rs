@@ -1,0 +1,170 @@
+//! What can go wrong with a study as a whole.
+
+use super::kind::Kind;
+use crate::gpu::GpuError;
+use crate::output::OutputError;
+use crate::printable;
+use crate::run::RunError;
+use crate::scene::SceneError;
+use std::path::PathBuf;
+
+/// A failure of a study. A run that becomes unstable is one of its results.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// What is asked for is not said as it should be.
+    #[error("{}", mistakes.join("\n"))]
+    Arguments {
+        /// All mistakes.
+        mistakes: Vec<String>,
+    },
+    /// There is no such scene, or it is not accepted.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Variants whose scenes say something that is not accepted.
+    #[error("{}", list(mistakes))]
+    Variants {
+        /// All mistakes.
+        mistakes: Vec<Mistake>,
+    },
+    /// The directory holds no study of this kind.
+    #[error("there is no {} in `{}`: it has no {}", kind.noun, printable::path(path), kind.summary)]
+    Nothing {
+        /// What was looked for.
+        kind: &'static Kind,
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The summary does not fit what it says that it was asked for.
+    #[error(
+        "`{}` was changed: it {}; restore it, or {} with --force",
+        printable::path(path),
+        reasons.join(", and it "),
+        kind.again
+    )]
+    Changed {
+        /// What it is a summary of.
+        kind: &'static Kind,
+        /// The summary.
+        path: PathBuf,
+        /// What does not fit, each to be read after "it".
+        reasons: Vec<&'static str>,
+    },
+    /// The summary was written by a later version of the program.
+    #[error(
+        "`{}` was written by version {version}, which is later than this one, {}: go on with that version, or {} with --force",
+        printable::path(path),
+        env!("CARGO_PKG_VERSION"),
+        kind.again
+    )]
+    Later {
+        /// What it is a summary of.
+        kind: &'static Kind,
+        /// The summary.
+        path: PathBuf,
+        /// The version.
+        version: String,
+    },
+    /// It would take very long, and nobody said that it may.
+    #[error("all runs together would take about {expected}: pass --yes to run them, or {}", kind.shortened)]
+    Long {
+        /// What would take so long.
+        kind: &'static Kind,
+        /// The estimate, in words.
+        expected: String,
+    },
+    /// It was asked to stop before its end.
+    #[error(
+        "interrupted{progress}; `mesoscope {} --resume {}` {}",
+        kind.command,
+        printable::path(directory),
+        kind.resumed
+    )]
+    Interrupted {
+        /// What was interrupted.
+        kind: &'static Kind,
+        /// How far it had come, in words; empty where it does not say.
+        progress: String,
+        /// Its directory.
+        directory: PathBuf,
+    },
+    /// The adapter cannot be used.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A file of the study cannot be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A run failed for a reason that says nothing about its scene.
+    #[error("`{name}`: {source}")]
+    Run {
+        /// The name of the run.
+        name: String,
+        /// Why it failed.
+        source: Box<RunError>,
+    },
+    /// The scenes cannot be run on this adapter, or a picture of the study cannot be drawn.
+    #[error(transparent)]
+    Common(RunError),
+}
+
+impl StudyError {
+    /// One mistake in what is asked for.
+    pub(crate) fn mistake(mistake: impl Into<String>) -> Self {
+        Self::Arguments { mistakes: vec![mistake.into()] }
+    }
+
+    /// The failure of a run of this name.
+    pub(crate) fn of_run(name: &str, source: impl Into<RunError>) -> Self {
+        Self::Run { name: name.to_owned(), source: Box::new(source.into()) }
+    }
+
+    /// A variant of this name that makes no scene.
+    pub(crate) fn of_variant(name: &str, source: &SceneError) -> Self {
+        Self::Variants { mistakes: vec![Mistake { variants: vec![name.to_owned()], message: source.to_string() }] }
+    }
+}
+
+impl From<RunError> for StudyError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Gpu(error) => Self::Gpu(error),
+            error => Self::Common(error),
+        }
+    }
+}
+
+/// A mistake that some variants share.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Mistake {
+    /// Names of the variants.
+    pub variants: Vec<String>,
+    /// What is wrong and what to do.
+    pub message: String,
+}
+
+/// Mistakes beyond this number are counted, not listed.
+const LISTED: usize = 12;
+
+fn list(mistakes: &[Mistake]) -> String {
+    let mut lines: Vec<String> = mistakes.iter().take(LISTED).map(ToString::to_string).collect();
+    if mistakes.len() > LISTED {
+        lines.push(format!("and {} more", mistakes.len() - LISTED));
+    }
+    lines.join("\n")
+}
+
+/// Variants beyond this number are counted, not named.
+const NAMED: usize = 6;
+
+impl std::fmt::Display for Mistake {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<String> = self.variants.iter().take(NAMED).map(|name| format!("`{name}`")).collect();
+        let noun = if self.variants.len() == 1 { "variant" } else { "variants" };
+        write!(formatter, "{noun} {}", names.join(", "))?;
+        if self.variants.len() > NAMED {
+            write!(formatter, " and {} more", self.variants.len() - NAMED)?;
+        }
+        write!(formatter, ": {}", self.message)
+    }
+}

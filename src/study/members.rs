@@ -1,0 +1,102 @@
+//! The runs of a study that have directories of their own, each that of an ordinary run.
+
+use super::concurrency::at_once;
+use super::error::StudyError;
+use super::record::Record;
+use super::run::{Observer, StudyEvent, StudyRun};
+use crate::gpu::AdapterChoice;
+use crate::output::{Id, OutputError, RunDirectory, Summary, files};
+use crate::run::{Event, Progress, RunError, Simulation};
+use crate::scene::{Scene, Warning};
+use std::path::Path;
+
+/// A run of a study.
+pub(crate) struct Member {
+    /// Name of its directory.
+    pub name: String,
+    /// Its scene, with the step to end with.
+    pub scene: Scene,
+    /// Its id.
+    pub id: Id,
+    /// What was done to the scene.
+    pub notices: Vec<Warning>,
+}
+
+impl Member {
+    /// The run in its directory: from its checkpoint if there is one, else from the beginning.
+    fn simulation(&self, directory: &Path, summary: &'static str) -> Result<Simulation, RunError> {
+        let steps = self.scene.time.steps;
+        if directory.is_dir() {
+            // The run of another scene is not to be continued, nor to be overwritten.
+            RunDirectory::open(directory)?.check_run(self.id, summary)?;
+        }
+        if !directory.join(files::CHECKPOINT).exists() {
+            // What is found without a checkpoint is the beginning of this very run.
+            let simulation = Simulation::start(self.scene.clone(), directory, true);
+            return Ok(simulation.with_id(self.id).noting(&self.notices));
+        }
+        let simulation = Simulation::resume(directory, Some(steps))?;
+        if simulation.first_step() > steps {
+            return Err(OutputError::Continued { directory: directory.to_path_buf(), finished: steps }.into());
+        }
+        Ok(simulation)
+    }
+}
+
+/// What a study does when the run of this number has ended.
+type TakeUp<'t, R> =
+    dyn FnMut(&mut StudyRun<R>, usize, Result<Summary, RunError>, &mut Observer<'_, R>) -> Result<(), StudyError> + 't;
+
+/// What a run under way reports.
+enum Message {
+    Begun(u64),
+    Advanced(Progress),
+    Ended(Box<Result<Summary, RunError>>),
+}
+
+impl<R: Record> StudyRun<R> {
+    /// Brings runs to their last steps, `jobs` at once; `take_up` learns of each how it ended, and no others begin once that fails.
+    ///
+    /// # Errors
+    /// The first of `take_up`; [`StudyError::Interrupted`] if it was asked to stop.
+    pub(crate) fn simulate(
+        &mut self,
+        members: &[Member],
+        jobs: usize,
+        adapter: &AdapterChoice,
+        observer: &mut Observer<'_, R>,
+        take_up: &mut TakeUp<'_, R>,
+    ) -> Result<(), StudyError> {
+        let (place, interrupt) = (self.directory().to_path_buf(), self.interrupt().clone());
+        let work = |member: &Member, report: &dyn Fn(Message)| {
+            let directory = place.join(&member.name);
+            let ended = member.simulation(&directory, R::KIND.summary).and_then(|simulation| {
+                if simulation.is_finished() {
+                    return Ok(Summary::load(&directory.join(files::SUMMARY))?);
+                }
+                report(Message::Begun(simulation.first_step()));
+                let ended = simulation.until(&interrupt).execute(adapter, &mut |event| {
+                    if let Event::Advanced(progress) = event {
+                        report(Message::Advanced(progress));
+                    }
+                });
+                ended.map(|outcome| outcome.summary)
+            });
+            report(Message::Ended(Box::new(ended)));
+        };
+        at_once(members, jobs, &interrupt, work, |number, message| {
+            let run = members[number].name.as_str();
+            match message {
+                Message::Begun(first_step) => observer(StudyEvent::Begun { run, first_step }),
+                Message::Advanced(progress) => observer(StudyEvent::Advanced { run, progress }),
+                Message::Ended(ended) => match *ended {
+                    // It waits to be continued.
+                    Err(RunError::Interrupted { .. }) => {}
+                    ended => return take_up(self, number, ended, observer),
+                },
+            }
+            Ok(())
+        })?;
+        self.proceed()
+    }
+}

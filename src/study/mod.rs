@@ -1,0 +1,33 @@
+//! Studies: many runs of one scene that differ in a few of its values, in one directory.
+//!
+//! What [sweeps](crate::sweep), [tradeoffs](crate::tradeoff) and [maps of stability](crate::stability) have in common: the scenes that follow
+//! from keys and their values ([`Sweep`]), and a study under way ([`StudyRun`]): its directory with its lock, its summary ([`Record`]),
+//! runs at once, what interrupts it and goes on with it, and what an observer learns of it ([`StudyEvent`]). What a kind of study makes of its
+//! runs is its own.
+
+mod concurrency;
+mod directory;
+mod error;
+mod expansion;
+mod kind;
+mod members;
+mod naming;
+mod record;
+mod run;
+pub(crate) mod table;
+mod variation;
+
+pub(crate) use concurrency::at_once;
+pub use concurrency::default_jobs;
+pub use error::{Mistake, StudyError};
+pub use expansion::{Sweep, Variant};
+pub use kind::Kind;
+pub(crate) use kind::{is_plot, plot};
+pub(crate) use members::Member;
+pub(crate) use naming::{ShortKeys, readable};
+pub use record::Record;
+pub(crate) use record::{load, reopen};
+pub(crate) use run::draw;
+pub use run::{Observer, StudyEvent, StudyRun};
+pub(crate) use variation::settings;
+pub use variation::{Setting, Variation};

@@ -1,0 +1,124 @@
+//! The summary of a study: written after every run, read to go on.
+
+use super::error::StudyError;
+use super::kind::Kind;
+use crate::output::{Id, OutputError, RunDirectory, write_atomically};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::{Debug, Display};
+use std::path::Path;
+
+/// What a kind of study writes down: what it was asked for and what came out.
+pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
+    /// What a user asks for.
+    type Request: Debug + Clone;
+    /// What came out of one run; its text says it in a few words.
+    type Ended: Debug + Display;
+    /// What follows between the first runs and the pictures; its text announces it.
+    type Phase: Debug + Display;
+
+    /// The kind of study.
+    const KIND: &'static Kind;
+
+    /// What is known before anything has run.
+    fn before(request: &Self::Request) -> Self;
+
+    /// The request that this is of.
+    ///
+    /// # Errors
+    /// [`StudyError`] if it is not one that the program accepts.
+    fn request(&self) -> Result<Self::Request, StudyError>;
+
+    /// What of it does not fit that request, each to be read after "it".
+    fn misfits(&self, request: &Self::Request) -> Vec<&'static str>;
+
+    /// The version of the program that wrote it.
+    fn version(&self) -> &str;
+
+    /// The id of the study, which its pictures have too.
+    fn id(&self) -> Id;
+
+    /// Names of the runs that have directories of their own.
+    fn runs(&self) -> Vec<&str> {
+        Vec::new()
+    }
+
+    /// The same, ready to go on in its directory.
+    #[must_use]
+    fn resumed(self, _: &Self::Request, _: &RunDirectory) -> Self {
+        self
+    }
+
+    /// How far it is, to be read after "interrupted".
+    fn progress(&self) -> String {
+        String::new()
+    }
+
+    /// Whether this version of the program wrote it: ids follow from the keys of scenes, which other versions may not have.
+    fn is_of_this_version(&self) -> bool {
+        self.version() == env!("CARGO_PKG_VERSION")
+    }
+}
+
+/// Writes a summary into the directory of its study.
+pub(crate) fn save<R: Record>(record: &R, directory: &Path) -> Result<(), OutputError> {
+    let path = directory.join(R::KIND.summary);
+    let text =
+        serde_json::to_string_pretty(record).map_err(|source| OutputError::Json { path: path.clone(), source })?;
+    write_atomically(&path, |writer| writeln!(writer, "{text}"))
+}
+
+/// Reads the summary in the directory of a study.
+pub(crate) fn load<R: Record>(directory: &Path) -> Result<R, StudyError> {
+    let path = directory.join(R::KIND.summary);
+    let text = match std::fs::read(&path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(StudyError::Nothing { kind: R::KIND, path: directory.to_path_buf() });
+        }
+        read => read.map_err(OutputError::io("read", &path))?,
+    };
+    serde_json::from_slice(&text).map_err(|error| {
+        let Kind { noun, again, .. } = R::KIND;
+        let problem = format!("this is no summary of a {noun} ({error}); {again} with --force");
+        OutputError::Line { path, line: error.line() as u64, problem }.into()
+    })
+}
+
+/// Opens the directory of a study, which belongs to this process from then on: its summary and what it was asked for.
+///
+/// # Errors
+/// [`StudyError`] if there is none, if another process writes there, and if the summary or a picture is not of this study.
+pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunDirectory), StudyError> {
+    // Nothing is written where there is no study, no lock either.
+    load::<R>(directory)?;
+    let claimed = RunDirectory::claim(directory)?;
+    let record: R = load(directory)?;
+    let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
+    if is_later(record.version(), env!("CARGO_PKG_VERSION")) {
+        return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
+    }
+    let request = record.request()?;
+    let reasons = record.misfits(&request);
+    if !reasons.is_empty() {
+        return Err(StudyError::Changed { kind, path, reasons });
+    }
+    claimed.check_pictures(record.id(), kind.summary, kind.has_file)?;
+    Ok((record, request, claimed))
+}
+
+/// Whether a version is later than another, number by number; what is no version is not.
+fn is_later(version: &str, other: &str) -> bool {
+    let numbers = |text: &str| text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u64>>>();
+    numbers(version).zip(numbers(other)).is_some_and(|(version, other)| version > other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_later;
+
+    #[test]
+    fn versions_are_compared_by_their_numbers() {
+        assert!(is_later("0.10.0", "0.9.1") && is_later("1.0.0", "0.99.99"));
+        assert!(!is_later("0.9.1", "0.9.1") && !is_later("0.9.1", "0.10.0") && !is_later("latest", "0.1.0"));
+    }
+}

@@ -1,0 +1,223 @@
+//! A study under way: from its beginning, or from where it was interrupted.
+
+use super::concurrency::default_jobs;
+use super::directory;
+use super::error::StudyError;
+use super::record::{self, Record};
+use crate::families::Model;
+use crate::gpu::{AdapterDescription, Gpu};
+use crate::output::{Id, OutputError, RunDirectory};
+use crate::plan::{Hardware, Options};
+use crate::plot::{Chart, Plotter};
+use crate::run::{self, Interrupt, Progress, RunError};
+use crate::scene::{PlotStyle, Scene};
+use std::path::{Path, PathBuf};
+
+/// Seconds from which on a user has to say that all runs may take so long.
+const LONG: f64 = 8.0 * 3600.0;
+
+/// A study to be executed, from the beginning or from where it was interrupted.
+#[derive(Debug, Clone)]
+pub struct StudyRun<R: Record> {
+    pub(crate) request: R::Request,
+    pub(crate) summary: R,
+    path: PathBuf,
+    beginning: Beginning,
+    interrupt: Interrupt,
+    jobs: Option<usize>,
+    may_be_long: bool,
+}
+
+#[derive(Debug, Clone)]
+enum Beginning {
+    New { force: bool },
+    Interrupted { directory: RunDirectory },
+}
+
+/// What an observer of a study receives; `E` is what becomes of a run, `P` what follows after the first runs.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum StudyEvent<'a, E, P> {
+    /// The adapter is open and the directory is ready.
+    Started {
+        /// The adapter.
+        adapter: &'a AdapterDescription,
+        /// Runs that are not finished yet.
+        runs: usize,
+        /// How many of them run at once.
+        jobs: usize,
+        /// Seconds that they are expected to take, where that is known.
+        seconds: Option<f64>,
+    },
+    /// A run begins, at this step.
+    Begun {
+        /// Its name.
+        run: &'a str,
+        /// The step it begins with.
+        first_step: u64,
+    },
+    /// A run has come further.
+    Advanced {
+        /// Its name.
+        run: &'a str,
+        /// How far.
+        progress: Progress,
+    },
+    /// A run has ended.
+    Ended {
+        /// Its name.
+        run: &'a str,
+        /// What became of it.
+        ended: &'a E,
+    },
+    /// All runs so far have ended, and something else follows.
+    Phase {
+        /// What follows.
+        phase: &'a P,
+        /// Runs that it consists of.
+        runs: usize,
+    },
+    /// Tables and pictures follow.
+    Finishing,
+}
+
+/// What observes a study.
+pub type Observer<'o, R> = dyn FnMut(StudyEvent<'_, <R as Record>::Ended, <R as Record>::Phase>) + 'o;
+
+impl<R: Record> StudyRun<R> {
+    /// All runs from the first, into `directory`, which is created. With `force` an earlier study there is replaced.
+    #[must_use]
+    pub fn start(request: R::Request, directory: impl Into<PathBuf>, force: bool) -> Self {
+        let summary = R::before(&request);
+        Self::of(request, summary, directory.into(), Beginning::New { force })
+    }
+
+    /// What is missing of the study in a directory: runs under way continue from their last checkpoints, those that failed are
+    /// tried again. The directory belongs to this process from now on, until the study is dropped or executed.
+    ///
+    /// # Errors
+    /// [`StudyError::Nothing`] when there is none; [`StudyError::Changed`], [`StudyError::Later`] and [`StudyError::Output`] when its
+    /// summary was edited, is of a later version or cannot be read, or when another process writes there.
+    pub fn resume(directory: impl Into<PathBuf>) -> Result<Self, StudyError> {
+        let path = directory.into();
+        let (record, request, directory) = record::reopen::<R>(&path)?;
+        let summary = record.resumed(&request, &directory);
+        Ok(Self::of(request, summary, path, Beginning::Interrupted { directory }))
+    }
+
+    fn of(request: R::Request, summary: R, path: PathBuf, beginning: Beginning) -> Self {
+        let interrupt = Interrupt::default();
+        Self { request, summary, path, beginning, interrupt, jobs: None, may_be_long: true }
+    }
+
+    /// The same study, which stops when it is asked to: what is known by then is kept, and runs save checkpoints.
+    #[must_use]
+    pub fn until(self, interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// The same study, so many runs at once; without a number as many as [`default_jobs`] says.
+    #[must_use]
+    pub fn with_jobs(self, jobs: Option<usize>) -> Self {
+        Self { jobs, ..self }
+    }
+
+    /// The same study, which may take many hours or else is refused before it starts, where its time is estimated.
+    #[must_use]
+    pub fn unless_long(self, may_be_long: bool) -> Self {
+        Self { may_be_long, ..self }
+    }
+
+    /// What it was asked for.
+    #[must_use]
+    pub fn request(&self) -> &R::Request {
+        &self.request
+    }
+
+    /// Its directory.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.path
+    }
+
+    pub(crate) fn is_new(&self) -> bool {
+        matches!(self.beginning, Beginning::New { .. })
+    }
+
+    /// Refuses a directory in which the study would replace something it may not; nothing is written.
+    pub(crate) fn check_place(&self) -> Result<(), OutputError> {
+        match self.beginning {
+            Beginning::New { force } => directory::check(&self.path, &self.summary, force).map(drop),
+            Beginning::Interrupted { .. } => Ok(()),
+        }
+    }
+
+    /// The directory, made where the study is new: that of this process until the end.
+    pub(crate) fn open_place(&self) -> Result<RunDirectory, OutputError> {
+        match &self.beginning {
+            Beginning::New { force } => directory::create(&self.path, &self.summary, *force),
+            Beginning::Interrupted { directory } => Ok(directory.clone()),
+        }
+    }
+
+    /// Writes the summary.
+    pub(crate) fn save(&self) -> Result<(), OutputError> {
+        record::save(&self.summary, &self.path)
+    }
+
+    pub(crate) fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
+    }
+
+    /// Whether to go on.
+    ///
+    /// # Errors
+    /// [`StudyError::Interrupted`] if it was asked to stop.
+    pub(crate) fn proceed(&self) -> Result<(), StudyError> {
+        if !self.interrupt.is_asked() {
+            return Ok(());
+        }
+        let progress = self.summary.progress();
+        Err(StudyError::Interrupted { kind: R::KIND, progress, directory: self.path.clone() })
+    }
+
+    /// Refuses what takes so many seconds, unless it may.
+    pub(crate) fn refuse_long(&self, seconds: f64) -> Result<(), StudyError> {
+        if self.may_be_long || seconds <= LONG {
+            return Ok(());
+        }
+        let hours = seconds / 3600.0;
+        let expected = if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) };
+        Err(StudyError::Long { kind: R::KIND, expected })
+    }
+
+    /// How many of so many runs are under way at once, of which this scene is the largest.
+    pub(crate) fn jobs_for(&self, scene: &Scene, runs: usize, gpu: &Gpu) -> usize {
+        let largest = || {
+            let (time, hardware) = (&scene.time, Hardware::from(gpu));
+            let plan = run::plan(&Model::new(scene), time.equilibration, &scene.output, hardware, Options::default());
+            plan.particles as f64 * plan.operations_per_particle
+        };
+        self.jobs.unwrap_or_else(|| default_jobs(gpu.description(), largest(), runs)).clamp(1, runs.max(1))
+    }
+}
+
+/// Draws charts into the directory of a study of this id, and names their files; `proceed` says before each whether to.
+pub(crate) fn draw(
+    place: &RunDirectory,
+    id: Id,
+    gpu: &Gpu,
+    style: &PlotStyle,
+    charts: impl IntoIterator<Item = (String, Chart)>,
+    proceed: &dyn Fn() -> Result<(), StudyError>,
+) -> Result<Vec<String>, StudyError> {
+    let plotter = Plotter::new(gpu.device(), gpu.queue());
+    let plotter = plotter.map_err(|source| RunError::Plot { name: "*.png".to_owned(), source })?;
+    let mut written = Vec::new();
+    for (name, chart) in charts {
+        proceed()?;
+        run::save(place, &name, id, plotter.draw_chart(&chart, style))?;
+        written.push(name);
+    }
+    Ok(written)
+}
