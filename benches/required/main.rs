@@ -159,7 +159,7 @@ fn scene_of(feature: &Feature, change: &str) -> Result<Scene, Failure> {
 
 /// Chains are placed at random: some particles have more neighbours at first than lists have room for in a fluid.
 fn options_of(scene: &Scene) -> Options {
-    Options { list_growth: u32::from(Model::new(scene).bonds().is_some()), ..Options::default() }
+    Options { list_growth: u32::from(Model::new(scene).particles().bonds.is_some()), ..Options::default() }
 }
 
 fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {

@@ -1,9 +1,6 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
-use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Family, PairForce, Particles, Physics, PictureKind,
-    PositionBath, ShallowWater, Voronoi, speeds,
-};
+use super::{Family, Particles, Physics, PictureKind, ShallowWater, Voronoi, particles, speeds};
 use crate::document::{Distribution, Generator, Integrator, Scene, Warning};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
@@ -57,9 +54,10 @@ impl Model {
     /// assert_eq!((model.units.dimension, model.particle_count()), (2, 14_400));
     /// let names: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
     /// assert_eq!(names, ["A", "B"]);
-    /// let repulsions = model.pair_force().map(|force| [force.repulsion(0, 0), force.repulsion(0, 1)]);
+    /// let force = model.particles().pair_force.as_ref();
+    /// let repulsions = force.map(|force| [force.repulsion(0, 0), force.repulsion(0, 1)]);
     /// assert_eq!(repulsions, Some([25.0, 60.0]));
-    /// assert!(model.conserves_momentum() && !model.is_coupled());
+    /// assert!(model.conserves_momentum() && !model.particles().are_coupled);
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
     #[must_use]
@@ -93,19 +91,6 @@ impl Model {
         }
     }
 
-    /// Whether it is of particles with more than pairs without memory in two or three dimensions: then every coupling adds its
-    /// impulses up on its own, and listed pairs persist.
-    #[must_use]
-    pub fn is_coupled(&self) -> bool {
-        self.particles().is_some_and(|particles| particles.are_coupled)
-    }
-
-    /// Temperature kT of the bath of pairs.
-    #[must_use]
-    pub fn pair_temperature(&self) -> f64 {
-        self.pair_force().map_or(self.temperature, |force| force.temperature)
-    }
-
     /// Whether any force derives from a potential.
     #[must_use]
     pub fn has_potential(&self) -> bool {
@@ -130,18 +115,11 @@ impl Model {
         self.species.iter().filter(|species| !species.fixed).map(|species| species.count).sum()
     }
 
-    /// Whether steps are split, friction apart from the conservative force. Without friction there is nothing to split.
-    #[must_use]
-    pub fn splits(&self) -> bool {
-        self.integrator == Integrator::Splitting {}
-            && self.pair_force().is_some_and(|force| force.largest_friction() > 0.0)
-    }
-
     /// Whether the equations of motion keep the total momentum. A mesh, a rotation and whatever acts on particles by
     /// themselves do not.
     #[must_use]
     pub fn conserves_momentum(&self) -> bool {
-        self.coloured_noise().is_none() && self.measures_about_centre_of_mass()
+        self.particles().coloured_noise.is_none() && self.measures_about_centre_of_mass()
     }
 
     /// Whether temperatures are about the velocity of the centre of mass: where that is constant, and where it is driven by
@@ -201,10 +179,18 @@ impl Model {
         self.physics().warnings(scene, self)
     }
 
-    /// What belongs to particles, in a model of them.
+    /// What acts on particles; nothing in a model of another family.
     #[must_use]
-    pub fn particles(&self) -> Option<&Particles> {
+    pub fn particles(&self) -> &Particles {
         match &self.family {
+            Family::Particles(particles) => particles,
+            _ => &particles::NONE,
+        }
+    }
+
+    /// What acts on particles, in a model of them, to change it.
+    pub fn particles_mut(&mut self) -> Option<&mut Particles> {
+        match &mut self.family {
             Family::Particles(particles) => Some(particles),
             _ => None,
         }
@@ -226,61 +212,5 @@ impl Model {
             Family::Voronoi(cells) => Some(cells),
             _ => None,
         }
-    }
-
-    /// The pair force, if there is one.
-    #[must_use]
-    pub fn pair_force(&self) -> Option<&PairForce> {
-        self.particles()?.pair_force.as_ref()
-    }
-
-    /// The pair force, to change it.
-    pub fn pair_force_mut(&mut self) -> Option<&mut PairForce> {
-        match &mut self.family {
-            Family::Particles(particles) => particles.pair_force.as_mut(),
-            _ => None,
-        }
-    }
-
-    /// A heat bath on the coordinates of particles.
-    #[must_use]
-    pub fn position_bath(&self) -> Option<&PositionBath> {
-        self.particles()?.position_bath.as_ref()
-    }
-
-    /// A random force on every particle that is constant for random times.
-    #[must_use]
-    pub fn coloured_noise(&self) -> Option<&ColouredNoise> {
-        self.particles()?.coloured_noise.as_ref()
-    }
-
-    /// Spring constant that ties every particle to where it started.
-    #[must_use]
-    pub fn tether(&self) -> Option<f64> {
-        self.particles()?.tether
-    }
-
-    /// Bonds, if there are any.
-    #[must_use]
-    pub fn bonds(&self) -> Option<&Bonds> {
-        self.particles()?.bonds.as_ref()
-    }
-
-    /// Angles between bonds, if they are stiff.
-    #[must_use]
-    pub fn angles(&self) -> Option<&Angles> {
-        self.particles()?.angles.as_ref()
-    }
-
-    /// Harmonic chains, if the scene is of them; their springs are among the bonds.
-    #[must_use]
-    pub fn chains(&self) -> Option<&ChainTrios> {
-        self.particles()?.chains.as_ref()
-    }
-
-    /// Groups of chains.
-    #[must_use]
-    pub fn chain_groups(&self) -> &[ChainGroup] {
-        self.particles().map_or(&[], |particles| &particles.chain_groups)
     }
 }

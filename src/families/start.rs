@@ -54,7 +54,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
 /// along its bonds.
 fn images(state: &State, model: &Model) -> Vec<[i32; 3]> {
     let mut images = vec![[0; 3]; state.len()];
-    let Some(bonds) = model.bonds() else { return images };
+    let Some(bonds) = model.particles().bonds.as_ref() else { return images };
     let mut bonded: Vec<Vec<usize>> = vec![Vec::new(); state.len()];
     for [first, second] in bonds.iter().map(|bond| bond.ends.map(|end| end as usize)) {
         bonded[first].push(second);

@@ -412,7 +412,7 @@ fn radius(model: &Model) -> f64 {
         let volume = model.units.volume() / model.particle_count().max(1) as f64;
         volume.powf(1.0 / model.units.dimension as f64)
     };
-    model.pair_force().map_or_else(spacing, |force| force.cutoff) / 3.0
+    model.particles().pair_force.as_ref().map_or_else(spacing, |force| force.cutoff) / 3.0
 }
 
 /// A time without the noise digits of a product: `0.3`, not `0.30000000000000004`.

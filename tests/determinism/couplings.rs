@@ -158,7 +158,7 @@ fn a_full_list_is_told_and_not_cut() {
 fn the_margin_of_a_list_is_no_wider_than_the_box_allows() {
     let scene = sampled(&[MEMORY, "space.box=[2.2,5,5]", "output.radial_distribution.range=1"]);
     let model = Model::new(&scene);
-    let skin = model.pair_force().unwrap().skin;
+    let skin = model.particles().pair_force.as_ref().unwrap().skin;
     assert!((skin - 0.1).abs() < 1e-12, "{skin}");
     let bytes = run(&scene, Options::default(), 8);
     assert!(same(&bytes, &run(&scene, Options::default(), 1)));

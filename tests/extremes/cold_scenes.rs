@@ -61,7 +61,7 @@ fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     let unit = model.units.momentum;
     let state = mesoscope::families::initial_state(&scene, &model);
     let mut most = largest_of(&state.momenta);
-    if model.is_coupled() {
+    if model.particles().are_coupled {
         let mut run = CouplingsReference::new(model, state);
         for _ in 0..80 {
             match run.step() {

@@ -87,7 +87,7 @@ fn agrees_with(traversals: &[Traversal], changes: &[&str], steps: u64, units: i6
 /// V'' jumps by a/rc at the cutoff. Of a million pairs, one or two are so close to it that single precision may put them
 /// on the other side.
 fn jump_of_curvature(reference: &Reference) -> f64 {
-    let Some(force) = reference.model().pair_force() else { return 0.0 };
+    let Some(force) = reference.model().particles().pair_force.as_ref() else { return 0.0 };
     let pairs = reference.radial_distribution(force.cutoff, 1)[0] as f64;
     (3e-6 * pairs).floor() * 2.0 * force.largest_repulsion() / force.cutoff
 }

@@ -26,7 +26,7 @@ fn free(process: &str, changes: &[&str]) -> Scene {
 }
 
 fn noise_of(model: &Model) -> ColouredNoise {
-    *model.coloured_noise().expect("a coloured noise")
+    *model.particles().coloured_noise.as_ref().expect("a coloured noise")
 }
 
 /// The first steps of a scene on the device.

@@ -889,7 +889,7 @@ fn every_step_of_the_device_is_one_of_the_reference() {
         let scene = fluid(&changes);
         let (model, state) = start(&scene);
         let mut device = Device::from_state(&scene, &state, Options::default());
-        let cutoff = model.pair_force().unwrap().cutoff;
+        let cutoff = model.particles().pair_force.as_ref().unwrap().cutoff;
         let (mut lists, mut doubtful) = (0, 0);
         let mut before = state;
         for step in 0..steps {
@@ -942,7 +942,7 @@ fn coloured_noise_gives_the_impulse_of_its_jumps() {
             );
             let scene = crate::support::scene(&text);
             let (model, state) = start(&scene);
-            let noise: ColouredNoise = *model.coloured_noise().unwrap();
+            let noise: ColouredNoise = *model.particles().coloured_noise.as_ref().unwrap();
             for mut run in runs(&scene, &state) {
                 const STEPS: u64 = 40;
                 run.step(STEPS);

@@ -248,7 +248,7 @@ fn friction_alone_takes_energy_away() {
         changes["interactions"][0]["repulsion"] = json!(0.0);
         let (mut model, state) = start(&changes);
         model.temperature = 0.0;
-        model.pair_force_mut().unwrap().temperature = 0.0;
+        model.particles_mut().and_then(|particles| particles.pair_force.as_mut()).unwrap().temperature = 0.0;
         let mut run = Reference::new(model, state);
         let initial = run.observe().unwrap().kinetic_energy;
         let mut last = initial;
@@ -276,7 +276,7 @@ fn the_step_counter_has_64_bits() {
         assert_ne!(after(&model, wrapped + 5), after(&model, 5), "{integrator}: noise repeats");
         assert_eq!(after(&model, 5), after(&model, 5));
         model.temperature = 0.0;
-        model.pair_force_mut().unwrap().temperature = 0.0;
+        model.particles_mut().and_then(|particles| particles.pair_force.as_mut()).unwrap().temperature = 0.0;
         assert_eq!(after(&model, wrapped), after(&model, 5), "{integrator}: taken for the first step");
         assert_ne!(after(&model, wrapped), after(&model, 0));
     }
@@ -443,7 +443,7 @@ fn equilibrium(mut run: Reference, equilibration: u64, samples: u32) -> Means {
         run.run(5).unwrap();
         let observed = run.observe().unwrap();
         // A split step reports its configuration there already.
-        let between = if run.model().splits() {
+        let between = if run.model().particles().splits(run.model()) {
             observed
         } else {
             Reference::new(run.model().clone(), run.state_between_forces().unwrap()).observe().unwrap()

@@ -84,7 +84,7 @@ fn write(scene: &Scene, place: &Path) {
         "run_id": id,
         "lengths": model.units.lengths,
         "dimension": model.units.dimension,
-        "bonds": model.bonds().map_or(0, |bonds| bonds.count() as usize),
+        "bonds": model.particles().bonds.as_ref().map_or(0, |bonds| bonds.count() as usize),
         "frames": frames,
     });
     fs::write(place.join("expected.json"), expected.to_string()).unwrap();

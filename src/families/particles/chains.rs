@@ -227,7 +227,7 @@ mod tests {
             let [a, b] = ends.map(|end| state.positions[end as usize]);
             model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt()
         };
-        let lengths = model.bonds().unwrap().iter().map(|each| bond(each.ends)).collect();
+        let lengths = model.particles().bonds.as_ref().unwrap().iter().map(|each| bond(each.ends)).collect();
         (lengths, state, model)
     }
 
@@ -273,7 +273,7 @@ mod tests {
     fn walks_go_everywhere() {
         for edges in [&[50.0][..], &[50.0, 50.0], &[50.0, 50.0, 50.0]] {
             let (_, state, model) = lengths(edges, &json!({"beads": 3001}), 6002, "random");
-            let bonds = model.bonds().unwrap();
+            let bonds = model.particles().bonds.as_ref().unwrap();
             let dimension = edges.len() as f64;
             for axis in 0..edges.len() {
                 let steps = bonds.iter().map(|bond| {

@@ -12,7 +12,7 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     let athermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature == 0.0);
     let lent = baths.iter().any(|(step, _)| step.coupling > 0.0 && step.remembers());
     let mut ways = Vec::new();
-    if model.coloured_noise().is_some() {
+    if model.particles().coloured_noise.is_some() {
         ways.push("put in by the coloured noise");
     }
     if thermal {
@@ -33,13 +33,13 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 
 /// Whether neither a bath nor a noise exchanges energy with the particles.
 pub(super) fn is_conservative(model: &Model) -> bool {
-    let noise = model.coloured_noise().is_some();
+    let noise = model.particles().coloured_noise.is_some();
     !noise && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
 }
 
 /// Whether baths alone, at the temperature of the model, exchange energy with the particles.
 pub(super) fn has_thermostat(model: &Model) -> bool {
-    let noise = model.coloured_noise().is_some();
+    let noise = model.particles().coloured_noise.is_some();
     let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
     let any = acting.peek().is_some();
     !noise && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)
@@ -49,14 +49,14 @@ pub(super) fn has_thermostat(model: &Model) -> bool {
 fn baths(model: &Model) -> Vec<(BathStep, f64)> {
     let mut baths = Vec::new();
     let species = model.species.len();
-    if let Some(force) = model.pair_force() {
+    if let Some(force) = model.particles().pair_force.as_ref() {
         let steps = (0..species * species).map(|pair| force.bath_step(pair / species, pair % species, model.time_step));
         baths.extend(steps.map(|step| (step, force.temperature)));
     }
-    if let Some(bath) = model.position_bath() {
+    if let Some(bath) = model.particles().position_bath.as_ref() {
         baths.extend(bath.steps.iter().map(|step| (*step, bath.temperature)));
     }
-    if let Some(bonds) = model.bonds() {
+    if let Some(bonds) = model.particles().bonds.as_ref() {
         baths.extend(bonds.kinds.iter().filter_map(|kind| Some((kind.bath?, kind.temperature))));
     }
     baths
@@ -65,7 +65,7 @@ fn baths(model: &Model) -> Vec<(BathStep, f64)> {
 /// What changes the total momentum, if anything.
 pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
     let mut reasons = Vec::new();
-    match model.coloured_noise().map(|noise| noise.process) {
+    match model.particles().coloured_noise.as_ref().map(|noise| noise.process) {
         None => {}
         Some(NoiseProcess::Literal) => reasons.push(
             "the coloured noise pushes every particle by itself, with a mean force that is not zero, so that the centre \
@@ -74,16 +74,16 @@ pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
         Some(_) => reasons
             .push("the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders"),
     }
-    if model.position_bath().is_some() {
+    if model.particles().position_bath.is_some() {
         reasons.push("friction and noise act on every particle by itself");
     }
-    if model.tether().is_some() {
+    if model.particles().tether.is_some() {
         reasons.push("every particle is tied to a point fixed in space");
     }
     if model.has_fixed_particles() {
         reasons.push("fixed particles take up what others give them");
     }
-    if model.coloured_noise().is_some() && model.measures_about_centre_of_mass() {
+    if model.particles().coloured_noise.is_some() && model.measures_about_centre_of_mass() {
         reasons.push("temperatures are about the velocity of the centre of mass");
     }
     reasons

@@ -8,7 +8,7 @@ use crate::plan::Plan;
 /// The list of neighbours and what its pairs take.
 pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)> {
     let list = plan.layout.of::<CoupledLayout>()?.list?;
-    let force = model.pair_force()?;
+    let force = model.particles().pair_force.as_ref()?;
     let noun = if list.capacity == 1 { "pair" } else { "pairs" };
     let each = if list.memory {
         "12 bytes a pair (neighbour 4, memory 8), twice while the list is rebuilt"

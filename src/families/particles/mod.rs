@@ -21,7 +21,7 @@ use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model, Observables,
     PairForce, Physics, PositionBath, Species, units,
 };
-use crate::document::{BondPotential, Interaction, Problems, Scene, Warning};
+use crate::document::{BondPotential, Integrator, Interaction, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use model::topology;
@@ -46,11 +46,39 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than pairs without memory in two or three dimensions.
+    /// Whether there is more than pairs without memory in two or three dimensions: then every coupling adds its impulses up
+    /// on its own, and listed pairs persist.
     pub are_coupled: bool,
 }
 
+/// What acts on the particles of other families.
+pub(super) static NONE: Particles = Particles {
+    pair_force: None,
+    position_bath: None,
+    coloured_noise: None,
+    tether: None,
+    chain_groups: Vec::new(),
+    bonds: None,
+    angles: None,
+    chains: None,
+    are_coupled: false,
+};
+
 impl Particles {
+    /// Temperature kT of the bath of pairs in their model.
+    #[must_use]
+    pub fn pair_temperature(&self, model: &Model) -> f64 {
+        self.pair_force.as_ref().map_or(model.temperature, |force| force.temperature)
+    }
+
+    /// Whether steps of their model are split, friction apart from the conservative force. Without friction there is nothing to
+    /// split.
+    #[must_use]
+    pub fn splits(&self, model: &Model) -> bool {
+        model.integrator == Integrator::Splitting {}
+            && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
     /// What acts on the particles of a scene; harmonic chains add their species.
     pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
         let (mut pair_force, mut position_bath, mut coloured_noise, mut tether) = (None, None, None, None);

@@ -8,11 +8,13 @@ use crate::families::{ExactMean, Model};
 
 /// Means of the columns of the table of energies; none of other scenes than these.
 pub(super) fn means(model: &Model) -> Vec<ExactMean> {
-    let (Some(stiffness), Some(bath)) = (model.tether(), model.position_bath()) else { return Vec::new() };
-    let is_alone = model.pair_force().is_none()
-        && model.bonds().is_none()
-        && model.angles().is_none()
-        && model.coloured_noise().is_none();
+    let (Some(stiffness), Some(bath)) = (model.particles().tether, model.particles().position_bath.as_ref()) else {
+        return Vec::new();
+    };
+    let is_alone = model.particles().pair_force.is_none()
+        && model.particles().bonds.is_none()
+        && model.particles().angles.is_none()
+        && model.particles().coloured_noise.is_none();
     let couples = bath.steps.iter().all(|step| step.coupling > 0.0);
     if !is_alone || !couples || stiffness <= 0.0 || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
         return Vec::new();

@@ -46,7 +46,7 @@ struct Strain {
 /// Refuses a time step that is certainly unstable.
 pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let step = scene.time.step;
-    let network = model.bonds().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
     let Some(worst) = worst(&certain(scene, model, network.as_ref(), step)) else { return };
     if worst.sum < LIMIT {
         return;
@@ -72,11 +72,11 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
 /// Refuses a time step in which the friction of pairs that do not relax is certainly unstable: B is 2Γ dt on average, for a mean
 /// friction rate Γ, and half of that is certain.
 pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Problems) {
-    let Some(force) = model.pair_force() else { return };
+    let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (rate, index) = model.largest_friction_rate(force);
-    let most = if model.splits() { MOST_RELAXATION } else { LIMIT };
+    let most = if model.particles().splits(model) { MOST_RELAXATION } else { LIMIT };
     let step = scene.time.step;
-    let sparse = model.splits() && model.mean_neighbours(force) < NEIGHBOURS;
+    let sparse = model.particles().splits(model) && model.mean_neighbours(force) < NEIGHBOURS;
     if rate * step < most || sparse {
         return;
     }
@@ -95,7 +95,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
 
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
-    let network = model.bonds().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
     let mut strains = certain(scene, model, network.as_ref(), scene.time.step);
     strains.extend(possible(scene, model, network.as_ref(), scene.time.step));
     let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
@@ -118,7 +118,7 @@ pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
 /// The laws that bound the time step, those of what is there at times included.
 pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Limit> {
     let step = scene.time.step;
-    let network = model.bonds().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
     let mut strains = certain(scene, model, network.as_ref(), step);
     strains.extend(possible(scene, model, network.as_ref(), step));
     let strain = worst(&strains).map_or(0.0, |strain| strain.sum);
@@ -178,7 +178,7 @@ fn bath_strength(interaction: &Interaction) -> (&'static str, f64) {
 fn certain(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
     let mut strains = of_particles(scene, model, step);
     strains.extend(of_pairs_on_average(scene, model, step));
-    if let Some(bonds) = model.bonds() {
+    if let Some(bonds) = model.particles().bonds.as_ref() {
         strains.extend(of_single_bonds(scene, model, bonds, step));
         let line = model.units.dimension == 1;
         // Without a length at rest a spring is as stiff across as along.
@@ -196,7 +196,7 @@ fn certain(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -
 /// The matrix as it may be: chains that are straight, two particles in one place.
 fn possible(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
     let mut strains = Vec::new();
-    if let Some(bonds) = model.bonds() {
+    if let Some(bonds) = model.particles().bonds.as_ref() {
         let all = stiffnesses(scene, model, bonds, step);
         strains.extend(network.and_then(|network| network.strain(step, &|kind| all[kind])));
     }
@@ -229,7 +229,7 @@ fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
             own.map_or(langevin.friction, |entry| entry.friction)
         });
         let bath = langevin.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
-        let spring = model.tether().unwrap_or(0.0);
+        let spring = model.particles().tether.unwrap_or(0.0);
         let scale = step * step * inverse_mass(model, index);
         let what = format!("every `{}` of mass {}", species.name, species.mass);
         strains.push(Strain { sum: scale * (bath + spring), bath: scale * bath, place, what });
@@ -241,7 +241,8 @@ fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
 /// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
 fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
     let mut strains = Vec::new();
-    let Some(force) = model.pair_force().filter(|_| model.integrator == Integrator::CotterReich {}) else {
+    let Some(force) = model.particles().pair_force.as_ref().filter(|_| model.integrator == Integrator::CotterReich {})
+    else {
         return strains;
     };
     let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
@@ -316,7 +317,7 @@ impl Members {
             (end, model.species.iter().position(|species| species.name == group.species).unwrap_or(0))
         });
         let mut ends: Vec<(u64, usize)> = groups.collect();
-        if model.chains().is_some() {
+        if model.particles().chains.is_some() {
             // Their particles lie species by species.
             for (index, species) in model.species.iter().enumerate() {
                 end = end.saturating_add(species.count);

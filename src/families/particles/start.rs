@@ -28,7 +28,7 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
 
 /// Draws the bath variables of all coordinates from their law at rest.
 fn draw_position_baths(state: &mut State, model: &Model) {
-    let Some(bath) = model.position_bath().filter(|bath| bath.memory) else { return };
+    let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| bath.memory) else { return };
     let key = noise::step_key(model.seed, stream::PARTICLE, 0);
     let draw = |id: usize, axis: usize| {
         let width = bath.steps[state.species[id] as usize].deviation(bath.temperature);
@@ -41,7 +41,7 @@ fn draw_position_baths(state: &mut State, model: &Model) {
 
 /// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
 fn draw_bond_baths(state: &mut State, model: &Model) {
-    let Some(bonds) = model.bonds().filter(|bonds| bonds.have_memory()) else { return };
+    let Some(bonds) = model.particles().bonds.as_ref().filter(|bonds| bonds.have_memory()) else { return };
     let key = noise::step_key(model.seed, stream::BOND, 0);
     let all = bonds.iter().enumerate().map(|(index, bond)| {
         let kind = &bonds.kinds[bond.kind as usize];
@@ -54,7 +54,7 @@ fn draw_bond_baths(state: &mut State, model: &Model) {
 
 /// A bond of finite extent cannot start longer than it can be.
 pub(super) fn check_extents(scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
-    let Some(bonds) = model.bonds() else { return };
+    let Some(bonds) = model.particles().bonds.as_ref() else { return };
     let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
         Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),
         _ => None,

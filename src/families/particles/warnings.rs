@@ -177,7 +177,7 @@ fn warn_of_stiffness(scene: &Scene, model: &Model, force: &PairForce, warnings: 
 /// Momenta are integers, in a unit that suits the heaviest species: what is far smaller is lost in rounding.
 fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     let units = |momentum: f64| momentum / model.units.momentum;
-    let thermal = |species: &Species| units((species.mass * model.pair_temperature()).sqrt());
+    let thermal = |species: &Species| units((species.mass * model.particles().pair_temperature(model)).sqrt());
     let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
     let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
     let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
@@ -199,7 +199,7 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     if warmth > 0.0 && warmth < FEWEST_UNITS {
         warn(warnings, "particles", lost(&format!("the thermal momentum of `{}`", lightest.name), warmth));
     }
-    let Some(force) = model.pair_force() else { return };
+    let Some(force) = model.particles().pair_force.as_ref() else { return };
     let impulse = units(force.largest_repulsion() * model.time_step);
     if impulse > 0.0 && impulse < FEWEST_UNITS {
         warn(warnings, "interactions", lost("the impulse of the repulsion in a step", impulse));

@@ -117,7 +117,14 @@ impl Description {
             mass_unit: model.physics().mass_unit(),
             specific_momenta: model.physics().has_specific_momenta(),
             changing_masses: model.physics().changes_masses(),
-            bonds: model.bonds().into_iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
+            bonds: model
+                .particles()
+                .bonds
+                .as_ref()
+                .into_iter()
+                .flat_map(Bonds::iter)
+                .map(|bond| (bond.ends, bond.kind))
+                .collect(),
         }
     }
 

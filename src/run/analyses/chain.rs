@@ -29,13 +29,13 @@ pub(super) struct Chain;
 
 impl Descriptor for Chain {
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
-        let every = scene.output.chain.as_ref().filter(|_| model.chains().is_some())?.every;
+        let every = scene.output.chain.as_ref().filter(|_| model.particles().chains.is_some())?.every;
         Some(Sampling { every, ..Sampling::default() })
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
         let (asked, model) = (setting.scene.output.chain.as_ref()?, setting.model);
-        let chains = Chains::new(model.chains()?.clone(), model.units, model.time_step, asked.every);
+        let chains = Chains::new(model.particles().chains.as_ref()?.clone(), model.units, model.time_step, asked.every);
         Some(Gathering::States(Box::new(chains)))
     }
 
@@ -52,7 +52,7 @@ impl Descriptor for Chain {
     }
 
     fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
-        let (Some(asked), Some(trios)) = (&scene.output.chain, model.chains()) else { return 0 };
+        let (Some(asked), Some(trios)) = (&scene.output.chain, model.particles().chains.as_ref()) else { return 0 };
         let samples = scene.time.steps.checked_div(asked.every).map_or(0, |times| times.saturating_add(1));
         numbers_kept(trios, samples).saturating_mul(8)
     }

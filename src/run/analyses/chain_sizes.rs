@@ -31,9 +31,9 @@ impl Descriptor for ChainSizes {
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {
         let Some(asked) = &planner.output.chain_sizes else { return };
-        let groups = planner.model.chain_groups();
+        let groups = &planner.model.particles().chain_groups;
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
-        planner.plan.add_long_table(Array::ChainStarts, ChainTable(groups.to_vec()));
+        planner.plan.add_long_table(Array::ChainStarts, ChainTable(groups.clone()));
         let constants =
             vec![(Constant::Chains, chains as f64), (Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared)];
         planner.add_sums(&SumSampler {
@@ -113,10 +113,8 @@ impl Sizes {
     fn new(setting: &Setting<'_>) -> Self {
         let model = setting.model;
         Self {
-            groups: model.chain_groups().to_vec(),
-            names: model
-                .chain_groups()
-                .iter()
+            groups: model.particles().chain_groups.clone(),
+            names: (model.particles().chain_groups.iter())
                 .map(|group| model.species[group.species as usize].name.clone())
                 .collect(),
             time_step: model.time_step,

@@ -38,7 +38,7 @@ fn velocity_scale(model: &Model) -> f64 {
 /// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
 /// of the strongest contact.
 fn acceleration_scale(model: &Model) -> f64 {
-    let Some(force) = model.pair_force() else { return 1.0 };
+    let Some(force) = model.particles().pair_force.as_ref() else { return 1.0 };
     let dimension = model.units.dimension as f64;
     let (cutoff, exponent) = (force.cutoff, force.weight_exponent);
     let (sphere, weight) = if model.units.dimension == 2 {

@@ -64,12 +64,12 @@ impl Bonds {
     ///
     /// // Chains of 5, 10 and 20 beads.
     /// let model = Model::new(&scene::load("polymer-melt", &[])?);
-    /// let bonds = model.bonds().expect("they are bonded");
+    /// let bonds = model.particles().bonds.as_ref().expect("they are bonded");
     /// assert_eq!(bonds.count(), bonds.iter().count() as u64);
     /// // They are counted without being listed.
     /// let set = ["particles.0.count=1000000000".to_owned()];
     /// let many = Model::new(&scene::load("polymer-melt", &set)?);
-    /// assert!(many.bonds().is_some_and(|bonds| bonds.count() > 800_000_000));
+    /// assert!(many.particles().bonds.as_ref().is_some_and(|bonds| bonds.count() > 800_000_000));
     /// # Ok::<(), scene::SceneError>(())
     /// ```
     #[must_use]

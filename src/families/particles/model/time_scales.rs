@@ -39,7 +39,7 @@ impl Model {
 
     /// The largest time step that resolves friction and repulsion of pairs; infinite without either.
     pub(crate) fn pair_step(&self) -> f64 {
-        let Some(force) = self.pair_force() else { return f64::INFINITY };
+        let Some(force) = self.particles().pair_force.as_ref() else { return f64::INFINITY };
         let (rate, _) = self.largest_friction_rate(force);
         let (frequency, _) = self.largest_repulsion_frequency(force);
         (FRICTION_LIMIT / rate).min(FREQUENCY_LIMIT / frequency)

@@ -27,7 +27,7 @@ const SCAN_AT_END_CELLS: u64 = 1 << 11;
 pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
-    let force = model.pair_force().unwrap_or(&free);
+    let force = model.particles().pair_force.as_ref().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff, particles);
     let traversal = match (force.acts(), options.traversal) {
         (false, _) => Traversal::Alone,
@@ -86,8 +86,8 @@ pub(crate) fn quanta(model: &Model) -> Quanta {
     // from elsewhere may all be those of the lightest.
     let thermal = typical_momentum * typical_momentum <= 4.0 * heaviest * model.temperature;
     let kinetic = typical_momentum * typical_momentum / if thermal { heaviest } else { lightest };
-    let cutoff = model.pair_force().map_or(1.0, |force| force.cutoff);
-    let repulsive = model.pair_force().map_or(0.0, |force| force.largest_repulsion() * cutoff);
+    let cutoff = model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
+    let repulsive = model.particles().pair_force.as_ref().map_or(0.0, |force| force.largest_repulsion() * cutoff);
     let strongest = kinetic.max(repulsive);
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let energy = power_of_two(kinetic) * 2_f64.powi(-32);
@@ -261,7 +261,7 @@ impl Builder<'_> {
 
     /// Whether steps are split: friction needs a second pass over the pairs.
     fn splits(&self) -> bool {
-        self.model.splits()
+        self.model.particles().splits(self.model)
     }
 
     /// The pair force.

@@ -36,8 +36,11 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let (model, state) = (&reference.model, &reference.state);
     let motion = Motion::of(model, state, &reference.masses);
     let mut kick = vec![[0; 3]; state.len()];
-    let total_virial =
-        model.pair_force().map_or(0.0, |force| half_kicks(model, force, state, &motion, found, &[], &mut kick));
+    let total_virial = model
+        .particles()
+        .pair_force
+        .as_ref()
+        .map_or(0.0, |force| half_kicks(model, force, state, &motion, found, &[], &mut kick));
     let mut momenta = widen(&state.momenta);
     // The momenta of step 0 are those of the report point already.
     if state.step > 0 {

@@ -93,8 +93,8 @@ impl Reference {
     pub fn observe(&self) -> Result<Observables, Unstable> {
         let found = self.pairs();
         let report = self.report(&found);
-        let configuration = if self.model.splits() {
-            let range = self.model.pair_force().map_or(0.0, |force| force.cutoff);
+        let configuration = if self.model.particles().splits(&self.model) {
+            let range = self.model.particles().pair_force.as_ref().map_or(0.0, |force| force.cutoff);
             pairs::find_pairs(&self.model.units, &self.state_between_forces()?.positions, range)
         } else {
             found
@@ -152,7 +152,7 @@ impl Reference {
     }
 
     fn pairs(&self) -> Vec<Pair> {
-        let Some(force) = self.model.pair_force() else { return Vec::new() };
+        let Some(force) = self.model.particles().pair_force.as_ref() else { return Vec::new() };
         pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
     }
 
@@ -172,7 +172,7 @@ impl Reference {
 
     /// A split step drifts in two equal halves, between which a report may fall.
     fn parts_of_drift(&self) -> i64 {
-        if self.model.splits() { 2 } else { 1 }
+        if self.model.particles().splits(&self.model) { 2 } else { 1 }
     }
 
     /// vᵢ - vⱼ of a pair.

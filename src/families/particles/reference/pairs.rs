@@ -153,7 +153,7 @@ pub(super) struct Forces {
 impl Forces {
     /// The forces between two particles within the cutoff; none at all without a pair force.
     pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
-        let Some(force) = model.pair_force() else { return Self::default() };
+        let Some(force) = model.particles().pair_force.as_ref() else { return Self::default() };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];
         let closeness = 1.0 - pair.distance / force.cutoff;
         Self {

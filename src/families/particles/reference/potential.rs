@@ -110,7 +110,7 @@ mod tests {
     fn potentials_of_pairs_have_their_derivatives() {
         let scene = scene::load("dpd-fluid", &["interactions.0.cutoff=1.3".to_owned()]).unwrap();
         let model = Model::new(&scene);
-        let force = model.pair_force().unwrap();
+        let force = model.particles().pair_force.as_ref().unwrap();
         for distance in [0.1, 0.7, 1.25] {
             assert_derivatives("pair", distance, |distance| Potential::of_pair(force, [0, 0], distance));
         }

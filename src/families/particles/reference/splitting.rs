@@ -68,7 +68,11 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
         .map(|pair| {
             let forces = Forces::between(model, &state.species, pair);
             let rate = forces.friction * forces.weight * forces.weight;
-            let noise = if rate > 0.0 && model.pair_temperature() > 0.0 { pairs::noise(model, key, pair) } else { 0.0 };
+            let noise = if rate > 0.0 && model.particles().pair_temperature(model) > 0.0 {
+                pairs::noise(model, key, pair)
+            } else {
+                0.0
+            };
             (rate, noise)
         })
         .collect();
@@ -95,7 +99,7 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
                 let others =
                     (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
                 let among = reduced_mass * (own / reduced_mass.powi(2) + others / model.units.dimension as f64);
-                mean_field_relaxation(model.pair_temperature(), own, among, approach, noise)
+                mean_field_relaxation(model.particles().pair_temperature(model), own, among, approach, noise)
             } else {
                 pair_relaxation(reference.relaxation, model, rate, reduced_mass, approach, noise)
             };
@@ -137,11 +141,12 @@ fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64
             // u relaxes to the Maxwell distribution of width √(kT/μ) at the rate γω/μ.
             let exponent = rate * model.time_step / reduced_mass;
             let decay = -(-exponent).exp_m1();
-            let spread = (model.pair_temperature() / reduced_mass * -(-2.0 * exponent).exp_m1()).sqrt();
+            let spread =
+                (model.particles().pair_temperature(model) / reduced_mass * -(-2.0 * exponent).exp_m1()).sqrt();
             reduced_mass * (-decay * approach + spread * noise)
         }
         Relaxation::MeanField | Relaxation::Midpoint { .. } => {
-            let amplitude = (2.0 * rate * model.pair_temperature() * model.time_step).sqrt();
+            let amplitude = (2.0 * rate * model.particles().pair_temperature(model) * model.time_step).sqrt();
             -rate * model.time_step * approach + amplitude * noise
         }
     }

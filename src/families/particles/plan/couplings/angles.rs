@@ -7,7 +7,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn angles(&mut self) {
-        let Some(angles) = self.model.angles() else { return };
+        let Some(angles) = self.model.particles().angles.as_ref() else { return };
         let count = angles.count();
         let groups = self.groups(count);
         // The constant of pairs counts both ends of one.

@@ -9,7 +9,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds, couplings};
 
 impl Builder<'_> {
     pub(super) fn bonds(&mut self) {
-        let Some(bonds) = self.model.bonds() else { return };
+        let Some(bonds) = self.model.particles().bonds.as_ref() else { return };
         let count = bonds.count();
         let groups = self.groups(count);
         let (species, kinds) = (self.model.species.len(), bonds.kinds.len());
@@ -79,7 +79,7 @@ impl Builder<'_> {
 
     /// Partners that each particle is to be spared from, in rows of equal length, if there are any.
     pub(super) fn exclusions(&mut self) -> Option<couplings::Exclusions> {
-        let bonds = self.model.bonds().filter(|_| self.spares())?;
+        let bonds = self.model.particles().bonds.as_ref().filter(|_| self.spares())?;
         let width = bonds.most_spared().max(1) as u64;
         self.plan.constants.push((Constant::Exclusions, width as f64));
         let table = ExclusionTable { bonds: bonds.clone(), particles: self.particles, width };

@@ -11,7 +11,7 @@ const LONGEST_TIME: f64 = 1e30;
 impl Builder<'_> {
     /// The random force, if there is one.
     pub(super) fn held_noise(&self) -> Choices {
-        let Some(noise) = self.model.coloured_noise() else { return Choices::new() };
+        let Some(noise) = self.model.particles().coloured_noise.as_ref() else { return Choices::new() };
         Choices::new().with(baths::ColouredNoise::Held).with(match noise.process {
             NoiseProcess::Kangaroo => baths::Jump::Kangaroo,
             NoiseProcess::KangarooExponential => baths::Jump::KangarooExponential,
@@ -22,7 +22,7 @@ impl Builder<'_> {
 
     /// Constants and state of the random force.
     pub(super) fn coloured_noise(&mut self) {
-        let Some(noise) = self.model.coloured_noise() else { return };
+        let Some(noise) = self.model.particles().coloured_noise.as_ref() else { return };
         let half_step = 0.5 * self.model.time_step;
         let key = noise::seed_key(self.model.seed, stream::JUMP);
         self.plan.constants.extend([

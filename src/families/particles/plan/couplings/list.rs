@@ -27,7 +27,7 @@ pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u6
 impl Builder<'_> {
     /// Whether bonds ask where a particle is.
     fn needs_slots(&self) -> bool {
-        self.model.bonds().is_some() || self.model.angles().is_some()
+        self.model.particles().bonds.is_some() || self.model.particles().angles.is_some()
     }
 
     /// The clock and, for pairs, the list.

@@ -35,7 +35,7 @@ const BATH_OBSERVABLES: u64 = 3;
 pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> PhysicsPlan {
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
-    let force = model.pair_force().unwrap_or(&free);
+    let force = model.particles().pair_force.as_ref().unwrap_or(&free);
     let grid = Grid::new(&model.units, force.cutoff + force.skin, particles);
     let plan = empty_plan(model, &grid, options);
     let species = Species::of(model);
@@ -62,7 +62,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    let list = model.pair_force().filter(|force| force.acts()).map(|force| ListLayout {
+    let list = model.particles().pair_force.as_ref().filter(|force| force.acts()).map(|force| ListLayout {
         capacity: list::capacity(model, force, options) as usize,
         memory: force.remembers(),
     });
@@ -70,10 +70,15 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let layout = CoupledLayout {
         particles,
         list,
-        position_baths: model.position_bath().is_some_and(|bath| bath.memory),
-        bond_baths: model.bonds().filter(|bonds| bonds.have_memory()).map_or(0, |bonds| bonds.count() as usize),
-        holds: model.coloured_noise().is_some(),
-        tethers: model.tether().is_some(),
+        position_baths: model.particles().position_bath.as_ref().is_some_and(|bath| bath.memory),
+        bond_baths: model
+            .particles()
+            .bonds
+            .as_ref()
+            .filter(|bonds| bonds.have_memory())
+            .map_or(0, |bonds| bonds.count() as usize),
+        holds: model.particles().coloured_noise.is_some(),
+        tethers: model.particles().tether.is_some(),
     };
     let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
     // What is reported has no predicted momentum.
@@ -99,26 +104,26 @@ fn quanta(model: &Model) -> Quanta {
 
 /// The largest spring constant of a scene.
 fn stiffest_spring(model: &Model) -> f64 {
-    let kinds = model.bonds().into_iter().flat_map(|bonds| &bonds.kinds);
+    let kinds = model.particles().bonds.as_ref().into_iter().flat_map(|bonds| &bonds.kinds);
     let of_bonds = kinds.filter_map(|kind| match kind.potential {
         Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => Some(stiffness),
         None => None,
     });
-    of_bonds.chain(model.tether()).fold(0.0, f64::max)
+    of_bonds.chain(model.particles().tether).fold(0.0, f64::max)
 }
 
 /// The baths that remember.
 fn baths(model: &Model) -> Vec<BathStep> {
     let mut steps = Vec::new();
-    if let Some(force) = model.pair_force().filter(|force| force.remembers()) {
+    if let Some(force) = model.particles().pair_force.as_ref().filter(|force| force.remembers()) {
         let count = model.species.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
         steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
     }
-    if let Some(bath) = model.position_bath().filter(|bath| bath.memory) {
+    if let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| bath.memory) {
         steps.extend(&bath.steps);
     }
-    if let Some(bonds) = model.bonds() {
+    if let Some(bonds) = model.particles().bonds.as_ref() {
         steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
     }
     steps

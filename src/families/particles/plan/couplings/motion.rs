@@ -15,10 +15,11 @@ impl Builder<'_> {
         let anchored = choices.clone().with_if(self.visits_pairs(), couplings::Anchors::Kept);
         let advance = self.kernel("move", Entry::MoveParticles, &anchored, groups);
         self.plan.advance.push(advance);
-        let memory = self.model.position_bath().is_some_and(|bath| bath.memory);
+        let memory = self.model.particles().position_bath.as_ref().is_some_and(|bath| bath.memory);
         let forces = self.reported_forces();
         // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
-        let optional = [self.species.have_table(), memory, self.model.coloured_noise().is_some(), forces.is_some()];
+        let optional =
+            [self.species.have_table(), memory, self.model.particles().coloured_noise.is_some(), forces.is_some()];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
         let report = choices.with_if(memory, baths::PositionReport::Observed).with_any(forces);
         self.report_kernel("observe", Entry::ObserveParticles, &report, groups);
@@ -31,7 +32,7 @@ impl Builder<'_> {
 
     /// The bath on coordinates, if there is one.
     fn position_bath(&self) -> Choices {
-        let Some(bath) = self.model.position_bath() else { return Choices::new() };
+        let Some(bath) = self.model.particles().position_bath.as_ref() else { return Choices::new() };
         Choices::new()
             .with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White })
             .with_if(bath.temperature > 0.0, baths::PositionNoise::Gaussian)
@@ -40,14 +41,14 @@ impl Builder<'_> {
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
     /// per square.
     pub(super) fn position_coefficients(&self, species: usize) -> [f64; 3] {
-        let Some(bath) = self.model.position_bath() else { return [0.0; 3] };
+        let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 3] };
         let step = bath.steps[species];
         let energy = if bath.memory && step.continuous_coupling > 0.0 { 0.5 / step.continuous_coupling } else { 0.0 };
         [step.response(), step.noise(bath.temperature), energy / self.plan.quanta.pair_energy]
     }
 
     fn position_constants(&mut self) {
-        let Some(bath) = self.model.position_bath() else { return };
+        let Some(bath) = self.model.particles().position_bath.as_ref() else { return };
         let loss = bath.steps.first().map_or(1.0, |step| 1.0 - step.persistence);
         let memory = bath.memory;
         self.bath_impulse();

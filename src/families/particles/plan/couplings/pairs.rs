@@ -58,7 +58,7 @@ impl Builder<'_> {
 
     /// Whether some listed pairs are spared their repulsion.
     pub(super) fn spares(&self) -> bool {
-        self.model.bonds().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
+        self.model.particles().bonds.as_ref().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
             && self.force.largest_repulsion() > 0.0
     }
 

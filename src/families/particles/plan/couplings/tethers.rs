@@ -5,7 +5,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn tethers(&mut self) {
-        let Some(stiffness) = self.model.tether() else { return };
+        let Some(stiffness) = self.model.particles().tether else { return };
         let groups = self.groups(self.particles);
         let quanta = self.plan.quanta;
         self.plan.constants.extend([

@@ -44,7 +44,7 @@ use crate::state::State;
 ///
 /// let scene = scene::load("langevin-gas", &["space.box=[4,4,4]".to_owned()])?;
 /// let model = Model::new(&scene);
-/// assert!(model.is_coupled() && !model.conserves_momentum());
+/// assert!(model.particles().are_coupled && !model.conserves_momentum());
 /// let start = mesoscope::families::initial_state(&scene, &model);
 /// let mut reference = CouplingsReference::new(model, start.clone());
 /// reference.run(10)?;
@@ -131,23 +131,23 @@ impl CouplingsReference {
         let mut baths = State::default();
         let mut total_virial = 0.0;
 
-        if let Some(force) = model.pair_force() {
+        if let Some(force) = model.particles().pair_force.as_ref() {
             if force.remembers() {
                 (baths.pair_baths, baths.anchors) = pair_list::renew(model, force, state);
             }
             total_virial += pairs::kick(model, force, state, &motion, &mut baths.pair_baths, &mut kick, &mut bath_sums);
         }
-        if let Some(bonds) = model.bonds() {
+        if let Some(bonds) = model.particles().bonds.as_ref() {
             let found = bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums)?;
             (baths.bond_baths, total_virial) = (found.baths, total_virial + found.virial);
         }
-        if let Some(angles) = model.angles() {
+        if let Some(angles) = model.particles().angles.as_ref() {
             angles::kick(model, angles, &state.positions, &mut kick);
         }
-        if let Some(bath) = model.position_bath() {
+        if let Some(bath) = model.particles().position_bath.as_ref() {
             baths.position_baths = position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
         }
-        if let Some(stiffness) = model.tether() {
+        if let Some(stiffness) = model.particles().tether {
             tethers::kick(model, stiffness, state, &mut kick);
         }
 
@@ -156,7 +156,7 @@ impl CouplingsReference {
         if state.step > 0 {
             add(&mut momenta, &kick);
         }
-        if let Some(noise) = model.coloured_noise() {
+        if let Some(noise) = model.particles().coloured_noise.as_ref() {
             let held = coloured_noise::advance(model, noise, state);
             add(&mut momenta, &held.closing);
             add(&mut opening, &held.opening);

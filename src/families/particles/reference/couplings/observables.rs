@@ -67,7 +67,7 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
         laplacians: vec![0.0; count],
         dimension,
     };
-    if let Some(force) = model.pair_force() {
+    if let Some(force) = model.particles().pair_force.as_ref() {
         let excluded = pairs::excluded_pairs(model);
         for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
             if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
@@ -76,15 +76,15 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             sums.add(&pair, &Forces::between(model, &state.species, &pair).potential);
         }
     }
-    for bond in model.bonds().into_iter().flat_map(Bonds::iter) {
-        let kind = model.bonds().map(|bonds| &bonds.kinds[bond.kind as usize]);
+    for bond in model.particles().bonds.as_ref().into_iter().flat_map(Bonds::iter) {
+        let kind = model.particles().bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
         let pair = bonds::span(model, &bond, &state.positions);
         let potential = kind.and_then(|kind| kind.potential.as_ref());
         if let Some(potential) = Potential::of_bond(potential, pair.distance) {
             sums.add(&pair, &potential);
         }
     }
-    if let Some(angles) = model.angles() {
+    if let Some(angles) = model.particles().angles.as_ref() {
         for angle in angles.iter() {
             let stiffness = angles.stiffness[angle.kind as usize];
             let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
@@ -100,7 +100,7 @@ fn configuration(reference: &CouplingsReference) -> Configuration {
             }
         }
     }
-    if let Some(stiffness) = model.tether() {
+    if let Some(stiffness) = model.particles().tether {
         for particle in 0..count {
             let way = tethers::displacement(model, state, particle);
             let (energies, gradient) = (tethers::energies(stiffness, way), tethers::gradient(stiffness, way));

@@ -52,7 +52,7 @@ pub(super) fn kick(
 
 /// The pairs that are spared their repulsion, smaller number first, in order.
 pub(super) fn excluded_pairs(model: &Model) -> Vec<[u32; 2]> {
-    let Some(bonds) = model.bonds() else { return Vec::new() };
+    let Some(bonds) = model.particles().bonds.as_ref() else { return Vec::new() };
     let excluding = bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion);
     let mut excluded: Vec<_> =
         excluding.map(|bond| [bond.ends[0].min(bond.ends[1]), bond.ends[0].max(bond.ends[1])]).collect();
