@@ -5,13 +5,9 @@ use crate::families::Model;
 use crate::output::Id;
 use crate::run;
 use crate::scene::{self, Scene, SceneError, nearest};
-use crate::study::{Setting, ShortKeys, StudyError};
+use crate::study::{LENGTHS, Setting, ShortKeys, StudyError};
 use crate::tradeoff::{ENERGY_DRIFT, References, Stretch};
 use serde::{Deserialize, Serialize};
-
-/// Keys that the length of the runs is made of.
-const LENGTHS: [&str; 6] =
-    ["time", "time.steps", "time.equilibration", "output", "output.energies", "output.energies.every"];
 
 /// The key that is varied where nobody says which.
 const STEP: &str = "time.step";

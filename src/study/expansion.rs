@@ -9,6 +9,10 @@ use serde_json::Value;
 /// More variants than this are taken for a slip.
 const MOST_VARIANTS: usize = 4096;
 
+/// Keys that the length of runs is made of: they cannot be varied where all runs cover the same simulated time.
+pub(crate) const LENGTHS: [&str; 6] =
+    ["time", "time.steps", "time.equilibration", "output", "output.energies", "output.energies.every"];
+
 /// A scene, what is varied in it, and the variants that follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {

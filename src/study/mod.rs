@@ -20,6 +20,7 @@ mod variation;
 pub(crate) use concurrency::at_once;
 pub use concurrency::default_jobs;
 pub use error::{Mistake, StudyError};
+pub(crate) use expansion::LENGTHS;
 pub use expansion::{Sweep, Variant};
 pub use kind::Kind;
 pub(crate) use kind::{is_plot, plot};

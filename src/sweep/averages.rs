@@ -114,32 +114,15 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::Id;
     use serde_json::json;
 
     fn variant(settings: &[(&str, Value)], state: VariantState, temperature: f64) -> VariantSummary {
         let settings: Vec<Setting> =
             settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
         let means = json!({"temperature": {"mean": temperature, "standard_error": 0.5}});
-        VariantSummary {
-            run_id: Id::of_sweep([]),
-            name: String::new(),
-            label: String::new(),
-            settings,
-            state,
-            failure: None,
-            particles: 1,
-            steps: 1,
-            wall_seconds: 0.0,
-            particle_steps_per_second: 0.0,
-            means: means.as_object().cloned().unwrap_or_default(),
-            results: json!({"diffusion": {"windows": 3, "einstein": {"value": temperature}}})
-                .as_object()
-                .cloned()
-                .unwrap_or_default(),
-            unequilibrated: None,
-            warnings: Vec::new(),
-        }
+        let results = json!({"diffusion": {"windows": 3, "einstein": {"value": temperature}}});
+        let object = |value: Value| value.as_object().cloned().unwrap_or_default();
+        VariantSummary { state, means: object(means), results: object(results), ..VariantSummary::blank(settings) }
     }
 
     /// Worked out by hand: 1, 2 and 6 have the mean 3 and the error √((4 + 1 + 9)/(3·2)).

@@ -113,22 +113,9 @@ mod tests {
 
     fn variant(name: &str, setting: Option<Value>, means: Value, results: Value) -> VariantSummary {
         let object = |value: Value| value.as_object().cloned().unwrap_or_default();
-        VariantSummary {
-            run_id: Id::of_sweep([]),
-            name: name.to_owned(),
-            label: name.to_owned(),
-            settings: setting.map(|value| Setting { key: "a.b".to_owned(), value }).into_iter().collect(),
-            state: VariantState::Finished,
-            failure: None,
-            particles: 8,
-            steps: 10,
-            wall_seconds: 0.5,
-            particle_steps_per_second: 160.0,
-            means: object(means),
-            results: object(results),
-            unequilibrated: None,
-            warnings: Vec::new(),
-        }
+        let settings = setting.map(|value| Setting { key: "a.b".to_owned(), value }).into_iter().collect();
+        let (name, means, results) = (name.to_owned(), object(means), object(results));
+        VariantSummary { name, means, results, ..VariantSummary::blank(settings) }
     }
 
     #[test]

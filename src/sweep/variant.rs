@@ -87,6 +87,27 @@ impl VariantSummary {
         }
     }
 
+    /// One that is finished and says nothing.
+    #[cfg(test)]
+    pub(super) fn blank(settings: Vec<Setting>) -> Self {
+        Self {
+            name: String::new(),
+            run_id: Id::of_sweep([]),
+            label: String::new(),
+            settings,
+            state: VariantState::Finished,
+            failure: None,
+            particles: 8,
+            steps: 10,
+            wall_seconds: 0.5,
+            particle_steps_per_second: 160.0,
+            means: Map::new(),
+            results: Map::new(),
+            unequilibrated: None,
+            warnings: Vec::new(),
+        }
+    }
+
     /// Takes over what a finished run says.
     pub(super) fn finish(&mut self, run: &Summary) {
         self.state = VariantState::Finished;

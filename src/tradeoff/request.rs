@@ -7,13 +7,8 @@ use super::{fields, measures};
 use crate::families::Model;
 use crate::run;
 use crate::scene::{self, AnalysisId, Scene, nearest};
-use crate::study::StudyError;
-use crate::study::{Setting, Sweep, Variation, settings};
+use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings};
 use serde::{Deserialize, Serialize};
-
-/// Keys that the length of the runs is made of, and that cannot be varied for that reason.
-const LENGTHS: [&str; 6] =
-    ["time", "time.steps", "time.equilibration", "output", "output.energies", "output.energies.every"];
 
 /// Names of the runs that give references.
 pub(super) const FINER: &str = "finer";
@@ -77,24 +72,24 @@ impl Request {
     /// The request of a summary, or of a command line.
     pub(super) fn new(arguments: Arguments) -> Result<Self, StudyError> {
         let Arguments { scene, text, set, vary, also, .. } = &arguments;
-        let mut mistakes = Vec::new();
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
         let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
         let keys: Vec<String> = varied.chain(further).collect();
-        for key in LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key)) {
-            mistakes.push(format!(
+        let mistake = |key: &str| {
+            format!(
                 "`{key}` cannot be varied: all choices cover the same simulated time; --set, --error and --budget say how much"
-            ));
-        }
+            )
+        };
+        let mistakes: Vec<String> =
+            LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key)).map(mistake).collect();
         if !mistakes.is_empty() {
             return Err(StudyError::Arguments { mistakes });
         }
         let sweep = Sweep::of_text(scene, text, (set, None), vary, also)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
-            mistakes.push(format!("`{FINER}` is the name of the run that references are taken from"));
-        }
-        if !mistakes.is_empty() {
-            return Err(StudyError::Arguments { mistakes });
+            return Err(StudyError::mistake(format!(
+                "`{FINER}` is the name of the run that references are taken from"
+            )));
         }
         let base = scene::parse(scene, text, set)?;
         Ok(Self { arguments, sweep, base })
