@@ -80,6 +80,7 @@ pub const ARRAYS: &[Array] = &[
     table("bonds", "array<vec4<u32>>", "bonds and what they are like"),
     array("bond_baths", "array<f32>", "bath of each bond"),
     table("angles", "array<vec4<u32>>", "angles and their stiffness"),
+    array("excluded_pairs", "array<vec2<u32>>", "pairs of particles, by id, that bonds spare the repulsion"),
     table("exclusions", "array<u32>", "partners that bonds spare from the pair force, in rows of one length, by id"),
     array("tethers", "array<vec4<u32>>", "where each particle is tied to, by id"),
     array("holds", "array<Hold>", "random force on each particle and when it changes, by id"),

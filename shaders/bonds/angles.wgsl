@@ -19,9 +19,9 @@ fn visit_angle(angle: u32) {
     let word = angles[FIRST_ANGLE + angle];
     let ends = vec3<u32>(slots[word.x], slots[word.y], slots[word.z]);
     let stiffness = bitcast<f32>(word.w);
-    let first_end = stored_particle(ends.x);
-    let middle = stored_particle(ends.y);
-    let last_end = stored_particle(ends.z);
+    let first_end = particle_in(ends.x);
+    let middle = particle_in(ends.y);
+    let last_end = particle_in(ends.z);
     let first_arm = contact_of(separation(first_end.position, middle.position));
     let last_arm = contact_of(separation(last_end.position, middle.position));
     // Without an arm there is no angle, and no force.

@@ -49,7 +49,7 @@ fn visit_bond(bond: u32) {
     let kind = bond_kind(word.z);
     let slot = slots[word.x];
     let other_slot = slots[word.y];
-    let ends = Ends(slot, other_slot, stored_particle(slot), stored_particle(other_slot));
+    let ends = Ends(slot, other_slot, particle_in(slot), particle_in(other_slot));
     let contact = contact_of(separation(ends.me.position, ends.other.position));
     let stretch = stretch_of(kind, contact.distance);
     let magnitude = stretch.force + bond_bath(bond, kind, ends.me, ends.other);
@@ -86,9 +86,27 @@ fn bond_noise(bond: u32) -> f32 { return 0.0; }
 fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }
 
 // Slot bonds/bond_report: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
-// Default: off, a step without a report. The plan chooses `observed` for reports.
+// Default: off, a step without a report. Plans choose `observed` for reports; of split steps `motion` where the motion is
+// measured, and `configuration` half a drift later.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
 fn finish_bonds(group: u32, lane: u32) {}
+
+fn note_virial_of_bond(magnitude: f32, contact: Contact) {
+    total_add(1u, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
+}
+// Energy, virial and curvature of the potential, and the conservative forces themselves.
+fn note_configuration_of_bond(bond: Ends, stretch: Stretch, contact: Contact) {
+    total_add(5u, sum64_of_f32(stretch.energy * PAIR_VIRIAL));
+    total_add(6u, sum64_of_f32(stretch.force * contact.distance * PAIR_VIRIAL));
+    // Two particles in the same place exert no force, and have no curvature across it either.
+    let across = select(0.0, f32(DIMENSION - 1u) * stretch.force / contact.distance, contact.distance > 0.0);
+    let mobile = vec2<f32>(drift_of_end(bond.me), drift_of_end(bond.other)) > vec2<f32>(0.0);
+    let ends = select(0.0, 0.5, mobile.x) + select(0.0, 0.5, mobile.y);
+    total_add(8u, sum64_of_f32(ends * (stretch.curvature - across) * LAPLACIAN));
+    let force = Steps(round(stretch.force * contact.direction));
+    add_force(bond.slot, select(Steps(0), force, mobile.x));
+    add_force(bond.other_slot, select(Steps(0), -force, mobile.y));
+}
 
 // Adds the impulses of every bond. One invocation a bond; reads `bonds`, `slots` and particles, adds the impulses of half a
 // step to `kicks` of both ends.

@@ -1,7 +1,19 @@
 // Impulses that couplings add to particles: those of all forces, and for a report those of the conservative ones.
 //
-// Slot couplings/kicks: `add_kick` adds the impulse of half a step to a stored particle, in integer momentum units, in any order.
-// Variants plane, volume; the plan follows the box. No default.
+// Slot couplings/kicks: `add_kick` adds the impulse of half a step to the particle in a slot, in integer momentum units, in any
+// order. Variants plane, volume; the plan follows the box.
+// Default: off, for the report of couplings whose impulses have been added already.
+fn add_kick(slot: u32, kick: Steps) {}
+
+// Slot couplings/gathered: the impulses of half a step that couplings have added to a sorted particle, for the passes over
+// pairs; `take_gathered_kick` also clears them for the next step.
+// Default: off, no coupling but pairs. The plan of pairs chooses `kept` if the scene has bonds or angles.
+fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
+fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
+
+// Slot couplings/places: the particle in a slot, for couplings that name particles.
+// Default: as it is stored. The plan of pairs, which sorts particles in every step, chooses `sorted`.
+fn particle_in(slot: u32) -> Particle { return stored_particle(slot); }
 
 // Sums the squares of the conservative forces, once all couplings have added theirs. One invocation a stored particle; reads and
 // clears `forces`.

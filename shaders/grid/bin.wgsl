@@ -37,6 +37,7 @@ fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
         return;
     }
     put_sorted(target_index, particle);
+    note_slot(copied_position(particle).w, target_index);
     if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
         let copy = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u)) + rank;
         if (copy >= CAPACITY) {
@@ -73,5 +74,5 @@ fn note_anchor(slot: u32, position: vec4<u32>) {}
 // whose bath has memory.
 fn note_origin(slot: u32, before: u32) {}
 
-// Slot couplings/slots: keeps where a particle is stored, by id. Default: off. The plan chooses `kept` for bonds and angles.
+// Slot couplings/slots: keeps where a particle is stored or sorted, by id. Default: off. Plans choose `kept` for bonds and angles.
 fn note_slot(id: u32, slot: u32) {}

@@ -36,8 +36,9 @@ fn observe_motion(species: i32, momentum: Steps, virial: Sum64) {
     pair_total_add(3u, sum64_of_i32(word.y));
     if (DIMENSION == 3u) { pair_total_add(4u, sum64_of_i32(word.z)); }
 }
-fn observe_configuration(sums: PairSums) {
-    let f = Vector(sums.force);
+// `bonded` is the impulse of couplings other than pairs, all of them conservative.
+fn observe_configuration(sums: PairSums, bonded: Steps) {
+    let f = Vector(sums.force + bonded);
     pair_total_add(5u, sums.energy);
     pair_total_add(6u, sums.conservative_virial);
     pair_total_add(7u, sum64_of_f32(dot(f, f) * GRADIENT));

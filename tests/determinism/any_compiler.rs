@@ -51,8 +51,7 @@ fn fluids() -> Vec<Case> {
 }
 
 /// Closed and open chains with every coupling that keeps momentum.
-fn chains() -> Case {
-    let text = r#"{
+const CHAINS: &str = r#"{
         "title": "chains", "seed": 7, "space": {"box": [6, 5, 5]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1.3,
         "particles": [
             {"species": "head", "count": 40, "mass": 2, "chain": {"beads": 4, "spacing": 0.8, "closed": true}},
@@ -65,7 +64,26 @@ fn chains() -> Case {
             {"type": "angles", "stiffness": 6}],
         "output": {"energies": {"every": 10}}
     }"#;
-    Case { name: "chains".to_owned(), scene: scene::parse("test", text, &[]).unwrap(), listed: false }
+
+fn chains() -> Case {
+    Case { name: "chains".to_owned(), scene: scene::parse("test", CHAINS, &[]).unwrap(), listed: false }
+}
+
+/// The same without memory: bonds and angles beside pairs, in the steps of every integrator.
+fn chains_beside_pairs() -> Vec<Case> {
+    INTEGRATORS
+        .iter()
+        .map(|integrator| {
+            let changes = [
+                *integrator,
+                r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+                    {"type":"bonds","potential":{"type":"fene","stiffness":30,"extent":1.5},"exclude_repulsion":true},{"type":"angles","stiffness":6}]"#,
+            ];
+            let changes: Vec<String> = changes.into_iter().map(str::to_owned).collect();
+            let scene = scene::parse("test", CHAINS, &changes).unwrap();
+            Case { name: format!("chains {integrator}"), scene, listed: false }
+        })
+        .collect()
 }
 
 fn voronoi() -> Vec<Case> {
@@ -188,7 +206,8 @@ fn fluids_keep_their_momentum() {
 
 #[test]
 fn chains_keep_their_momentum() {
-    nothing_is_lost(&[chains()], &few());
+    let cases: Vec<Case> = std::iter::once(chains()).chain(chains_beside_pairs()).collect();
+    nothing_is_lost(&cases, &few());
 }
 
 #[test]
@@ -205,7 +224,8 @@ fn meshes_keep_their_mass() {
 #[test]
 #[ignore = "minutes: run by `make validate`"]
 fn nothing_is_lost_however_a_compiler_contracts() {
-    let cases: Vec<Case> = fluids().into_iter().chain([chains()]).chain(voronoi()).chain(meshes()).collect();
+    let cases: Vec<Case> =
+        fluids().into_iter().chain([chains()]).chain(chains_beside_pairs()).chain(voronoi()).chain(meshes()).collect();
     let seeds = (1..=8).map(Contraction::Random);
     let contractions: Vec<_> =
         [Contraction::First, Contraction::Second, Contraction::Block].into_iter().chain(seeds).collect();

@@ -37,7 +37,9 @@ fn the_base_is_right_and_has_nothing_to_be_warned_of() {
 fn scenes_of_couplings_have_an_integrator_of_their_own() {
     use mesoscope::scene::Integrator;
     let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator;
-    assert_eq!(integrator(&[]), Integrator::CotterReich {});
+    assert_eq!(integrator(&["interactions.1.friction=1"]), Integrator::CotterReich {});
+    // Bonds and angles without a bath are no couplings of their own.
+    assert_eq!(integrator(&[]), Integrator::Splitting {});
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     assert_eq!(integrator(&[fluid]), Integrator::Splitting {});
     assert_eq!(integrator(&[fluid, LINE]), Integrator::CotterReich {});
@@ -205,11 +207,12 @@ fn baths() {
 
 #[test]
 fn integrators() {
+    let split = r#"integrator={"type":"splitting"}"#;
+    CHAINS.accepted(&[split, "interactions.1.exclude_repulsion=true"]);
+    let both = "integrator.type: found `splitting`, which relaxes pairs only, together with";
     CHAINS.refused_with(
-        &[r#"integrator={"type":"splitting"}"#],
-        &[
-            "integrator.type: found `splitting`, which relaxes pairs only, together with bonds in interactions[1]; accepted: `cotter-reich`",
-        ],
+        &[split, "interactions.1.friction=2"],
+        &[&format!("{both} a bath on every bond in interactions[1]; accepted: `cotter-reich`")],
     );
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     CHAINS

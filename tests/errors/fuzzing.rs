@@ -442,10 +442,17 @@ fn sizes_and_known_mistakes_cost_nothing() {
         changed("dpd-fluid", &[("/particles/0/number_density", json!(1e300))]),
     ];
     let accepted = [
-        changed("polymer-melt", &[("/particles/0/count", json!(1_000_000_000))]),
         changed(
             "polymer-melt",
-            &[("/particles/0/count", json!(4_000_000_000_u64)), ("/particles/0/chain/beads", json!(4_000_000_000_u64))],
+            &[("/particles/0/count", json!(1_000_000_000)), ("/space/box", json!([700, 700, 700]))],
+        ),
+        changed(
+            "polymer-melt",
+            &[
+                ("/particles/0/count", json!(4_000_000_000_u64)),
+                ("/particles/0/chain/beads", json!(4_000_000_000_u64)),
+                ("/space/box", json!([1500, 1500, 1500])),
+            ],
         ),
         changed(
             "harmonic-chain",

@@ -15,7 +15,8 @@ use serde_json::{Value, json};
 use std::time::Instant;
 
 use crate::support::{
-    Implementation, adapter, engine, hardware, largest_difference, requirements, series, start, totals,
+    Implementation, adapter, engine, hardware, largest_difference, reference_of_particles, requirements, series, start,
+    totals,
 };
 
 /// A family of scenes, and of the particles of one family those with kernels of their own.
@@ -127,9 +128,9 @@ impl Kind {
     /// depths are formed on a mesh, and where friction is solved for to a tolerance.
     fn units(self) -> i64 {
         match self {
-            GrootWarren | Memory | Chains | Oscillators | ColouredNoise | HarmonicChain => 100,
+            GrootWarren | Memory | Oscillators | ColouredNoise | HarmonicChain => 100,
             ShallowWater => 5000,
-            Splitting | Voronoi | VoronoiEnergy => 1000,
+            Splitting | Chains | Voronoi | VoronoiEnergy => 1000,
         }
     }
 
@@ -137,9 +138,8 @@ impl Kind {
         let (model, state) = (model.clone(), state.clone());
         match self {
             Splitting | GrootWarren => Box::new(Reference::new(model, state)),
-            Memory | Chains | Oscillators | ColouredNoise | HarmonicChain => {
-                Box::new(CouplingsReference::new(model, state))
-            }
+            Chains => reference_of_particles(model, state),
+            Memory | Oscillators | ColouredNoise | HarmonicChain => Box::new(CouplingsReference::new(model, state)),
             ShallowWater => Box::new(ShallowWaterReference::new(model, state).unwrap()),
             Voronoi | VoronoiEnergy => Box::new(VoronoiReference::new(model, state).unwrap()),
         }
@@ -571,7 +571,7 @@ fn frictions_and_rates_from_none_to_enormous() {
         // What is right from nothing on, with what is refused when it is enormous; and what is right even then.
         let (limited, unlimited) = match kind {
             Splitting | GrootWarren => (vec![(friction(0), "times over")], vec![]),
-            Chains => (vec![(friction(0), "B + W is "), (friction(1), "B + W is ")], vec![]),
+            Chains => (vec![(friction(0), "times over"), (friction(1), "B + W is ")], vec![]),
             Memory | Oscillators => (vec![(friction(0), "B + W is ")], vec!["interactions.0.bath.rate".to_owned()]),
             ColouredNoise => {
                 let strength = ("interactions.1.strength".to_owned(), "velocities of the random force");

@@ -6,6 +6,7 @@
 mod support;
 
 mod analyses;
+mod bonds;
 mod coloured_noise;
 mod couplings;
 mod edpd;

@@ -2,15 +2,15 @@
 //! be exact.
 
 use mesoscope::engine::{Engine, EngineError};
-use mesoscope::families::Instability;
-use mesoscope::families::reference::CouplingsReference;
-use mesoscope::plan::Options;
+use mesoscope::families::{Instability, Model};
+use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, Implementation, Measured, engine, largest_difference, observables, predictions_agree, same_energies, start,
+    Device, Implementation, Measured, engine, largest_difference, observables, predictions_agree,
+    reference_of_particles, same_energies, start,
 };
 
 fn read(document: &Value) -> Scene {
@@ -42,37 +42,38 @@ fn polymers(edges: &[f64], interactions: &Value) -> Value {
 const UNITS: i64 = 100;
 
 /// Lets the device and the reference take some steps; returns both.
-fn step_alike(document: &Value) -> (Engine<'static>, CouplingsReference) {
+fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
     let scene = read(document);
     let (model, state) = start(&scene);
     let mut device = engine(&scene, &state, Options::default());
-    let mut reference = CouplingsReference::new(model, state);
+    let mut reference = reference_of_particles(model.clone(), state);
     for step in 1..=4 {
         device.advance(1, 1).unwrap();
-        reference.step().unwrap();
+        reference.step(1);
         let found = device.state().unwrap();
-        let (momentum, position) = largest_difference(&found, reference.state());
+        let expected = reference.state();
+        let (momentum, position) = largest_difference(&found, &expected);
         let what = format!("step {step}, {} dimensions", scene.space.lengths.len());
         assert!(momentum <= UNITS * step, "{what}: momenta differ by {momentum} units\n{document:#}");
         assert!(position <= 4 * UNITS * step, "{what}: positions differ by {position} units\n{document:#}");
-        assert_eq!(found.bond_baths.len(), reference.state().bond_baths.len());
-        for (bond, (a, b)) in found.bond_baths.iter().zip(&reference.state().bond_baths).enumerate() {
+        assert_eq!(found.bond_baths.len(), expected.bond_baths.len());
+        for (bond, (a, b)) in found.bond_baths.iter().zip(&expected.bond_baths).enumerate() {
             let [a, b] = [a, b].map(|bits| f32::from_bits(*bits));
             assert!((a - b).abs() <= 1e-4 * b.abs().max(1.0), "{what}: bath {bond} is {a}, and {b} in the reference");
         }
         if !found.predicted.is_empty() {
-            predictions_agree(&found, reference.state());
-            reference = CouplingsReference::new(reference.model().clone(), found);
+            predictions_agree(&found, &expected);
+            reference = reference_of_particles(model.clone(), found);
         }
     }
     (device, reference)
 }
 
 fn agree(document: &Value) {
-    let (mut device, reference) = step_alike(document);
+    let (mut device, mut reference) = step_alike(document);
     let scene = read(document);
     let measured = observables(&mut device, &scene);
-    let expected = reference.observe().unwrap();
+    let expected = reference.observe();
     same_energies(&measured, &expected, 0.0, &format!("{document:#}"));
 }
 
@@ -148,6 +149,36 @@ fn bonds_in_a_fluid_agree_with_the_reference() {
     }
 }
 
+/// Bonds and angles without baths, in the steps of every integrator of pairs.
+#[test]
+fn bonds_beside_pairs_agree_with_the_reference() {
+    let harmonic = json!({"type": "harmonic", "stiffness": 40, "length": 0.8});
+    let fene = json!({"type": "fene", "stiffness": 30, "extent": 1.5});
+    for integrator in [
+        json!({"type": "splitting"}),
+        json!({"type": "groot-warren", "lambda": 0.65}),
+        json!({"type": "groot-warren", "lambda": 0.5}),
+        json!({"type": "cotter-reich"}),
+    ] {
+        for edges in &BOXES[1..] {
+            let mut document = polymers(
+                edges,
+                &json!([
+                    {"type": "dpd", "repulsion": 25, "friction": 4.5,
+                        "pairs": [{"between": ["head", "tail"], "repulsion": 40, "friction": 2}]},
+                    {"type": "bonds", "potential": harmonic, "species": ["tail"]},
+                    {"type": "bonds", "potential": fene, "species": ["head"], "exclude_repulsion": true},
+                    {"type": "bonds", "pairs": [[0, 1], [1, 2], [0, 2]], "exclude_repulsion": true},
+                    {"type": "angles", "stiffness": 5, "species": ["tail"]},
+                ]),
+            );
+            document["integrator"] = integrator.clone();
+            assert!(!start(&read(&document)).0.particles().are_coupled);
+            agree(&document);
+        }
+    }
+}
+
 #[test]
 fn both_generators_agree_with_the_reference() {
     let mut document = polymers(BOXES[2], &json!([{"type": "bonds", "friction": 4.5}]));
@@ -196,6 +227,18 @@ fn a_fluid_beside_fixed_particles_agrees_with_the_reference() {
     }
 }
 
+/// The same without memory, in split steps.
+fn split_melt() -> Value {
+    polymers(
+        BOXES[2],
+        &json!([
+            {"type": "dpd", "repulsion": 25, "friction": 4.5},
+            {"type": "bonds", "potential": {"type": "fene", "stiffness": 30, "extent": 1.5}},
+            {"type": "angles", "stiffness": 3},
+        ]),
+    )
+}
+
 fn melt() -> Value {
     polymers(
         BOXES[2],
@@ -210,8 +253,8 @@ fn melt() -> Value {
 
 #[test]
 fn momentum_never_moves() {
-    for edges in BOXES {
-        let mut document = melt();
+    let split = BOXES[1..].iter().map(|edges| (split_melt(), *edges));
+    for (mut document, edges) in BOXES.iter().map(|edges| (melt(), *edges)).chain(split) {
         document["space"]["box"] = json!(edges);
         let scene = read(&document);
         let (_, state) = start(&scene);
@@ -234,26 +277,31 @@ fn after(scene: &Scene, options: Options, order: impl Fn(usize) -> usize, batch:
 
 #[test]
 fn the_same_bits_whatever_the_order() {
-    let scene = read(&melt());
-    let count = start(&scene).1.len();
-    let plain = after(&scene, Options::default(), |id| id, 60);
-    assert_eq!(plain, after(&scene, Options::default(), |id| id, 7), "batches");
-    assert_eq!(plain, after(&scene, Options::default(), |id| count - 1 - id, 60), "storage order");
-    let narrow = Options { workgroup_size: Some(16), ..Options::default() };
-    assert_eq!(plain, after(&scene, narrow, |id| id, 60), "workgroups");
-    // From the middle on.
-    let (_, state) = start(&scene);
-    let mut first = engine(&scene, &state, Options::default());
-    first.advance(23, 23).unwrap();
-    let middle = first.state().unwrap();
-    assert!(middle.bond_baths.iter().any(|bits| *bits != 0));
-    let mut second = engine(&scene, &middle, Options::default());
-    second.advance(37, 37).unwrap();
-    assert_eq!(plain, second.state().unwrap(), "restart");
-    // Whether anybody looks.
-    let mut document = melt();
-    document["output"]["energies"]["every"] = json!(1000);
-    assert_eq!(plain, after(&read(&document), Options::default(), |id| id, 60), "reports");
+    for mut document in [melt(), split_melt()] {
+        let scene = read(&document);
+        let count = start(&scene).1.len();
+        let plain = after(&scene, Options::default(), |id| id, 60);
+        assert_eq!(plain, after(&scene, Options::default(), |id| id, 7), "batches");
+        assert_eq!(plain, after(&scene, Options::default(), |id| count - 1 - id, 60), "storage order");
+        let narrow = Options { workgroup_size: Some(16), ..Options::default() };
+        assert_eq!(plain, after(&scene, narrow, |id| id, 60), "workgroups");
+        if start(&scene).0.particles().splits(&Model::new(&scene)) {
+            let rows = Options { traversal: Some(Traversal::Rows), ..Options::default() };
+            assert_eq!(plain, after(&scene, rows, |id| id, 60), "traversals");
+        }
+        // From the middle on.
+        let (model, state) = start(&scene);
+        let mut first = engine(&scene, &state, Options::default());
+        first.advance(23, 23).unwrap();
+        let middle = first.state().unwrap();
+        assert!(!model.has_memory() || middle.bond_baths.iter().any(|bits| *bits != 0));
+        let mut second = engine(&scene, &middle, Options::default());
+        second.advance(37, 37).unwrap();
+        assert_eq!(plain, second.state().unwrap(), "restart");
+        // Whether anybody looks.
+        document["output"]["energies"]["every"] = json!(1000);
+        assert_eq!(plain, after(&read(&document), Options::default(), |id| id, 60), "reports");
+    }
 }
 
 /// Particles at rest in some places; the impulse of the first half kick is -dt/2 ∇V.

@@ -216,6 +216,26 @@ fn bond_plans() -> Vec<(String, Plan)> {
     ];
     let integrator = r#"integrator={"type":"cotter-reich"}"#;
     let mut plans = Vec::new();
+    for bonds in [
+        &bonds[0],
+        &bonds[1],
+        &format!(r#"{{"type":"bonds",{fene},"exclude_repulsion":true}},{{"type":"angles","stiffness":2}}"#),
+    ] {
+        for other in ["", r#",{"type":"dpd","repulsion":25,"friction":4.5}"#] {
+            for species in ["", r#",{"species":"B","count":9,"mass":2}"#] {
+                let particles = format!(r#"particles=[{{"species":"A","count":60,"chain":{{"beads":3}}}}{species}]"#);
+                let interactions = format!("interactions=[{bonds}{other}]");
+                for space in ["space.box=[19,17]", "space.box=[9,10,11]"] {
+                    for integrator in ["splitting", "groot-warren"] {
+                        let integrator = format!(r#"integrator={{"type":"{integrator}"}}"#);
+                        let output = r#"output={"chain_sizes":{"every":1},"autocorrelations":[{"quantity":"force","every":2,"window":4},{"quantity":"velocity","every":2,"window":4}]}"#;
+                        let changes = [&particles, &interactions, space, &integrator, output, "time.steps=8"];
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+                    }
+                }
+            }
+        }
+    }
     for bonds in &bonds {
         for other in others {
             for particles in groups {

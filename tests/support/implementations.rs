@@ -68,6 +68,16 @@ macro_rules! reference {
 
 reference!(Reference, CouplingsReference, ShallowWaterReference, VoronoiReference);
 
+/// The reference of particles that suits a model: split steps are those of pairs, with bonds and angles; all others are those of
+/// couplings.
+pub fn reference_of_particles(model: Model, state: State) -> Box<dyn Implementation> {
+    if model.particles().splits(&model) && !model.particles().are_coupled {
+        Box::new(Reference::new(model, state))
+    } else {
+        Box::new(CouplingsReference::new(model, state))
+    }
+}
+
 /// An engine with what is needed to read its samples.
 pub struct Device {
     engine: Engine<'static>,

@@ -17,8 +17,9 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).strain += abs(magnitude);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let full_step = steps_of(me.momentum) + clock_closing() * sums.kick;
-    store_advanced(row, index, me, full_step + sums.kick, sums.kick, sums.strain);
+    let kick = sums.kick + take_gathered_kick(index);
+    let full_step = steps_of(me.momentum) + clock_closing() * kick;
+    store_advanced(row, index, me, full_step + kick, kick, sums.strain);
 }
 fn pass_finish(group: u32, lane: u32) {
     raise(failures_of_particles);

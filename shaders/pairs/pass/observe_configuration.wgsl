@@ -11,7 +11,7 @@ fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
     observe_conservative(sums, repulsion_of(c, contact), contact);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
-    observe_configuration(sums);
+    observe_configuration(sums, take_gathered_kick(index));
     // By id, for analyses and trajectories.
     particles[me.position.w] = me;
 }

@@ -21,10 +21,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let momentum = steps_of(me.momentum) + clock_closing() * sums.kick;
+    let bonded = gathered_kick(index);
+    let kick = sums.kick + bonded;
+    let momentum = steps_of(me.momentum) + clock_closing() * kick;
     observe_motion(species_of(me), momentum, sums.pairs.virial);
-    observe_configuration(sums.pairs);
-    add_reported_force(momentum_word(sums.kick, 0));
+    observe_configuration(sums.pairs, bonded);
+    add_reported_force(momentum_word(kick, 0));
     store_force(me.position.w);
     // By id, for analyses and trajectories.
     store_particle(me.position.w, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));

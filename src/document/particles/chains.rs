@@ -30,6 +30,13 @@ pub struct BondsInteraction {
     pub exclude_repulsion: bool,
 }
 
+impl BondsInteraction {
+    /// Whether friction or a bath with memory acts along the bonds.
+    pub(crate) fn has_bath(&self) -> bool {
+        self.bath.acts(self.friction)
+    }
+}
+
 /// The potential of a bond of length r.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]

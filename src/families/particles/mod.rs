@@ -46,8 +46,8 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than pairs without memory in two or three dimensions: then every coupling adds its impulses up
-    /// on its own, and listed pairs persist.
+    /// Whether there is more than pairs without memory, and bonds and angles without a bath, in two or three dimensions: then
+    /// every coupling adds its impulses up on its own, and listed pairs persist.
     pub are_coupled: bool,
 }
 
@@ -119,6 +119,13 @@ impl Particles {
             chains,
             are_coupled: checks::is_coupled(scene),
         }
+    }
+}
+
+impl Particles {
+    /// Whether there are bonds or angles.
+    pub(crate) fn are_bonded(&self) -> bool {
+        self.bonds.is_some() || self.angles.is_some()
     }
 }
 
@@ -200,9 +207,10 @@ impl Physics for Particles {
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.are_coupled {
+        if self.are_coupled || self.are_bonded() {
             stability::check(scene, model, problems);
-        } else {
+        }
+        if !self.are_coupled {
             stability::check_friction(scene, model, problems);
         }
     }
@@ -261,7 +269,8 @@ impl Physics for Particles {
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
         let (model, state) = (model.clone(), state.clone());
-        Some(if self.are_coupled {
+        // Whose steps are not split, bonds are couplings like others.
+        Some(if self.are_coupled || (self.are_bonded() && !self.splits(&model)) {
             Box::new(CouplingsReference::new(model, state))
         } else {
             Box::new(Reference::new(model, state))

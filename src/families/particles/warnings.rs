@@ -26,11 +26,11 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         }
     }
     warn_of_places(scene, &mut warnings);
-    if particles.are_coupled {
+    if particles.are_coupled || particles.are_bonded() {
         warnings.extend(stability::warn(scene, model));
         warn_of_springs(scene, &mut warnings);
-        warn_of_loose_chains(scene, &mut warnings);
     }
+    warn_of_loose_chains(scene, &mut warnings);
     warn_of_momentum(scene, &mut warnings);
     warnings
 }

@@ -48,10 +48,13 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// Whether a scene has more than pairs without memory in two or three dimensions; of other families it has not.
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions; of other
+/// families it has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
+        Interaction::Bonds(bonds) => bonds.has_bath(),
+        Interaction::Angles(_) => false,
         other => acts(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
@@ -70,7 +73,7 @@ pub(super) fn acts(interaction: &Interaction) -> bool {
         }
         Interaction::ColouredNoise(noise) => noise.strength > 0.0,
         Interaction::Tether(spring) => spring.stiffness > 0.0,
-        Interaction::Angles(angles) => angles.stiffness > 0.0,
+        Interaction::Angles(angles) => angles.stiffness != 0.0,
         _ => true,
     }
 }
@@ -186,8 +189,7 @@ fn reason(scene: &Scene) -> String {
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::ColouredNoise(_) => "a coloured noise",
             Interaction::Tether(_) => "tethers",
-            Interaction::Bonds(_) => "bonds",
-            Interaction::Angles(_) => "angles",
+            Interaction::Bonds(bonds) if bonds.has_bath() => "a bath on every bond",
             Interaction::HarmonicChain(_) => "harmonic chains",
             _ => continue,
         };
@@ -204,9 +206,7 @@ fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
         let found = match interaction {
             Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
             Interaction::Langevin(_) => "a bath on every particle",
-            Interaction::Bonds(bonds) if bonds.friction > 0.0 || matches!(bonds.bath, Bath::Memory { .. }) => {
-                "a bath on every bond"
-            }
+            Interaction::Bonds(bonds) if bonds.has_bath() => "a bath on every bond",
             Interaction::HarmonicChain(_) => "chains with baths on their springs",
             _ => continue,
         };

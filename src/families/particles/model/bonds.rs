@@ -92,6 +92,11 @@ impl Bonds {
         self.runs.most_partners(|kind| self.kinds[kind as usize].exclude_repulsion)
     }
 
+    /// Number of bonds whose ends are spared each other's repulsion.
+    pub(crate) fn excluding(&self) -> u64 {
+        self.runs.count_of(|kind| self.kinds[kind as usize].exclude_repulsion)
+    }
+
     /// Whether any bond remembers.
     #[must_use]
     pub fn have_memory(&self) -> bool {

@@ -70,7 +70,13 @@ impl<const LENGTH: usize> Runs<LENGTH> {
 
     /// Number of runs.
     pub fn count(&self) -> u64 {
-        self.stretches.iter().fold(0, |sum, stretch| sum.saturating_add(stretch.shape.count()))
+        self.count_of(|_| true)
+    }
+
+    /// Number of runs of some kinds.
+    pub fn count_of(&self, asked: impl Fn(u32) -> bool) -> u64 {
+        let stretches = self.stretches.iter().filter(|stretch| asked(stretch.kind));
+        stretches.fold(0, |sum, stretch| sum.saturating_add(stretch.shape.count()))
     }
 
     /// All runs with their kinds, in order.

@@ -1,8 +1,10 @@
 //! Plans of particles: of pairs without memory, in one or two traversals a step, and of all couplings one by one.
 
+mod bonded;
 pub(crate) mod couplings;
 mod law;
 pub(crate) mod pair;
+pub(crate) mod quanta;
 mod species;
 
 use super::layout::PARTICLE;

@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn the_coupling_has_the_weight_as_its_derivative() {
         let scene = scene::load("dpd-fluid", &[]).unwrap();
-        let mut force = Model::new(&scene).pair_force().cloned().unwrap();
+        let mut force = Model::new(&scene).particles().pair_force.clone().unwrap();
         force.cutoff = 1.5;
         for weight_exponent in [0.5, 1.0, 2.0, 3.0] {
             force.weight_exponent = weight_exponent;

@@ -1,4 +1,4 @@
-//! Pairs without memory, and all couplings and baths, in float64.
+//! Pairs without memory, with bonds and angles where steps are split, and all couplings and baths, in float64.
 
 mod couplings;
 mod end_of_step;
@@ -29,7 +29,8 @@ struct Report {
     total_virial: f64,
 }
 
-/// A model and its state, stepped on the CPU.
+/// A model of pairs and its state, stepped on the CPU. Bonds and angles are part of its split steps; of other steps with them
+/// [`CouplingsReference`] is the reference.
 ///
 /// ```
 /// use mesoscope::{families::Model, families::reference::Reference, scene};
@@ -78,9 +79,10 @@ impl Reference {
     /// Advances by one step.
     ///
     /// # Errors
-    /// [`Unstable`] when a momentum or a drift does not fit the integer state, which is then left as it was.
+    /// [`Unstable`] when a momentum or a drift does not fit the integer state or a bond is too long, and the state is then
+    /// left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        let Report { momenta, kick, .. } = self.report(&self.pairs());
+        let Report { momenta, kick, .. } = self.report(&self.pairs())?;
         let parts = self.parts_of_drift();
         end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &kick, parts)
     }
@@ -89,26 +91,23 @@ impl Reference {
     /// configuration there too, but for a split step at [`Self::state_between_forces`].
     ///
     /// # Errors
-    /// [`Unstable`] as [`Self::step`], of a split step only.
+    /// [`Unstable`] as [`Self::step`].
     pub fn observe(&self) -> Result<Observables, Unstable> {
-        let found = self.pairs();
-        let report = self.report(&found);
-        let configuration = if self.model.particles().splits(&self.model) {
-            let range = self.model.particles().pair_force.as_ref().map_or(0.0, |force| force.cutoff);
-            pairs::find_pairs(&self.model.units, &self.state_between_forces()?.positions, range)
+        let report = self.report(&self.pairs())?;
+        Ok(if self.model.particles().splits(&self.model) {
+            observables::observe(self, &self.state_between_forces()?, &report)
         } else {
-            found
-        };
-        Ok(observables::observe(self, &configuration, &report))
+            observables::observe(self, &self.state, &report)
+        })
     }
 
     /// Positions and momenta of the motion at the report point of the current step, r(n) and p(n): full-step momenta,
     /// for a split step those after the relaxation.
     ///
     /// # Errors
-    /// [`Unstable::Momentum`] when a momentum does not fit the integer state.
+    /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
     pub fn reported_state(&self) -> Result<State, Unstable> {
-        let momenta = narrow(&self.report(&self.pairs()).momenta, self.state.step)?;
+        let momenta = narrow(&self.report(&self.pairs())?.momenta, self.state.step)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }
 
@@ -156,9 +155,9 @@ impl Reference {
         pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
     }
 
-    fn report(&self, found: &[Pair]) -> Report {
+    fn report(&self, found: &[Pair]) -> Result<Report, Unstable> {
         match self.model.integrator {
-            Integrator::GrootWarren { .. } | Integrator::CotterReich {} => leapfrog::report(self, found),
+            Integrator::GrootWarren { .. } | Integrator::CotterReich {} => Ok(leapfrog::report(self, found)),
             Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                 splitting::report(self, found)
             }

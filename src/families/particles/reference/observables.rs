@@ -1,6 +1,7 @@
 //! Sums over particles and pairs at the report point.
 
-use super::pairs::{Forces, Pair, find_pairs};
+use super::couplings::observables::of_configuration;
+use super::pairs::find_pairs;
 use super::{Reference, Report};
 use crate::families::{Model, Observables};
 use crate::state::State;
@@ -23,27 +24,11 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
     }
 }
 
-/// All observables of the report point.
-pub(super) fn observe(reference: &Reference, found: &[Pair], report: &Report) -> Observables {
+/// All observables of the report point, with the configuration of a state.
+pub(super) fn observe(reference: &Reference, configuration: &State, report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
-    let dimension = model.units.dimension;
-    let mut observables = of_motion(model, state, &reference.masses, &report.momenta);
-    observables.total_virial = report.total_virial;
-    let mut gradients = vec![[0.0; 3]; state.len()];
-    for pair in found {
-        let potential = Forces::between(model, &state.species, pair).potential;
-        observables.potential_energy += potential.energy;
-        observables.conservative_virial += potential.virial(pair.distance);
-        // Both ends have the same Laplacian.
-        observables.laplacian += 2.0 * potential.laplacian(pair.distance, dimension);
-        let gradient = potential.gradient(pair);
-        for axis in 0..3 {
-            gradients[pair.first][axis] += gradient[axis];
-            gradients[pair.second][axis] -= gradient[axis];
-        }
-    }
-    observables.gradient_squared = gradients.iter().flatten().map(|component| component * component).sum();
-    observables
+    let motion = of_motion(model, state, &reference.masses, &report.momenta);
+    of_configuration(model, configuration, Observables { total_virial: report.total_virial, ..motion })
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.

@@ -1,6 +1,6 @@
 //! The splitting A(½) B(½) O B(½) A(½), with friction and noise applied at the half-drifted positions.
 //!
-//! A drifts, B kicks by the conservative force, O relaxes the relative velocities of all pairs along their lines of
+//! A drifts, B kicks by the conservative forces of pairs, bonds and angles, O relaxes the relative velocities of all pairs along their lines of
 //! centres. Its report point is in the middle, just after O, where B and O see the same pairs; what the state keeps is
 //! cut just before the closing B: two half drifts make one.
 //!
@@ -12,10 +12,12 @@
 //! ```
 //! The initial momenta are those of the report point of step 0, so that closing kick and O are left out there.
 
+use super::couplings::bonded_kicks;
+use super::couplings::pairs::excluded_pairs;
 use super::pairs::{self, Forces, Pair, dot};
 use super::{Reference, Report};
 use crate::families::Model;
-use crate::families::reference::{add, widen};
+use crate::families::reference::{Unstable, add, widen};
 use crate::noise::{self, stream};
 
 /// The rule by which O relaxes the velocities of pairs that share particles.
@@ -41,11 +43,15 @@ pub enum Relaxation {
 }
 
 /// Momenta after O and the kick that follows.
-pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
+pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Unstable> {
     let (model, state) = (&reference.model, &reference.state);
     let mut kick = vec![[0; 3]; state.len()];
-    let mut total_virial = 0.0;
+    let mut total_virial = bonded_kicks(model, state, &reference.masses, &mut kick)?;
+    let excluded = excluded_pairs(model);
     for pair in found {
+        if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
+            continue;
+        }
         let force = Forces::between(model, &state.species, pair).potential.force();
         total_virial += pairs::push_apart(model, pair, force, &mut kick);
     }
@@ -56,7 +62,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
         add(&mut momenta, &impulses);
         total_virial += virial / model.time_step;
     }
-    Report { momenta, kick, total_virial }
+    Ok(Report { momenta, kick, total_virial })
 }
 
 /// The sums of the impulses of O, and Σ r·J over pairs.

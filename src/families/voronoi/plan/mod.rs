@@ -14,7 +14,7 @@ mod tessellation;
 pub(super) use friction::SOLVER;
 
 use crate::document::{Integrator, VoronoiForm};
-use crate::families::particles::plan::pair;
+use crate::families::particles::plan::quanta;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
@@ -51,7 +51,10 @@ fn grid(model: &Model, particles: u64) -> Grid {
 
 /// Units of the sums: those of pairs, and areas in 2⁻³² of that of a cell.
 fn quanta(model: &Model) -> Quanta {
-    Quanta { length_squared: Voronoi::mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32), ..pair::quanta(model) }
+    Quanta {
+        length_squared: Voronoi::mean_volume(model).log2().ceil().exp2() * 2_f64.powi(-32),
+        ..quanta::quanta(model)
+    }
 }
 
 /// The plane and the cells in it.

@@ -4,21 +4,22 @@
 //! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
-mod angles;
-mod bonds;
 mod coloured_noise;
+mod exclusions;
 mod list;
 mod motion;
 mod pairs;
 mod reported;
 mod tethers;
 
+use super::bonded::{self, Scales};
+use super::quanta;
 use super::species::Species;
 use super::{
-    Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate, pair,
+    Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate,
     texture_candidates, words,
 };
-use crate::document::{BondPotential, Integrator};
+use crate::document::Integrator;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
@@ -44,8 +45,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
     builder.buffers();
     builder.list();
     builder.pairs();
-    builder.bonds();
-    builder.angles();
+    builder.bonded();
     builder.tethers();
     builder.coloured_noise();
     builder.motion();
@@ -86,30 +86,15 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     Plan { reported: Some((Array::Reported, reported)), ..plan }
 }
 
-/// Units of the sums: those of pairs, and for the square of a bath that of the stiffest. Springs far stiffer than what heat and
-/// repulsion make of the unit of length, as in the cold, need coarser units of the curvature and of the square of a force, which
-/// goes with it in equilibrium.
+/// Units of the sums: those of particles, and for the square of a bath that of the stiffest.
 fn quanta(model: &Model) -> Quanta {
-    let mut quanta = pair::quanta(model);
+    let mut quanta = quanta::quanta(model);
     let temperature = quanta.energy * 2_f64.powi(32);
-    let stiffness = stiffest_spring(model).log2().ceil().exp2() * 2_f64.powi(-32);
-    quanta.curvature = quanta.curvature.max(stiffness);
-    quanta.force_squared = quanta.force_squared.max(temperature * stiffness);
     let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
     if largest > 0.0 {
         quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
     }
     quanta
-}
-
-/// The largest spring constant of a scene.
-fn stiffest_spring(model: &Model) -> f64 {
-    let kinds = model.particles().bonds.as_ref().into_iter().flat_map(|bonds| &bonds.kinds);
-    let of_bonds = kinds.filter_map(|kind| match kind.potential {
-        Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => Some(stiffness),
-        None => None,
-    });
-    of_bonds.chain(model.particles().tether).fold(0.0, f64::max)
 }
 
 /// The baths that remember.
@@ -189,15 +174,48 @@ impl Builder<'_> {
         self.force.acts()
     }
 
+    fn scales(&self) -> Scales<'_> {
+        Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
+    }
+
     /// Inverse masses; none of what is held.
     fn inverse_mass(&self, species: usize) -> f64 {
-        let species = &self.model.species[species];
-        if species.fixed { 0.0 } else { 1.0 / species.mass }
+        self.scales().inverse_mass(species)
     }
 
     /// Impulse of half a step by a unit force, in momentum units.
     fn impulse(&self) -> f64 {
-        0.5 * self.model.time_step / self.model.units.momentum
+        self.scales().impulse()
+    }
+
+    /// Bonds and angles.
+    fn bonded(&mut self) {
+        for bonded in bonded::all(&self.scales()) {
+            let groups = self.groups(bonded.count);
+            self.plan.constants.extend(bonded.constants);
+            let advance = self.kernel(bonded.name, bonded.entry, &bonded.choices, groups);
+            self.plan.advance.push(advance);
+            let seen = bonded.observed.choices.with_any(self.forces());
+            self.report_kernel(bonded.reports[0], bonded.entry, &seen, groups);
+            self.plan.operations_per_particle += bonded.operations * bonded.count as f64 / self.particles.max(1) as f64;
+        }
+        let model = self.model;
+        bonded::add_tables(&Scales { model, species: self.species, quanta: self.plan.quanta }, &mut self.plan);
+        let Some(bonds) = model.particles().bonds.as_ref() else { return };
+        if bonds.have_friction() {
+            self.bath_impulse();
+        }
+        if bonds.have_memory() {
+            self.plan.add_buffer(Array::BondBaths, 4 * bonds.count());
+        }
+    }
+
+    /// Impulse of half a step per bath, which pairs with memory may have named already.
+    fn bath_impulse(&mut self) {
+        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
+            let impulse = self.impulse();
+            self.plan.constants.push((Constant::BathImpulse, impulse));
+        }
     }
 
     /// The constant of the law of baths, which another coupling may have named already.
@@ -227,7 +245,7 @@ impl Builder<'_> {
         self.dimension()
             .with(if volume { grid::Dimension::Volume } else { grid::Dimension::Plane })
             .with(grid::Rows::Plain)
-            .with(if volume { couplings::Kicks::Volume } else { couplings::Kicks::Plane })
+            .and(&bonded::kicks(dimension))
             .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))

@@ -18,9 +18,9 @@
 mod angles;
 mod bonds;
 mod coloured_noise;
-mod observables;
+pub(super) mod observables;
 mod pair_list;
-mod pairs;
+pub(super) mod pairs;
 mod position_baths;
 mod tethers;
 
@@ -168,6 +168,27 @@ impl CouplingsReference {
         }
         Ok(Evaluation { momenta, opening, baths, bath_sums, total_virial })
     }
+}
+
+/// Adds the half kicks of bonds and angles that have no bath with memory; returns Σ r·F over the bonds.
+///
+/// # Errors
+/// [`Unstable::Bond`] for a bond that is too long.
+pub(super) fn bonded_kicks(
+    model: &Model,
+    state: &State,
+    masses: &[f64],
+    kick: &mut [[i64; 3]],
+) -> Result<f64, Unstable> {
+    let mut virial = 0.0;
+    if let Some(bonds) = model.particles().bonds.as_ref() {
+        let motion = Motion::of(model, state, masses);
+        virial = bonds::kick(model, bonds, state, &motion, kick, &mut BathSums::default())?.virial;
+    }
+    if let Some(angles) = model.particles().angles.as_ref() {
+        angles::kick(model, angles, &state.positions, kick);
+    }
+    Ok(virial)
 }
 
 /// Whether a particle is held where it is.

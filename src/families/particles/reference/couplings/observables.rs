@@ -6,11 +6,11 @@
 
 use super::angles::Corner;
 use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
-use crate::families::Bonds;
-use crate::families::Observables;
 use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
+use crate::families::{Bonds, Model, Observables};
+use crate::state::State;
 
 /// Sums of the potential and its derivatives.
 struct Configuration {
@@ -40,24 +40,35 @@ impl Configuration {
 /// All observables of the report point.
 pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
-    let configuration = configuration(reference);
+    let motion = of_motion(model, state, &reference.masses, &evaluation.momenta);
+    let baths = evaluation.bath_sums;
+    Observables {
+        total_virial: evaluation.total_virial,
+        bath_energy: baths.energy,
+        bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
+        ..of_configuration(model, state, motion)
+    }
+}
+
+/// The same with what is observed of the configuration of a state.
+pub(in crate::families::particles::reference) fn of_configuration(
+    model: &Model,
+    state: &State,
+    motion: Observables,
+) -> Observables {
+    let configuration = configuration(model, state);
     let mobile = |particle: &usize| !is_fixed(model, state, *particle);
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
-    let baths = evaluation.bath_sums;
     Observables {
         potential_energy: configuration.potential,
         gradient_squared: (0..state.len()).filter(mobile).map(squares).sum(),
         laplacian: (0..state.len()).filter(mobile).map(|particle| configuration.laplacians[particle]).sum(),
         conservative_virial: configuration.virial,
-        total_virial: evaluation.total_virial,
-        bath_energy: baths.energy,
-        bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
-        ..of_motion(model, state, &reference.masses, &evaluation.momenta)
+        ..motion
     }
 }
 
-fn configuration(reference: &CouplingsReference) -> Configuration {
-    let (model, state) = (&reference.model, &reference.state);
+fn configuration(model: &Model, state: &State) -> Configuration {
     let count = state.len();
     let dimension = model.units.dimension;
     let mut sums = Configuration {
@@ -119,7 +130,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::families::{Family, Model};
+    use crate::families::Family;
     use crate::scene::Scene;
     use serde_json::json;
 

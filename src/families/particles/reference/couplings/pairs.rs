@@ -51,7 +51,7 @@ pub(super) fn kick(
 }
 
 /// The pairs that are spared their repulsion, smaller number first, in order.
-pub(super) fn excluded_pairs(model: &Model) -> Vec<[u32; 2]> {
+pub(in crate::families::particles::reference) fn excluded_pairs(model: &Model) -> Vec<[u32; 2]> {
     let Some(bonds) = model.particles().bonds.as_ref() else { return Vec::new() };
     let excluding = bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion);
     let mut excluded: Vec<_> =

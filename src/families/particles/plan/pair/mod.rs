@@ -1,7 +1,10 @@
-//! The plan of a scene whose particles interact in pairs.
+//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub.
+
+mod bonded;
 
 use super::law::law;
 use super::prefix_sum::{PrefixSum, needs_levels};
+use super::quanta::quanta;
 use super::serial_memory::TURNS;
 use super::species::Species;
 use super::{
@@ -12,7 +15,7 @@ use crate::document::Integrator;
 use crate::families::particles::ParticleLayout;
 use crate::families::{Model, PairForce};
 use crate::noise;
-use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, grid, pairs, space};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
 use crate::state::Units;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
@@ -72,34 +75,6 @@ fn empty_plan(model: &Model, grid: &Grid) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let layout = ParticleLayout { dimension: model.units.dimension, predicted };
     model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
-}
-
-/// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
-/// are counted in 2⁻³² of a typical one, which leaves room for 2³¹ times as much, and the squares of forces and the
-/// curvatures, which are hundreds of times as large as the scales they are made from, in 2⁻²⁴.
-pub(crate) fn quanta(model: &Model) -> Quanta {
-    let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
-    let lightest = if lightest.is_finite() { lightest } else { 1.0 };
-    let heaviest = model.species.iter().map(|species| species.mass).fold(lightest, f64::max);
-    let typical_momentum = model.units.momentum * 2_f64.powi(24);
-    // The momentum of the heaviest in a bath belongs to an energy of kT, which the lightest has too. Momenta that come
-    // from elsewhere may all be those of the lightest.
-    let thermal = typical_momentum * typical_momentum <= 4.0 * heaviest * model.temperature;
-    let kinetic = typical_momentum * typical_momentum / if thermal { heaviest } else { lightest };
-    let cutoff = model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
-    let repulsive = model.particles().pair_force.as_ref().map_or(0.0, |force| force.largest_repulsion() * cutoff);
-    let strongest = kinetic.max(repulsive);
-    let power_of_two = |value: f64| value.log2().ceil().exp2();
-    let energy = power_of_two(kinetic) * 2_f64.powi(-32);
-    Quanta {
-        energy,
-        pair_energy: power_of_two(strongest) * 2_f64.powi(-32),
-        force_squared: power_of_two(kinetic * strongest) * 2_f64.powi(-24) / (cutoff * cutoff),
-        curvature: power_of_two(strongest) * 2_f64.powi(-24) / (cutoff * cutoff),
-        length_squared: cutoff * cutoff * 2_f64.powi(-32),
-        velocity_squared: energy / lightest,
-        bath_squared: 0.0,
-    }
 }
 
 /// What a traversal does with the hits of the prefilter.
@@ -221,6 +196,8 @@ impl Builder<'_> {
             .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
+            .with_if(self.is_bonded(), couplings::Gathered::Kept)
+            .with_if(self.is_bonded(), couplings::Slots::Kept)
     }
 
     fn ordering(&mut self) {
@@ -268,8 +245,10 @@ impl Builder<'_> {
     fn law(&self) -> Choices {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
+        // With the impulses of bonds and a table of species, words for the prefilter are one buffer too many.
+        let positions = self.texels || (self.is_bonded() && self.species.have_table());
         let choices = law(force)
-            .with(if self.texels { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
+            .with(if positions { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
             .with_any(frictional.then_some(match self.model.integrator {
                 Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                     pairs::Friction::Relaxation
@@ -324,14 +303,14 @@ impl Builder<'_> {
 
     fn integration(&mut self) {
         let forces = Choices::new().with_any(self.forces());
-        let groups = if self.splits() {
+        self.plan.operations_per_particle = self.operations();
+        let rows = if self.splits() {
             let momenta = self.momenta();
             self.split_step(&forces.with_any(momenta))
         } else {
             self.leapfrog_step(&forces)
         };
-        self.plan.sample_observables(self.measured.every, OBSERVABLES, u64::from(groups));
-        self.plan.operations_per_particle = self.operations();
+        self.plan.sample_observables(self.measured.every, OBSERVABLES, u64::from(rows));
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
@@ -342,15 +321,18 @@ impl Builder<'_> {
         kernel
     }
 
-    /// One pass a step. Returns the number of workgroups of the report.
+    /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog);
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
         let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
+        let mut rows = self.plan.kernels[report].workgroups;
+        let bonded = self.bonded(&mut rows);
+        self.plan.before_report = bonded.kicks;
         self.plan.advance = vec![advance];
-        self.plan.report = vec![report];
+        self.plan.report = [&[report][..], &bonded.report].concat();
         self.plan.finish_report = vec![advance];
-        self.plan.kernels[report].workgroups
+        rows
     }
 
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
@@ -372,11 +354,14 @@ impl Builder<'_> {
             self.plan.kernels[kernel].constants.push((Constant::Halves, 1.0));
         }
         let again = self.sorting(&self.choices().with(core::Step::Same));
-        self.plan.before_report = vec![find];
+        let mut rows = self.plan.kernels[motion].workgroups;
+        let bonded = self.bonded(&mut rows);
+        self.plan.before_report = [&bonded.kicks[..], &[find]].concat();
         self.plan.advance = vec![relax];
-        self.plan.report = [&[motion, relax_to_report][..], &again, &[configuration]].concat();
+        self.plan.report =
+            [&bonded.report[..], &[motion, relax_to_report], &again, &bonded.configuration, &[configuration]].concat();
         self.plan.finish_report = [&[rest], &self.scan[..]].concat();
-        self.plan.kernels[motion].workgroups
+        rows
     }
 
     /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as

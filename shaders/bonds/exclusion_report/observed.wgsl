@@ -1,0 +1,6 @@
+// A report of excluded pairs: motion and configuration.
+fn note_excluded(repulsion: Repulsion, contact: Contact) {
+    note_virial_of_excluded(repulsion, contact);
+    note_configuration_of_excluded(repulsion, contact);
+}
+fn finish_exclusions(group: u32, lane: u32) { total_reduce(group, lane); }

@@ -1,0 +1,43 @@
+// Bonds that exclude repulsion: what the passes over pairs add for bonded particles is taken back.
+override EXCLUDED: u32; // pairs in `excluded_pairs`, by the ids of both; a pair that is there already names one particle twice
+
+// Takes back the repulsion of one pair: its negative, whose sums a report adds to those of all pairs.
+fn visit_excluded(index: u32) {
+    let pair = excluded_pairs[index];
+    let slot = slots[pair.x];
+    let other_slot = slots[pair.y];
+    let me = particle_in(slot);
+    let other = particle_in(other_slot);
+    let contact = contact_of(separation(me.position, other.position));
+    if (!contact.inside || pair.x == pair.y) { return; }
+    let repulsion = repulsion_of(coefficients_of(species_of(me), species_of(other)), contact);
+    let impulse = Steps(round(repulsion.impulse * contact.direction));
+    add_kick(slot, -impulse);
+    add_kick(other_slot, impulse);
+    note_excluded(repulsion, contact);
+}
+
+// Slot bonds/exclusion_report: `note_excluded` gets the repulsion of each pair, `finish_exclusions` ends the workgroup.
+// Default: off, a step without a report. The plan chooses `observed` for reports; of split steps `motion` where the motion is
+// measured, and `configuration` half a drift later.
+fn note_excluded(repulsion: Repulsion, contact: Contact) {}
+fn finish_exclusions(group: u32, lane: u32) {}
+
+fn note_virial_of_excluded(repulsion: Repulsion, contact: Contact) {
+    total_add(1u, sum64_of_signed(-repulsion.impulse * contact.distance * PAIR_VIRIAL));
+}
+fn note_configuration_of_excluded(repulsion: Repulsion, contact: Contact) {
+    total_add(5u, sum64_of_signed(-repulsion.energy * PAIR_ENERGY));
+    total_add(6u, sum64_of_signed(-repulsion.impulse * contact.distance * PAIR_VIRIAL));
+    total_add(8u, sum64_of_signed(-repulsion.laplacian * LAPLACIAN));
+}
+
+// Takes back the repulsion of all pairs that bonds exclude. One invocation a pair; reads `excluded_pairs`, `slots` and particles,
+// adds the impulses of half a step to `kicks` of both.
+@compute @workgroup_size(WORKGROUP)
+fn exclude_repulsion(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let index = group * WORKGROUP + lane;
+    if (index < EXCLUDED) { visit_excluded(index); }
+    finish_exclusions(group, lane);
+}

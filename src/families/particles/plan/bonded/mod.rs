@@ -1,0 +1,119 @@
+//! Couplings that name their particles: bonds, angles and pairs that bonds exclude, as plans of particles need them.
+
+mod angles;
+mod bonds;
+mod exclusions;
+
+use super::species::Species;
+use crate::document::BondPotential;
+use crate::families::Model;
+use crate::plan::{Plan, Quanta};
+use crate::shaders::{Choices, Constant, Entry, couplings};
+
+/// A kernel with an invocation for each of some bonds, angles or pairs: it adds impulses of half a step to the particles that they name, and
+/// tells a report about them.
+pub(super) struct Bonded {
+    pub name: &'static str,
+    /// The names of the kernels of a report, the second that of the configuration alone.
+    pub reports: [&'static str; 2],
+    pub entry: Entry,
+    /// How many there are.
+    pub count: u64,
+    /// Potentials and baths.
+    pub choices: Choices,
+    /// What a report sums, where motion and configuration are measured together.
+    pub observed: Observed,
+    /// The part that belongs to the motion, if there is one.
+    pub motion: Option<Observed>,
+    /// The part that belongs to the configuration.
+    pub configuration: Observed,
+    pub constants: Vec<(Constant, f64)>,
+    /// Arithmetic of each.
+    pub operations: f64,
+}
+
+/// What a report sums: beside the variants the constants that turn impulses into sums, see [`Scales::once`].
+#[derive(Clone)]
+pub(super) struct Observed {
+    pub choices: Choices,
+    pub scales: &'static [Constant],
+}
+
+/// What the numbers of kernels depend on.
+#[derive(Clone, Copy)]
+pub(super) struct Scales<'a> {
+    pub model: &'a Model,
+    pub species: Species,
+    pub quanta: Quanta,
+}
+
+impl Scales<'_> {
+    /// Impulse of half a step by a unit force, in momentum units.
+    pub fn impulse(&self) -> f64 {
+        0.5 * self.model.time_step / self.model.units.momentum
+    }
+
+    /// Constants of a report that sums whatever has two ends once, while a traversal of pairs visits it from both.
+    pub fn once(&self, asked: &[Constant]) -> Vec<(Constant, f64)> {
+        let to_force = 1.0 / self.impulse();
+        let cutoff = self.model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
+        let all = [
+            (Constant::PairEnergy, to_force * cutoff / (2.0 * self.quanta.pair_energy)),
+            (Constant::PairVirial, to_force / self.quanta.pair_energy),
+            (Constant::Laplacian, 2.0 * to_force / self.quanta.curvature),
+        ];
+        all.into_iter().filter(|(constant, _)| asked.contains(constant)).collect()
+    }
+
+    /// Displacement of a species in a step per unit of momentum, rounded where particles drift.
+    fn drift_per_momentum(&self, species: usize) -> f32 {
+        let drift = (self.model.time_step * self.model.units.momentum / self.species.mass()) as f32;
+        if self.species.have_one_mass() { drift } else { drift * self.inverse_mass(species) as f32 }
+    }
+
+    /// Inverse masses; none of what is held.
+    pub fn inverse_mass(&self, species: usize) -> f64 {
+        let species = &self.model.species[species];
+        if species.fixed { 0.0 } else { 1.0 / species.mass }
+    }
+}
+
+/// Bonds and angles of a model.
+pub(super) fn all(scales: &Scales<'_>) -> Vec<Bonded> {
+    let bonds = scales.model.particles().bonds.as_ref().map(|bonds| bonds::bonded(scales, bonds));
+    let angles = scales.model.particles().angles.as_ref().map(|angles| angles::bonded(scales, angles));
+    bonds.into_iter().chain(angles).collect()
+}
+
+/// Pairs that bonds exclude, where all pairs are visited and none is listed.
+pub(super) fn excluded(scales: &Scales<'_>, plan: &mut Plan) -> Option<Bonded> {
+    let force = scales.model.particles().pair_force.as_ref().filter(|force| force.largest_repulsion() > 0.0)?;
+    let bonds = scales.model.particles().bonds.as_ref().filter(|bonds| bonds.excluding() > 0)?;
+    exclusions::add_table(bonds, plan);
+    Some(exclusions::bonded(bonds, force))
+}
+
+/// Adds the tables of bonds and angles.
+pub(super) fn add_tables(scales: &Scales<'_>, plan: &mut Plan) {
+    if let Some(bonds) = scales.model.particles().bonds.as_ref() {
+        bonds::add_table(scales, bonds, plan);
+    }
+    if let Some(angles) = scales.model.particles().angles.as_ref() {
+        angles::add_table(scales, angles, plan);
+    }
+}
+
+/// What adds impulses to the particles of a space.
+pub(super) fn kicks(dimension: usize) -> Choices {
+    Choices::new().with(if dimension == 3 { couplings::Kicks::Volume } else { couplings::Kicks::Plane })
+}
+
+/// The largest spring constant of a scene.
+pub(super) fn stiffest_spring(model: &Model) -> f64 {
+    let kinds = model.particles().bonds.as_ref().into_iter().flat_map(|bonds| &bonds.kinds);
+    let of_bonds = kinds.filter_map(|kind| match kind.potential {
+        Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => Some(stiffness),
+        None => None,
+    });
+    of_bonds.chain(model.particles().tether).fold(0.0, f64::max)
+}
