@@ -60,6 +60,7 @@ impl Fluid {
     }
 }
 
-fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
+/// An engine of a scene from a state.
+pub fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
     Ok(Engine::new(gpu, plan_of(scene, gpu.into(), Options::default()), state)?)
 }

@@ -77,6 +77,15 @@ impl Lammps {
 
     /// The particles of a state in a cube.
     pub fn fluid(&mut self, model: &Model, state: &State) -> Result<(), Failure> {
+        self.particles("fluid", "", model, state)
+    }
+
+    /// The same bound to chains of some beads by springs K r²/2.
+    pub fn melt(&mut self, model: &Model, state: &State, beads: u64, stiffness: f64) -> Result<(), Failure> {
+        self.particles("melt", &format!(" {beads} {stiffness}"), model, state)
+    }
+
+    fn particles(&mut self, what: &str, more: &str, model: &Model, state: &State) -> Result<(), Failure> {
         let units = &model.units;
         let mut bytes = Vec::with_capacity(48 * state.len());
         for position in &state.positions {
@@ -91,7 +100,7 @@ impl Lammps {
         let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lammps-particles.tmp");
         std::fs::write(&file, bytes)?;
         let count = state.len();
-        let answer = self.ask(&format!("fluid {count} {} 12345 {}", units.lengths[0], file.display()))?;
+        let answer = self.ask(&format!("{what} {count} {} 12345 {}{more}", units.lengths[0], file.display()))?;
         std::fs::remove_file(&file)?;
         if answer == count.to_string() {
             Ok(())

@@ -4,11 +4,15 @@ Reads commands from standard input, one a line, and answers each with one line, 
 "error:" where something went wrong:
     version                     the version and the number of threads
     fluid N EDGE SEED FILE      N particles in a cube; FILE holds positions, then velocities, as float64
+    melt N EDGE SEED FILE BEADS STIFFNESS
+                                the same in chains of BEADS, held by springs of energy STIFFNESS/2 r^2
     time DT SKIN                time step and skin of the neighbour list, with a short run to make the list
     run STEPS                   the seconds that many steps took
 """
 
+import array
 import ctypes
+import os
 import sys
 import time
 
@@ -50,6 +54,46 @@ def fluid(count, edge, seed, path):
     return engine.get_natoms()
 
 
+def melt(count, edge, seed, path, beads, stiffness):
+    with open(path, "rb") as file:
+        numbers = array.array("d", file.read(48 * count))
+    data = path + ".data"
+    with open(data, "w") as file:
+        file.write(f"melt\n\n{count} atoms\n{count // beads * (beads - 1)} bonds\n1 atom types\n1 bond types\n\n")
+        file.write("".join(f"0 {edge} {axis}lo {axis}hi\n" for axis in "xyz"))
+        file.write("\nAtoms # bond\n\n")
+        for index in range(count):
+            x, y, z = numbers[3 * index : 3 * index + 3]
+            file.write(f"{index + 1} {index // beads + 1} 1 {x!r} {y!r} {z!r}\n")
+        file.write("\nVelocities\n\n")
+        for index in range(count):
+            x, y, z = numbers[3 * (count + index) : 3 * (count + index) + 3]
+            file.write(f"{index + 1} {x!r} {y!r} {z!r}\n")
+        file.write("\nBonds\n\n")
+        ends = (index for index in range(1, count) if index % beads != 0)
+        for number, end in enumerate(ends):
+            file.write(f"{number + 1} 1 {end} {end + 1}\n")
+    # Springs may be as long as heat makes them, and bonded particles repel each other as others do.
+    engine.commands_string(f"""
+        units lj
+        atom_style bond
+        comm_modify vel yes cutoff 3.0
+        newton on
+        special_bonds lj 1 1 1
+        read_data {data}
+        mass 1 1.0
+        pair_style dpd 1.0 1.0 {seed}
+        pair_coeff * * 25 4.5 1.0
+        bond_style harmonic
+        bond_coeff 1 {stiffness / 2} 0
+        fix move all nve
+        thermo 0
+        thermo_modify norm no
+    """)
+    os.remove(data)
+    return engine.get_natoms()
+
+
 def set_time(step, skin):
     # Checked every step: the list is rebuilt when it must be, and never too late.
     engine.commands_string(f"""
@@ -74,6 +118,8 @@ def answer(words):
             return f"{engine.version()}, OpenMP with {threads} threads"
         case ["fluid", count, edge, seed, path]:
             return fluid(int(count), edge, seed, path)
+        case ["melt", count, edge, seed, path, beads, stiffness]:
+            return melt(int(count), edge, seed, path, int(beads), float(stiffness))
         case ["time", step, skin]:
             return set_time(step, skin)
         case ["run", steps]:

@@ -1,4 +1,5 @@
-//! What a particle-step of the DPD fluid costs: compared with LAMMPS, by stage, in small runs, by integrator, and computed otherwise.
+//! What a particle-step of the DPD fluid costs: compared with LAMMPS, by stage, in small runs, by integrator, with bonds, and
+//! computed otherwise.
 //!
 //! `cargo bench --bench dpd` prints tables in Markdown and takes some minutes; `cargo bench --bench dpd -- --quick` is a
 //! look that proves nothing. All that is compared is measured in turns within one run, and ratios are taken round by
@@ -10,6 +11,7 @@ mod alternatives;
 mod common;
 mod fluid;
 mod lammps;
+mod melt;
 
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -36,6 +38,9 @@ struct Settings {
     /// Edges of the boxes; the largest is left out if it is to be quick
     #[arg(long, value_delimiter = ',', default_values_t = [10.0, 20.0, 40.0, 69.34])]
     edges: Vec<f64>,
+    /// The melt of chains alone
+    #[arg(long)]
+    melt: bool,
     /// Leave LAMMPS out
     #[arg(long)]
     no_lammps: bool,
@@ -61,12 +66,20 @@ fn main() -> Result<(), Failure> {
     let words = peer.as_ref().map_or_else(|reason| format!("none ({reason})"), Clone::clone);
     let report = Report::begin("The DPD fluid: cost of a particle-step", &gpu, &format!("LAMMPS: {words}"));
     let fluids = settings.edges.iter().map(|&edge| Fluid::equilibrated(&gpu, edge)).collect::<Result<Vec<_>, _>>()?;
+    if settings.melt {
+        for fluid in &fluids {
+            melt::compare(&gpu, fluid, peer.is_ok(), turns)?;
+        }
+        report.end();
+        return Ok(());
+    }
     let price = beside_lammps(&gpu, &fluids, peer.is_ok(), turns)?;
     price_of_accuracy(&price);
     by_stage(&gpu, &fluids, turns)?;
     by_size(&gpu, &fluids, turns.at_most(5))?;
     by_batch(&gpu, &fluids, turns.at_most(5).half())?;
     if let Some(fluid) = fluids.iter().rfind(|fluid| fluid.particles() < MANY) {
+        melt::compare(&gpu, fluid, peer.is_ok(), turns)?;
         alternatives::compare(&gpu, fluid, &INTEGRATORS, turns)?;
     }
     start_up(&gpu)?;

@@ -1,6 +1,5 @@
 //! A melt of chains: the price of bonds, and the same melt in LAMMPS.
 
-use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::scene::{self, Scene};
@@ -8,9 +7,10 @@ use mesoscope::state::State;
 
 use crate::common::statistics::{grouped, ratios, spread};
 use crate::common::timed::Run;
+use crate::common::timing::Turns;
 use crate::fluid::{self, Fluid, INTEGRATORS};
 use crate::lammps::{self, Lammps};
-use crate::{Failure, Settings, TIME_STEPS};
+use crate::{Failure, TIME_STEPS};
 
 /// Particles of a chain, and the stiffness of its springs: those of Groot and Madden, doi:10.1063/1.476300.
 const BEADS: u64 = 10;
@@ -33,12 +33,12 @@ fn scene(edge: f64, chains: u64, integrator: &str, time_step: f64) -> Result<Sce
 }
 
 /// Compares a melt with the fluid of as many particles, and with LAMMPS.
-pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, settings: &Settings) -> Result<(), Failure> {
+pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, turns: Turns) -> Result<(), Failure> {
     let chains = fluid.particles() as u64 / BEADS;
     let particles = (chains * BEADS) as usize;
     let start = scene(fluid.edge, chains, "groot-warren", 0.04)?;
     let model = Model::new(&start);
-    let mut engine = engine(gpu, &start, &mesoscope::families::initial_state(&start, &model))?;
+    let mut engine = fluid::engine(gpu, &start, &mesoscope::families::initial_state(&start, &model))?;
     engine.advance(EQUILIBRATION, 16)?;
     let state = State { step: 0, ..engine.state()? };
     let mut lammps = if peer { Some(Lammps::start()?) } else { None };
@@ -54,20 +54,20 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, settings: &Settings) -> Res
     for time_step in TIME_STEPS {
         let (mut skin, mut steps) = (None, 0);
         if let Some(lammps) = &mut lammps {
-            let tuned = lammps.tune(time_step, particles, settings)?;
+            let tuned = lammps.tune(time_step, particles, turns.seconds)?;
             lammps.set_time(time_step, tuned)?;
             let least = lammps::fewest_steps(time_step);
-            steps = ((settings.seconds / (lammps.run(least)? / least as f64)) as u64).max(least);
+            steps = ((turns.seconds / (lammps.run(least)? / least as f64)) as u64).max(least);
             skin = Some(tuned);
         }
         for integrator in INTEGRATORS {
             let mut simple = fluid.run(gpu, integrator, time_step)?;
             let melt = scene(fluid.edge, chains, integrator, time_step)?;
-            let mut bonded = Run::new(self::engine(gpu, &melt, &state)?, particles)?;
+            let mut bonded = Run::new(fluid::engine(gpu, &melt, &state)?, particles)?;
             let (mut ours, mut without, mut theirs) = (Vec::new(), Vec::new(), Vec::new());
-            for _ in 0..settings.rounds {
-                ours.push(1e-6 * bonded.rate(settings.seconds)?);
-                without.push(1e-6 * simple.rate(settings.seconds)?);
+            for _ in 0..turns.rounds {
+                ours.push(1e-6 * bonded.rate(turns.seconds)?);
+                without.push(1e-6 * simple.rate(turns.seconds)?);
                 if let Some(lammps) = &mut lammps {
                     theirs.push(1e-6 * (steps * particles as u64) as f64 / lammps.run(steps)?);
                 }
@@ -83,8 +83,4 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, settings: &Settings) -> Res
         }
     }
     Ok(())
-}
-
-fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
-    Ok(Engine::new(gpu, fluid::plan_of(scene, gpu.into()), state)?)
 }

@@ -67,7 +67,7 @@ impl Bonds {
     /// let bonds = model.particles().bonds.as_ref().expect("they are bonded");
     /// assert_eq!(bonds.count(), bonds.iter().count() as u64);
     /// // They are counted without being listed.
-    /// let set = ["particles.0.count=1000000000".to_owned()];
+    /// let set = ["particles.0.count=1000000000", "space.box=[700,700,700]"].map(str::to_owned);
     /// let many = Model::new(&scene::load("polymer-melt", &set)?);
     /// assert!(many.particles().bonds.as_ref().is_some_and(|bonds| bonds.count() > 800_000_000));
     /// # Ok::<(), scene::SceneError>(())
