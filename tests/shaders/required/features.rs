@@ -117,6 +117,7 @@ pub fn features() -> Vec<Feature> {
                 "find",
                 "relax",
                 "relax_to_report",
+                "report_bonds_between",
                 "report_configuration",
                 "report_motion",
                 "scan",

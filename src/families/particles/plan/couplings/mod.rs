@@ -210,14 +210,6 @@ impl Builder<'_> {
         }
     }
 
-    /// Impulse of half a step per bath, which pairs with memory may have named already.
-    fn bath_impulse(&mut self) {
-        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
-            let impulse = self.impulse();
-            self.plan.constants.push((Constant::BathImpulse, impulse));
-        }
-    }
-
     /// The constant of the law of baths, which another coupling may have named already.
     fn bath_impulse(&mut self) {
         if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
