@@ -56,6 +56,8 @@ pub const ARRAYS: &[Array] = &[
     either("sorted", "particles in order of cells"),
     either("sorted_positions", "positions in order of cells"),
     either("sorted_momenta", "momenta in order of cells"),
+    array("staged", "array<Particle>", "sorted particles between two stages of friction"),
+    either("staged_momenta", "momenta of sorted particles between two stages of friction"),
     array("probes", "array<u32>", "one word of every sorted particle for the prefilter"),
     array("row_sums", "array<vec2<u32>>", "prefix sums over rows, then over blocks of 256 rows"),
     array("workgroups_done", "atomic<u32>", "workgroups that have ended the step"),
@@ -310,6 +312,13 @@ pub const ACCESSES: &[Access] = &[
             Store("sort_particle"),
             StoreField("keep_momentum", "momentum"),
         ],
+    },
+    Access {
+        array: "staged_momenta",
+        element: Element::Number("vec4<i32>"),
+        slot: "arrays/staged_momenta",
+        places: &[("texture", Place::Texture)],
+        functions: &[Store("put_staged_momentum")],
     },
     // Particles of shallow water stay where they lie, whatever their cells ...
     Access {

@@ -9,8 +9,13 @@ use serde::{Deserialize, Serialize};
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
     /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the standard fluid; with
-    /// strong friction they are too low. In Voronoi DPD O is friction and noise by Crank-Nicolson.
-    Splitting {},
+    /// strong friction they are too low unless `relaxation` has two stages. In Voronoi DPD O is friction and noise by
+    /// Crank-Nicolson.
+    Splitting {
+        /// How O relaxes pairs that share particles; `mean-field` unless it is given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        relaxation: Option<PairRelaxation>,
+    },
     /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
     GrootWarren {
         /// Weight λ of the predicted velocity that enters the friction.
@@ -38,7 +43,7 @@ impl Integrator {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Splitting {} => "splitting",
+            Self::Splitting { .. } => "splitting",
             Self::GrootWarren { .. } => "groot-warren",
             Self::CotterReich {} => "cotter-reich",
             Self::Gyro {} => "gyro",
@@ -50,8 +55,21 @@ impl Integrator {
 
 impl Default for Integrator {
     fn default() -> Self {
-        Self::Splitting {}
+        Self::Splitting { relaxation: None }
     }
+}
+
+/// How the integrator `splitting` relaxes the velocities of pairs that share particles, at positions that stand still.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PairRelaxation {
+    /// All pairs at once, each at the rate that its particles feel on average: one visit of the pairs. The temperature is low
+    /// by a share that grows with friction times step, and more so that of long waves.
+    #[default]
+    MeanField,
+    /// The same in two stages with the same noise, which leave every mode of the velocities at its temperature, however
+    /// strong the friction: two visits of the pairs.
+    TwoStages,
 }
 
 fn half() -> f64 {

@@ -24,7 +24,7 @@ pub use bath::{Bath, BathScheme};
 pub use error::{Problem, SceneError, Warning};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub use groups::{Chain, ParticleGroup, Placement, Velocities};
-pub use integrator::Integrator;
+pub use integrator::{Integrator, PairRelaxation};
 pub use interaction::Interaction;
 pub(crate) use nearest::nearest;
 pub use output::*;

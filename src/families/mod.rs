@@ -37,7 +37,7 @@ pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables};
 pub use particles::Particles;
-pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, FRICTION_LIMIT};
+pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT};
 pub use particles::model::{
     Angle, Angles, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, HarmonicChain, Jump, Likeness,
     PairForce, PositionBath, SpringChain, Strand,

@@ -41,7 +41,7 @@ fn scenes_of_couplings_have_an_integrator_of_their_own() {
     // Bonds and angles without a bath are no couplings of their own.
     assert_eq!(integrator(&[]), Integrator::Splitting {});
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
-    assert_eq!(integrator(&[fluid]), Integrator::Splitting {});
+    assert_eq!(integrator(&[fluid]), Integrator::Splitting { relaxation: None });
     assert_eq!(integrator(&[fluid, LINE]), Integrator::CotterReich {});
     assert_eq!(integrator(&[fluid, "particles.1.fixed=true"]), Integrator::CotterReich {});
 }

@@ -113,6 +113,8 @@ fn values_out_of_range_or_of_another_type() {
     FLUID.refused_with(&["time.steps=null"], &["time.steps: found null"]);
     FLUID.refused_with(&["version=2"], &["version: found 2; accepted: the number 1"]);
     FLUID.refused_with(&["integrator=splitting"], &["did you mean `{\"type\": \"splitting\"}`?"]);
+    let relaxation = ["integrator.type=splitting", "integrator.relaxation=two-stage"];
+    FLUID.refused_with(&relaxation, &["integrator.relaxation", "did you mean `two-stages`?", "mean-field"]);
     FLUID.refused_with(&["integrator.type=grot-warren"], &["integrator.type", "did you mean `groot-warren`?"]);
     FLUID.refused_with(&["noise.generator=pcg"], &["noise.generator", "did you mean `pcg4d`?", "threefry2x32-20"]);
     FLUID.refused_with(&["integrator.lambda=.5"], &["integrator.type: missing; accepted: `splitting`, `groot-warren`"]);

@@ -36,7 +36,7 @@ fn warned(overrides: &[&str], path: &str, expected: &str) {
 fn the_base_is_right_and_draws_no_warning() {
     let scene = CELLS.accepted(&[]);
     assert!(mesoscope::families::warnings(&scene).is_empty(), "{:?}", mesoscope::families::warnings(&scene));
-    assert_eq!(scene.integrator, scene::Integrator::Splitting {}, "the default of Voronoi DPD");
+    assert_eq!(scene.integrator, scene::Integrator::Splitting { relaxation: None }, "the default of Voronoi DPD");
     assert_eq!(scene.output.snapshot.color, scene::SnapshotColor::Density, "one species");
     let validator = jsonschema::draft202012::new(&scene::schema()).unwrap();
     assert!(validator.is_valid(&base()));
@@ -68,6 +68,10 @@ fn cells_are_alone_and_in_a_plane() {
     CELLS.refused(
         &["integrator.type=cotter-reich"],
         "integrator.type: found `cotter-reich`; accepted: `splitting` or `euler`, the integrators of Voronoi DPD",
+    );
+    CELLS.refused(
+        &["integrator.relaxation=two-stages"],
+        "integrator.relaxation: found one in a scene of Voronoi DPD; accepted: no `relaxation`: friction of cells is solved by",
     );
     CELLS.refused(
         &["integrator.type=gyro"],

@@ -9,7 +9,7 @@ use mesoscope::scene::Scene;
 use mesoscope::state::State;
 
 use crate::support::{
-    COTTER_REICH, EVERY_STEP, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, engine, fluid, hardware,
+    COTTER_REICH, EVERY_STEP, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, STAGED, engine, fluid, hardware,
     largest_difference, observables, reference, same_observables, series, start, step_in_words, traversals,
 };
 
@@ -52,7 +52,7 @@ fn agrees_with(traversals: &[Traversal], changes: &[&str], steps: u64, units: i6
     let shortest = model.units.lengths[..model.units.dimension].iter().copied().fold(f64::INFINITY, f64::min);
     let drift = model.time_step * model.units.momentum / lightest / shortest * 2_f64.powi(32);
     // The device rounds the rates of relaxation to 2⁻¹⁶, the reference does not: an error of second order in the rate.
-    let rate_rounding = if changes.contains(&SPLITTING) { 10 } else { 1 };
+    let rate_rounding = if changes.iter().any(|change| change.contains("splitting")) { 10 } else { 1 };
     let mut reference_run = reference(&scene, &state);
     let expected: Vec<State> = (0..steps)
         .map(|_| {
@@ -230,6 +230,10 @@ fn friction_from_none_to_too_much() {
     agrees(&[GROOT_WARREN, "interactions.0.friction=0"], 3, 100);
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
         agrees_in_turn(number, &[integrator, "interactions.0.friction=1e-12"], 3, 100);
+        // Relaxed in two stages no friction is too much that is not refused.
+        if *integrator == STAGED {
+            continue;
+        }
         // Short of what is refused.
         let friction = if *integrator == SPLITTING { "1e4" } else { "200" };
         unstable(number / 2, &fluid(&[integrator, &format!("interactions.0.friction={friction}")]), 50);

@@ -239,13 +239,13 @@ fn reported_forces_are_changes_of_momenta() {
                     let change = reported.momenta[id][axis] - before.momenta[id][axis];
                     let force = forces[4 * id + axis];
                     // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
-                    let tolerance = if *integrator == SPLITTING { 2 } else { 0 };
+                    let tolerance = if integrator.contains("splitting") { 2 } else { 0 };
                     assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
                     strongest = strongest.max(force.abs());
                 }
             }
             assert!(strongest > 1 << 20, "{strongest}");
-            let time = model.time_step * if *integrator == SPLITTING { 1.0 } else { 0.5 };
+            let time = model.time_step * if integrator.contains("splitting") { 1.0 } else { 0.5 };
             assert_eq!(engine.plan().force_unit, model.units.momentum / time);
         }
     }

@@ -10,7 +10,7 @@ use mesoscope::families::reference::Reference;
 use mesoscope::plan::Options;
 
 use crate::support::{
-    COTTER_REICH, EVERY_STEP, GROOT_WARREN, MIXTURE, PREDICTED, SPLITTING, engine, fluid, largest_difference,
+    COTTER_REICH, EVERY_STEP, GROOT_WARREN, MIXTURE, PREDICTED, SPLITTING, STAGED, engine, fluid, largest_difference,
     observables, predictions_agree, reference, same_observables, start, traversals, units_of_a_step,
 };
 
@@ -68,15 +68,28 @@ fn splitting() {
 }
 
 #[test]
+fn splitting_in_two_stages() {
+    both(&[STAGED]);
+    both(&[STAGED, MIXTURE, MIXTURE_FORCE, TWO_DIMENSIONS]);
+    in_turn(0, &[STAGED, MIXTURE, MIXTURE_FORCE]);
+    in_turn(1, &[STAGED, "space.box=[2,2,2]", r#"particles=[{"species":"A","count":100}]"#, "time.step=0.002"]);
+    in_turn(0, &[STAGED, "interactions.0.repulsion=0", "interactions.0.friction=1e-6"]);
+    in_turn(1, &[STAGED, "interactions.0.friction=500"]);
+    in_turn(0, &[STAGED, "temperature=0", r#"particles.0.velocities={"type":"rest"}"#]);
+}
+
+#[test]
 fn a_report_changes_nothing() {
-    let scene = fluid(&[SPLITTING, EVERY_STEP]);
-    let silent = fluid(&[SPLITTING, "output.energies.every=1000"]);
-    let (_, state) = start(&scene);
-    let mut often = engine(&scene, &state, Options::default());
-    let mut never = engine(&silent, &state, Options::default());
-    often.advance(20, 4).unwrap();
-    never.advance(20, 4).unwrap();
-    assert_eq!(often.state().unwrap(), never.state().unwrap());
+    for integrator in [SPLITTING, STAGED] {
+        let scene = fluid(&[integrator, EVERY_STEP]);
+        let silent = fluid(&[integrator, "output.energies.every=1000"]);
+        let (_, state) = start(&scene);
+        let mut often = engine(&scene, &state, Options::default());
+        let mut never = engine(&silent, &state, Options::default());
+        often.advance(20, 4).unwrap();
+        never.advance(20, 4).unwrap();
+        assert_eq!(often.state().unwrap(), never.state().unwrap());
+    }
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub use comparison::{
 pub use implementations::{Device, Implementation, reference_of_particles};
 pub use scenes::{
     COTTER_REICH, ENERGY, EVERY_STEP, GROOT_WARREN, GYRO, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, ROTATE,
-    SPLITTING, WHITE, built_in, cells, changed, fluid, oscillators, scene, shear_flow, still_water, water,
+    SPLITTING, STAGED, WHITE, built_in, cells, changed, fluid, oscillators, scene, shear_flow, still_water, water,
 };
 pub use statistics::{Measured, deviate, equilibrium, order};
 

@@ -4,6 +4,8 @@ use mesoscope::scene::{self, Scene};
 
 /// Splitting with relaxation of the pair velocities, the default.
 pub const SPLITTING: &str = r#"integrator={"type":"splitting"}"#;
+/// The same in two stages.
+pub const STAGED: &str = r#"integrator={"type":"splitting","relaxation":"two-stages"}"#;
 /// Groot and Warren's integrator with λ = ½, whose friction sees the momenta themselves.
 pub const GROOT_WARREN: &str = r#"integrator={"type":"groot-warren"}"#;
 /// The same with predicted momenta.
@@ -11,7 +13,7 @@ pub const PREDICTED: &str = r#"integrator={"type":"groot-warren","lambda":0.65}"
 /// Cotter and Reich's limit scheme.
 pub const COTTER_REICH: &str = r#"integrator={"type":"cotter-reich"}"#;
 /// Every integrator, each variant that has kernels of its own.
-pub const INTEGRATORS: &[&str] = &[SPLITTING, GROOT_WARREN, PREDICTED, COTTER_REICH];
+pub const INTEGRATORS: &[&str] = &[SPLITTING, GROOT_WARREN, PREDICTED, COTTER_REICH, STAGED];
 
 /// Every step is reported.
 pub const EVERY_STEP: &str = "output.energies.every=1";

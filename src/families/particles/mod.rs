@@ -21,7 +21,7 @@ use super::{
     Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model, Observables,
     PairForce, Physics, PositionBath, Species, units,
 };
-use crate::document::{BondPotential, Integrator, Interaction, Problems, Scene, Warning};
+use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
 use model::topology;
@@ -75,8 +75,15 @@ impl Particles {
     /// split.
     #[must_use]
     pub fn splits(&self, model: &Model) -> bool {
-        model.integrator == Integrator::Splitting {}
+        matches!(model.integrator, Integrator::Splitting { .. })
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
+    /// Whether a split step relaxes the velocities of pairs in two stages.
+    #[must_use]
+    pub fn relaxes_in_two_stages(&self, model: &Model) -> bool {
+        let asked = Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) };
+        self.splits(model) && model.integrator == asked
     }
 
     /// What acts on the particles of a scene; harmonic chains add their species.

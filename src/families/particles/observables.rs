@@ -7,8 +7,10 @@ use crate::plan::Plan;
 pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
     let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
     let quanta = plan.quanta;
-    // Energy, square and number of the baths come last, where there are any that remember.
-    let remembering = sums.len() > 9;
+    // Energy, square and number of the baths come last, where there are any that remember; in steps that relax in two stages the
+    // virial of the first.
+    let staged = model.particles().relaxes_in_two_stages(model);
+    let remembering = !staged && sums.len() > 9;
     Observables {
         step,
         particles: plan.particles,
@@ -17,7 +19,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         volume: model.units.volume(),
         mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
         kinetic_energy: sum(0) * quanta.energy,
-        total_virial: sum(1) * quanta.pair_energy,
+        total_virial: (sum(1) + if staged { sum(9) } else { 0.0 }) * quanta.pair_energy,
         momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),
         potential_energy: sum(5) * quanta.pair_energy,
         conservative_virial: sum(6) * quanta.pair_energy,

@@ -9,7 +9,7 @@
 use crate::document::{
     Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
-use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, FRICTION_LIMIT, Limit, Model, Particles};
+use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, Limit, Model, Particles};
 use std::f64::consts::PI;
 
 /// B + W beyond which nothing is stable.
@@ -23,6 +23,9 @@ const CLEAN: f64 = 1.0;
 /// temperature long before.
 const MOST_RELAXATION: f64 = 250.0;
 const NEIGHBOURS: f64 = 3.0;
+
+/// The same in two stages, which are stable at any friction: half of what the sums of rates of a particle hold.
+const MOST_IN_STAGES: f64 = 20.0;
 
 /// Bonds that an estimate looks at: the largest eigenvalue of a part is not above that of the whole.
 const MOST_BONDS: usize = 10_000;
@@ -74,7 +77,11 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
 pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Problems) {
     let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (rate, index) = model.largest_friction_rate(force);
-    let most = if model.particles().splits(model) { MOST_RELAXATION } else { LIMIT };
+    let most = match (model.particles().splits(model), model.particles().relaxes_in_two_stages(model)) {
+        (_, true) => MOST_IN_STAGES,
+        (true, _) => MOST_RELAXATION,
+        _ => LIMIT,
+    };
     let step = scene.time.step;
     let sparse = model.particles().splits(model) && model.mean_neighbours(force) < NEIGHBOURS;
     if rate * step < most || sparse {
@@ -86,9 +93,14 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
         brief(rate * step)
     );
     let accepted = format!(
-        "at most {}, beyond which no such step is stable, and {:.2e} for reliable temperatures; or less friction",
+        "at most {}, beyond which {}, and {:.2e} for reliable results; or less friction",
         two_digits(most / rate),
-        FRICTION_LIMIT / rate
+        if model.particles().relaxes_in_two_stages(model) {
+            "rates do not fit their sums"
+        } else {
+            "no such step is stable"
+        },
+        model.friction_limit() / rate
     );
     problems.push(Problem::new("time.step", found, accepted));
 }
@@ -128,7 +140,15 @@ pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec
     vec![
         Limit { law: "B + W = 4", share: strain / LIMIT, beyond: Beyond::Unstable },
         Limit { law: "oscillation ω dt = 2", share: 0.5 * frequency * step, beyond: Beyond::Unstable },
-        Limit { law: "friction Γ dt = 1/4", share: friction * step / FRICTION_LIMIT, beyond: Beyond::Biased },
+        Limit {
+            law: if model.particles().relaxes_in_two_stages(model) {
+                "friction Γ dt = 3/4"
+            } else {
+                "friction Γ dt = 1/4"
+            },
+            share: friction * step / model.friction_limit(),
+            beyond: Beyond::Biased,
+        },
     ]
 }
 

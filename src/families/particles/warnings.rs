@@ -5,7 +5,7 @@ use crate::document::{
     BondPotential, ColouredNoiseInteraction, Interaction, NoiseProcess, Placement, Scene, Warning, brief,
 };
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{FREQUENCY_LIMIT, FRICTION_LIMIT, Model, PairForce, Particles, Species};
+use crate::families::{FREQUENCY_LIMIT, Model, PairForce, Particles, Species};
 
 /// All warnings about a scene.
 pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {
@@ -139,17 +139,22 @@ fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
 fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
     let (rate, index) = model.largest_friction_rate(force);
-    if rate * step > FRICTION_LIMIT {
+    let limit = model.friction_limit();
+    if rate * step > limit {
+        let staged = model.particles().relaxes_in_two_stages(model);
+        let splits_once = model.particles().splits(model) && !staged;
         warn(
             warnings,
             "time.step",
             format!(
                 "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; \
-                 temperatures are reliable up to {FRICTION_LIMIT}, a step of {:.2e}",
+                 {} up to {limit}, a step of {:.2e}{}",
                 model.species[index].name,
                 brief(rate),
                 brief(rate * step),
-                FRICTION_LIMIT / rate
+                if staged { "diffusion is reliable" } else { "temperatures are reliable" },
+                limit / rate,
+                if splits_once { ", and at any with `integrator.relaxation=two-stages`" } else { "" }
             ),
         );
     }

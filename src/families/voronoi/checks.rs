@@ -26,6 +26,10 @@ pub(crate) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, pro
         let found = format!("found `{}`", scene.integrator.name());
         problems.push(Problem::new("integrator.type", found, "`splitting` or `euler`, the integrators of Voronoi DPD"));
     }
+    if let Integrator::Splitting { relaxation: Some(_) } = scene.integrator {
+        let accepted = "no `relaxation`: friction of cells is solved by `solver` of the interaction";
+        problems.push(Problem::new("integrator.relaxation", "found one in a scene of Voronoi DPD", accepted));
+    }
     check_fluid(scene, voronoi, path, problems);
     check_groups(scene, problems);
     check_output(scene, voronoi, problems);

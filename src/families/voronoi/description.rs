@@ -30,7 +30,7 @@ pub(super) fn fluid(cells: &Voronoi, model: &Model) -> Vec<(&'static str, String
             six_digits(network)
         );
         rows.push(("viscosity", text));
-        if model.integrator == (Integrator::Splitting {}) {
+        if matches!(model.integrator, Integrator::Splitting { .. }) {
             let solver = cells.solver;
             let text = format!(
                 "conjugate gradients, at most {} iterations, tolerance {}",

@@ -83,7 +83,7 @@ pub(super) fn columns(cells: &Voronoi, model: &Model) -> Vec<Column> {
     if cells.has_limits(model.temperature) {
         columns.push(column(column::LIMITED_EXCHANGES, |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)));
     }
-    if cells.viscosity > 0.0 && model.integrator == (Integrator::Splitting {}) {
+    if cells.viscosity > 0.0 && matches!(model.integrator, Integrator::Splitting { .. }) {
         columns.push(column("solver_iterations", |row, _| of_cells(row, |cells| cells.iterations as f64)));
         columns.push(column("solver_residual", |row, _| of_cells(row, |cells| cells.residual)));
     }

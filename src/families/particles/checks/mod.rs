@@ -170,7 +170,7 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
         return;
     }
     match scene.integrator {
-        Integrator::Splitting {} => {
+        Integrator::Splitting { .. } => {
             let found = format!("found `splitting`, which relaxes pairs only, together with {}", reason(scene));
             let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
             problems.push(Problem::new("integrator.type", found, accepted));

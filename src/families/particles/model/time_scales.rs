@@ -5,7 +5,11 @@ use crate::families::{Model, Species};
 use std::f64::consts::PI;
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
-pub(crate) const FRICTION_LIMIT: f64 = 0.25;
+const FRICTION_LIMIT: f64 = 0.25;
+
+/// The same of friction that relaxes in two stages: temperatures are right at any friction, but here particles diffuse a tenth too
+/// fast, and with more friction they diffuse as if it were less.
+const STAGED_FRICTION_LIMIT: f64 = 0.75;
 
 /// A harmonic oscillator of frequency ω is stable in a Verlet scheme up to ω·dt = 2; half of it leaves some accuracy.
 pub(crate) const FREQUENCY_LIMIT: f64 = 1.0;
@@ -26,6 +30,11 @@ impl Model {
         })
     }
 
+    /// The part of a velocity that friction may relax in one step.
+    pub(crate) fn friction_limit(&self) -> f64 {
+        if self.relaxes_in_two_stages() { STAGED_FRICTION_LIMIT } else { FRICTION_LIMIT }
+    }
+
     /// The largest frequency of a particle held by evenly spread neighbours, and its species: ω² = Σ aρV(rc) / (d·rc·m), from
     /// the radial parts of their force constants a/rc alone, which makes it an upper estimate.
     pub(crate) fn largest_repulsion_frequency(&self, force: &PairForce) -> (f64, usize) {
@@ -42,7 +51,7 @@ impl Model {
         let Some(force) = self.particles().pair_force.as_ref() else { return f64::INFINITY };
         let (rate, _) = self.largest_friction_rate(force);
         let (frequency, _) = self.largest_repulsion_frequency(force);
-        (FRICTION_LIMIT / rate).min(FREQUENCY_LIMIT / frequency)
+        (self.friction_limit() / rate).min(FREQUENCY_LIMIT / frequency)
     }
 
     /// Neighbours within the cutoff of evenly spread particles.

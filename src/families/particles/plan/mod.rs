@@ -30,5 +30,9 @@ fn texture_candidates(plan: &Plan) -> Vec<Array> {
     if !plan.kernels.iter().any(|kernel| kernel.choices.has(pairs::Hits::Keep)) {
         candidates.push(Array::Particles);
     }
+    // Where another buffer takes its place in some kernels, it stays one.
+    if plan.has_buffer(Array::Staged) {
+        candidates.retain(|array| *array != Array::Sorted);
+    }
     candidates
 }

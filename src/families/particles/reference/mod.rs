@@ -60,7 +60,8 @@ impl Reference {
     /// A reference run from a state whose species are indices into those of the model.
     #[must_use]
     pub fn new(model: Model, state: State) -> Self {
-        Self::with_relaxation(model, state, Relaxation::default())
+        let two = model.particles().relaxes_in_two_stages(&model);
+        Self::with_relaxation(model, state, if two { Relaxation::TwoStages } else { Relaxation::MeanField })
     }
 
     /// The same with another rule for the O step of the integrator `splitting`.
@@ -158,7 +159,7 @@ impl Reference {
     fn report(&self, found: &[Pair]) -> Result<Report, Unstable> {
         match self.model.integrator {
             Integrator::GrootWarren { .. } | Integrator::CotterReich {} => Ok(leapfrog::report(self, found)),
-            Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+            Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                 splitting::report(self, found)
             }
         }

@@ -19,12 +19,14 @@ use super::{Reference, Report};
 use crate::families::Model;
 use crate::families::reference::{Unstable, add, widen};
 use crate::noise::{self, stream};
+use std::f64::consts::SQRT_2;
 
 /// The rule by which O relaxes the velocities of pairs that share particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Relaxation {
-    /// Exponential relaxation in the mean field of all pairs that share a particle; the rule of the device.
+    /// Exponential relaxation in the mean field of all pairs that share a particle; the rule of the device unless the scene
+    /// names another.
     ///
     /// A pair alone relaxes at the rate g/μ, g = γω dt. All pairs act from the same velocities, so a pair's relative
     /// velocity relaxes at the rate s that its particles feel from all their pairs, those other than itself counted with
@@ -33,6 +35,14 @@ pub enum Relaxation {
     /// -g (1 - e⁻ˢ)/s u + √(kT g (1 - e⁻²ˢ)/s) ζ: for a pair alone the exact solution.
     #[default]
     MeanField,
+    /// Two stages with the same noise, each with friction and noise of all pairs from the same momenta; the other rule of the
+    /// device.
+    ///
+    /// With H the matrix of the frictions c of all pairs and N their noise, of covariance 2kT H, one stage after the other is
+    /// p' = (1 - H + bH²) p + (1 - (1 - 1/√2) H) N, b = (√2 - 1)²/2. It leaves a mode of eigenvalue h at the temperature
+    /// kT (1 + b²h³/(2 - (1 + 2b)h + 2bh² - b²h³)): right to .5 % up to h = .9. The friction c = g h(s)/s, with the rate s of the mean
+    /// field, keeps h there: for h(s) that mode relaxes by e⁻ˢ, 1 - h + bh² = e⁻ˢ, which is at most 1.1.
+    TwoStages,
     /// Each pair by the exact solution for that pair alone, all from the same momenta.
     Exponential,
     /// The implicit midpoint rule for all pairs at once, by fixed-point iteration from the explicit rule.
@@ -82,15 +92,16 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
             (rate, noise)
         })
         .collect();
-    let corrections = match reference.relaxation {
-        Relaxation::MeanField | Relaxation::Exponential => 0,
-        Relaxation::Midpoint { corrections } => corrections,
-    };
     let mut fields = vec![0.0; state.len()];
     for (pair, &(rate, _)) in found.iter().zip(&couplings) {
         fields[pair.first] += rate * model.time_step;
         fields[pair.second] += rate * model.time_step;
     }
+    let corrections = match reference.relaxation {
+        Relaxation::TwoStages => return two_stages(reference, found, momenta, &couplings, &fields),
+        Relaxation::MeanField | Relaxation::Exponential => 0,
+        Relaxation::Midpoint { corrections } => corrections,
+    };
     let mut seen = momenta.to_vec();
     let mut correction = 0;
     loop {
@@ -98,13 +109,10 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
         let mut virial = 0.0;
         for (pair, &(rate, noise)) in found.iter().zip(&couplings) {
             let approach = dot(pair.direction(), reference.relative_velocity(&seen, pair));
-            let inverse = [1.0 / reference.masses[pair.first], 1.0 / reference.masses[pair.second]];
-            let reduced_mass = 1.0 / (inverse[0] + inverse[1]);
+            let reduced_mass = reduced_mass(reference, pair);
             let impulse = if reference.relaxation == Relaxation::MeanField {
                 let own = rate * model.time_step;
-                let others =
-                    (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
-                let among = reduced_mass * (own / reduced_mass.powi(2) + others / model.units.dimension as f64);
+                let among = rate_among_others(reference, &fields, pair, own);
                 mean_field_relaxation(model.particles().pair_temperature(model), own, among, approach, noise)
             } else {
                 pair_relaxation(reference.relaxation, model, rate, reduced_mass, approach, noise)
@@ -129,6 +137,59 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
     }
 }
 
+/// [`Relaxation::TwoStages`]: both stages from the same frictions and the same noise, the second from the momenta after the first.
+fn two_stages(
+    reference: &Reference,
+    found: &[Pair],
+    momenta: &[[i64; 3]],
+    couplings: &[(f64, f64)],
+    fields: &[f64],
+) -> (Vec<[i64; 3]>, f64) {
+    let model = &reference.model;
+    let temperature = model.particles().pair_temperature(model);
+    let curvature = 0.5 * (SQRT_2 - 1.0).powi(2);
+    // (1 - first h)(1 - second h) = 1 - h + bh², and both stages together have the noise of the whole step.
+    let first = 0.5 * (1.0 - (1.0 - 4.0 * curvature).sqrt());
+    let second = 1.0 - first;
+    let first_noise = (SQRT_2 - 1.0) / second;
+    let mut sums = vec![[0; 3]; momenta.len()];
+    let mut virial = 0.0;
+    for [friction, noise] in [[first, first_noise], [second, SQRT_2 - first_noise]] {
+        let mut seen = momenta.to_vec();
+        add(&mut seen, &sums);
+        for (pair, &(rate, random)) in found.iter().zip(couplings) {
+            let own = rate * model.time_step;
+            let among = rate_among_others(reference, fields, pair, own);
+            if among == 0.0 {
+                continue;
+            }
+            let relaxed = -(-among).exp_m1();
+            let eigenvalue = (1.0 - (1.0 - 4.0 * curvature * relaxed).sqrt()) / (2.0 * curvature);
+            let strength = own * eigenvalue / among;
+            let approach = dot(pair.direction(), reference.relative_velocity(&seen, pair));
+            let impulse = -friction * strength * approach + noise * (temperature * strength).sqrt() * random;
+            let impulses = pair.direction().map(|component| impulse * component);
+            pairs::exchange(&mut sums, pair, impulses, model.units.momentum);
+            virial += pair.distance * impulse;
+        }
+    }
+    (sums, virial)
+}
+
+/// 1 / (1/mᵢ + 1/mⱼ).
+fn reduced_mass(reference: &Reference, pair: &Pair) -> f64 {
+    1.0 / (1.0 / reference.masses[pair.first] + 1.0 / reference.masses[pair.second])
+}
+
+/// The rate s in a step at which the relative velocity of a pair with g = `own` relaxes among all pairs, from the sums of g of
+/// each particle.
+fn rate_among_others(reference: &Reference, fields: &[f64], pair: &Pair, own: f64) -> f64 {
+    let inverse = [1.0 / reference.masses[pair.first], 1.0 / reference.masses[pair.second]];
+    let reduced_mass = reduced_mass(reference, pair);
+    let others = (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
+    reduced_mass * (own / reduced_mass.powi(2) + others / reference.model.units.dimension as f64)
+}
+
 /// The impulse along e of a pair with g = `own` that relaxes at the rate s = `among` with all others.
 fn mean_field_relaxation(temperature: f64, own: f64, among: f64, approach: f64, noise: f64) -> f64 {
     if among == 0.0 {
@@ -151,7 +212,7 @@ fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64
                 (model.particles().pair_temperature(model) / reduced_mass * -(-2.0 * exponent).exp_m1()).sqrt();
             reduced_mass * (-decay * approach + spread * noise)
         }
-        Relaxation::MeanField | Relaxation::Midpoint { .. } => {
+        Relaxation::MeanField | Relaxation::TwoStages | Relaxation::Midpoint { .. } => {
             let amplitude = (2.0 * rate * model.particles().pair_temperature(model) * model.time_step).sqrt();
             -rate * model.time_step * approach + amplitude * noise
         }

@@ -17,6 +17,7 @@ use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
 use crate::state::Units;
+use std::f64::consts::SQRT_2;
 
 /// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
 /// virial of the conservative force, squared force, curvature.
@@ -104,6 +105,19 @@ struct Builder<'a> {
     /// The kernels of that sum on their own.
     scan: Vec<usize>,
     plan: Plan,
+}
+
+/// Friction and noise of the two stages of a relaxation: shaders/pairs/friction/stages.wgsl.
+///
+/// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, and its noise (β₁(1 - α₂h) + β₂)² h = 1 - (1 - h + bh²)² but for
+/// b²h⁴.
+fn stages() -> [[(Constant, f64); 2]; 2] {
+    let b = 0.5 * (SQRT_2 - 1.0).powi(2);
+    let alpha = [0.5 - (0.25 - b).sqrt(), 0.5 + (0.25 - b).sqrt()];
+    let first = (SQRT_2 - 1.0) / alpha[1];
+    let beta = [first, SQRT_2 - first];
+    // Noise comes with √(kT c/2).
+    [0, 1].map(|stage| [(Constant::StageFriction, alpha[stage]), (Constant::StageNoise, SQRT_2 * beta[stage])])
 }
 
 /// The vector space, the grid in it and the stored particle.
@@ -241,6 +255,11 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
+    /// Whether friction has two stages.
+    fn relaxes_in_two_stages(&self) -> bool {
+        self.model.particles().relaxes_in_two_stages(self.model)
+    }
+
     /// The pair force.
     fn law(&self) -> Choices {
         let force = self.force;
@@ -250,7 +269,8 @@ impl Builder<'_> {
         let choices = law(force)
             .with(if positions { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
             .with_any(frictional.then_some(match self.model.integrator {
-                Integrator::Splitting {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                Integrator::Splitting { .. } if self.relaxes_in_two_stages() => pairs::Friction::Stages,
+                Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
                     pairs::Friction::Relaxation
                 }
                 Integrator::CotterReich {} => pairs::Friction::DiscreteGradient,
@@ -310,15 +330,21 @@ impl Builder<'_> {
         } else {
             self.leapfrog_step(&forces)
         };
-        self.plan.sample_observables(self.measured.every, OBSERVABLES, u64::from(rows));
+        self.plan.sample_observables(self.measured.every, self.observables(), u64::from(rows));
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
     fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
-        self.plan.kernels[kernel].constants.push((Constant::Quantities, OBSERVABLES as f64));
+        let observables = self.observables();
+        self.plan.kernels[kernel].constants.push((Constant::Quantities, observables as f64));
         kernel
+    }
+
+    /// Number of the sums of a report.
+    fn observables(&self) -> u64 {
+        OBSERVABLES + u64::from(self.relaxes_in_two_stages())
     }
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
@@ -347,7 +373,9 @@ impl Builder<'_> {
         let to_the_report = with(pairs::Pass::Relax);
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
-        let motion = self.observation("report_motion", kept.clone().with(pairs::Pass::ObserveMotion));
+        let two_stages = self.relaxes_in_two_stages();
+        let added = (two_stages && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
+        let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
         let rest = self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles);
         for kernel in [find, motion, configuration] {
@@ -360,8 +388,33 @@ impl Builder<'_> {
         self.plan.advance = vec![relax];
         self.plan.report =
             [&bonded.report[..], &[motion, relax_to_report], &again, &bonded.configuration, &[configuration]].concat();
+        if self.relaxes_in_two_stages() {
+            self.first_stage([relax, relax_to_report, motion], kept);
+        }
         self.plan.finish_report = [&[rest], &self.scan[..]].concat();
         rows
+    }
+
+    /// Adds the first of two stages of friction, which leaves momenta for these kernels, those of the second.
+    fn first_stage(&mut self, second: [usize; 3], kept: &Choices) {
+        let pass = Choices::new()
+            .with(pairs::Pass::RelaxFirst)
+            .with_if(self.texels, pairs::Staged::Apart)
+            .with_if(self.texels, arrays::StagedMomenta::Texture);
+        let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
+        let report = self.observation("report_first_stage", kept.clone().with(pairs::Pass::ObserveFirstStage));
+        let [first_stage, second_stage] = stages();
+        for kernel in [first, report] {
+            self.plan.kernels[kernel].constants.extend(first_stage);
+        }
+        let taken =
+            if self.texels { (Array::SortedMomenta, Array::StagedMomenta) } else { (Array::Sorted, Array::Staged) };
+        for kernel in second {
+            self.plan.kernels[kernel].constants.extend(second_stage);
+            self.plan.kernels[kernel].renamed.push(taken);
+        }
+        self.plan.before_report.push(first);
+        self.plan.report.insert(0, report);
     }
 
     /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as
@@ -378,12 +431,13 @@ impl Builder<'_> {
         } else {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
-        let visits = if self.splits() { 2.0 } else { 1.0 };
+        let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
+        let visits = if self.splits() { 1.0 + relaxations } else { 1.0 };
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
         let frictional = self.force.largest_friction() > 0.0;
         let pair = visits * (22.0 + cost(self.force.largest_repulsion() > 0.0, 8.0))
             + cost(frictional, 15.0 * visits)
-            + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 } else { 25.0 });
+            + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 * relaxations } else { 25.0 });
         12.0 * candidates + pair * pairs + MOTION
     }
 
@@ -436,9 +490,15 @@ impl Builder<'_> {
             let count = self.particles + copies;
             self.plan.add_texture(Array::SortedPositions, count);
             self.plan.add_texture(Array::SortedMomenta, count);
+            if self.relaxes_in_two_stages() {
+                self.plan.add_texture(Array::StagedMomenta, count);
+            }
         } else {
             let count = self.particles + copies;
             self.plan.add_buffer(Array::Sorted, PARTICLE * count);
+            if self.relaxes_in_two_stages() {
+                self.plan.add_buffer(Array::Staged, PARTICLE * count);
+            }
             self.plan.add_buffer(Array::Probes, 4 * count);
         }
         self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
