@@ -353,7 +353,7 @@ fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
 fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
     let said = succeeds(&["check", "dpd-fluid"]);
     for part in [
-        "by theory up to a step of 0.195 (oscillation ω dt = 2)",
+        "by theory up to a step of 0.129 (oscillation ω dt = 2)",
         "by experience up to a step of 0.133 (friction Γ dt = 1/4)",
         "as measured with a step of 0.04 (DPD fluid, 20",
     ] {

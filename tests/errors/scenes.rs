@@ -285,7 +285,8 @@ fn warnings_name_place_and_remedy() {
         &["interactions.0.friction=7500"],
         "time.step: friction relaxes the velocities of `water` at a mean rate of 628.",
     );
-    warned(&["interactions.0.repulsion=250000"], "time.step: repulsion shakes `water` at a frequency of about 457.");
+    // Evenly spread, 2.51 neighbours at density 0.6 give ω = 457.6; that of crowds is 1 + .75 √(6/2.51) times as much.
+    warned(&["interactions.0.repulsion=250000"], "time.step: repulsion shakes `water` at a frequency of about 987.");
     warned(&["space.box=[2.5,10,10]"], "space.box[0]: the edge of 2.5 is under three cutoffs (3)");
     warned(
         &[
