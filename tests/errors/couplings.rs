@@ -39,7 +39,7 @@ fn scenes_of_couplings_have_an_integrator_of_their_own() {
     let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator;
     assert_eq!(integrator(&["interactions.1.friction=1"]), Integrator::CotterReich {});
     // Bonds and angles without a bath are no couplings of their own.
-    assert_eq!(integrator(&[]), Integrator::Splitting {});
+    assert_eq!(integrator(&[]), Integrator::default());
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     assert_eq!(integrator(&[fluid]), Integrator::Splitting { relaxation: None });
     assert_eq!(integrator(&[fluid, LINE]), Integrator::CotterReich {});

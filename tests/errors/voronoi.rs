@@ -70,8 +70,8 @@ fn cells_are_alone_and_in_a_plane() {
         "integrator.type: found `cotter-reich`; accepted: `splitting` or `euler`, the integrators of Voronoi DPD",
     );
     CELLS.refused(
-        &["integrator.relaxation=two-stages"],
-        "integrator.relaxation: found one in a scene of Voronoi DPD; accepted: no `relaxation`: friction of cells is solved by",
+        &["integrator.type=splitting", "integrator.relaxation=two-stages"],
+        "integrator.relaxation: found one in a scene of Voronoi DPD; accepted: no `relaxation`, which is one of pairs",
     );
     CELLS.refused(
         &["integrator.type=gyro"],

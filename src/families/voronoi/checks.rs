@@ -27,7 +27,7 @@ pub(crate) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, pro
         problems.push(Problem::new("integrator.type", found, "`splitting` or `euler`, the integrators of Voronoi DPD"));
     }
     if let Integrator::Splitting { relaxation: Some(_) } = scene.integrator {
-        let accepted = "no `relaxation`: friction of cells is solved by `solver` of the interaction";
+        let accepted = "no `relaxation`, which is one of pairs";
         problems.push(Problem::new("integrator.relaxation", "found one in a scene of Voronoi DPD", accepted));
     }
     check_fluid(scene, voronoi, path, problems);
