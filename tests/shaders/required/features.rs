@@ -189,6 +189,17 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "two stages of friction",
+            ground: nothing,
+            with: |scene| scene["integrator"] = json!({"type": "splitting", "relaxation": "two-stages"}),
+            without: |scene| scene["integrator"] = json!({"type": "splitting"}),
+            own: Some(&["relax_first", "first_stage", "staged", "file pairs/friction/stages", "constant STAGE_"]),
+            more: &["relax_first", "report_first_stage", "staged", "staged_momenta"],
+            instead: &[],
+            // Lists of neighbours are for other integrators.
+            always: false,
+        },
+        Feature {
             name: "prediction",
             ground: nothing,
             with: |scene| scene["integrator"] = json!({"type": "groot-warren", "lambda": 0.65}),

@@ -197,6 +197,11 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
             |scene| scene["integrator"] = json!({"type": "groot-warren"}),
         ),
         (
+            "one stage of friction",
+            |scene| scene["integrator"] = json!({"type": "splitting", "relaxation": "mean-field"}),
+            |scene| scene["integrator"] = json!({"type": "splitting"}),
+        ),
+        (
             "the usual noise",
             |scene| set_scene(scene, "noise", json!({"generator": "pcg4d", "distribution": "uniform"})),
             |scene| set_scene(scene, "noise", Value::Null),

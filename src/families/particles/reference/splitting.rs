@@ -40,8 +40,8 @@ pub enum Relaxation {
     ///
     /// With H the matrix of the frictions c of all pairs and N their noise, of covariance 2kT H, one stage after the other is
     /// p' = (1 - H + bH²) p + (1 - (1 - 1/√2) H) N, b = (√2 - 1)²/2. It leaves a mode of eigenvalue h at the temperature
-    /// kT (1 + b²h³/(2 - (1 + 2b)h + 2bh² - b²h³)): right to .5 % up to h = .9. The friction c = g h(s)/s, with the rate s of the mean
-    /// field, keeps h there: for h(s) that mode relaxes by e⁻ˢ, 1 - h + bh² = e⁻ˢ, which is at most 1.1.
+    /// kT (1 + b²h³/(2 - (1 + 2b)h + 2bh² - b²h³)): right to .5 % up to h = .9. The friction of a pair is c = g h(s)/s with the rate
+    /// s of the mean field, where h(s) solves 1 - h + bh² = e⁻ˢ and is at most 1.1.
     TwoStages,
     /// Each pair by the exact solution for that pair alone, all from the same momenta.
     Exponential,
