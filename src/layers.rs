@@ -12,6 +12,7 @@ const LAYERS: [&str; 24] = [
     "prediction",
     "noise",
     "state",
+    "state_file",
     "tessellation",
     "shaders",
     "gpu",

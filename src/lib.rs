@@ -58,6 +58,7 @@ pub mod self_test;
 pub mod shaders;
 pub mod stability;
 pub mod state;
+pub mod state_file;
 pub mod study;
 pub mod sweep;
 pub mod table;

@@ -6,19 +6,18 @@ use serde::{Deserialize, Serialize};
 /// A group of particles of one species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(transform = one_amount)]
 pub struct ParticleGroup {
     /// Name of the species; groups of the same species share their mass.
     #[schemars(length(min = 1))]
     pub species: String,
-    /// Number of particles; give this or `number_density`, or list `placement.positions`.
+    /// Number of particles; give this or `number_density`, or list `placement.positions`. With a `state`, its file knows it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u64>,
     /// Particles per unit volume (area in two dimensions); the count is rounded to the nearest integer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub number_density: Option<f64>,
-    /// Mass of one particle. Left out in shallow water, where the surface determines it.
+    /// Mass of one particle; left out, 1, or what the file of a `state` says. Left out in shallow water, where the surface determines it.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
@@ -41,18 +40,6 @@ pub struct ParticleGroup {
 
 fn one() -> f64 {
     1.0
-}
-
-/// States in the schema that a group gives its number of particles in exactly one way.
-fn one_amount(schema: &mut schemars::Schema) {
-    let given = |key: &str| serde_json::json!({"required": [key], "properties": {key: {"type": "number"}}});
-    let listed = serde_json::json!({
-        "required": ["placement"],
-        "properties": {"placement": {"properties": {"type": {"const": "listed"}}}},
-    });
-    schema.insert("if".to_owned(), listed);
-    schema.insert("then".to_owned(), serde_json::json!({"properties": {"number_density": {"type": "null"}}}));
-    schema.insert("else".to_owned(), serde_json::json!({"oneOf": [given("count"), given("number_density")]}));
 }
 
 /// Chains of particles with consecutive numbers; `bonds` and `angles` act along them.

@@ -4,6 +4,7 @@
 
 mod bath;
 mod error;
+mod file_start;
 mod files;
 mod groups;
 mod integrator;
@@ -17,11 +18,13 @@ mod quantities;
 mod scene;
 mod shallow_water;
 mod species_names;
+mod state;
 mod voronoi;
 
 pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
 pub use error::{Problem, SceneError, Warning};
+pub use file_start::{FileLinks, FilePlaces, FileStart, KeptStart};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub use groups::{Chain, ParticleGroup, Placement, Velocities};
 pub use integrator::{Integrator, PairRelaxation};
@@ -35,4 +38,5 @@ pub use quantities::*;
 pub use scene::{Distribution, Noise, Scene, Space, Time};
 pub use shallow_water::*;
 pub(crate) use species_names::SpeciesNames;
+pub use state::{StateFile, StateVelocities};
 pub use voronoi::*;

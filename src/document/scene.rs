@@ -1,12 +1,17 @@
 //! The scene as a whole: box, clock, noise.
 
-use super::{Generator, Integrator, Interaction, Output, ParticleGroup};
+use super::{
+    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Output, ParticleGroup, StateFile,
+    StateVelocities,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A simulation scene: everything a run needs to know.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = amounts_or_a_file)]
 pub struct Scene {
     /// Where an editor finds the schema of this file; ignored by the program.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
@@ -24,8 +29,12 @@ pub struct Scene {
     /// Seed of every random number in the run.
     #[serde(default)]
     pub seed: u64,
-    /// The simulation box.
+    /// The simulation box; left out, that of the file of `state`.
+    #[serde(default)]
     pub space: Space,
+    /// A file that the particles start from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<StateFile>,
     /// Time step and duration.
     pub time: Time,
     /// Temperature kT of the heat bath, in units of energy. Zero switches the noise off.
@@ -47,6 +56,70 @@ pub struct Scene {
     /// What the run writes.
     #[serde(default)]
     pub output: Output,
+    /// What was read of the file of `state`.
+    #[serde(skip)]
+    pub kept: KeptStart,
+}
+
+/// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file does.
+fn amounts_or_a_file(schema: &mut schemars::Schema) {
+    let listed = serde_json::json!({
+        "required": ["placement"],
+        "properties": {"placement": {"properties": {"type": {"const": "listed"}}}},
+    });
+    let given = |key: &str| serde_json::json!({"required": [key], "properties": {key: {"type": "number"}}});
+    let amount = serde_json::json!({
+        "if": listed,
+        "then": {"properties": {"number_density": {"type": "null"}}},
+        "else": {"oneOf": [given("count"), given("number_density")]},
+    });
+    schema.insert(
+        "if".to_owned(),
+        serde_json::json!({"required": ["state"], "properties": {"state": {"type": "object"}}}),
+    );
+    let otherwise = serde_json::json!({"required": ["space"], "properties": {"particles": {"items": amount}}});
+    schema.insert("else".to_owned(), otherwise);
+    if let Some(space) = schema.pointer_mut("/properties/space").and_then(serde_json::Value::as_object_mut) {
+        // A box of no edges is none.
+        space.remove("default");
+    }
+}
+
+impl Scene {
+    /// What was read of the file that the particles start from, if they do.
+    #[must_use]
+    pub fn start(&self) -> Option<&Arc<FileStart>> {
+        self.state.as_ref().and(self.kept.get())
+    }
+
+    /// The largest component of the velocities that a species starts with, where a file says so.
+    pub(crate) fn speed_from_file(&self, species: &str) -> Option<f64> {
+        match self.state.as_ref()?.velocities {
+            StateVelocities::Thermal => None,
+            StateVelocities::Rest => Some(0.0),
+            StateVelocities::File => {
+                let index = super::SpeciesNames::of(self).place(species)?;
+                self.start()?.fastest.get(index).copied()
+            }
+        }
+    }
+
+    /// The bonds of a file of those types, of all where none are named, in the order of the file.
+    pub(crate) fn file_bonds(&self, types: Option<&[String]>) -> impl Iterator<Item = &Arc<FileLinks<2>>> {
+        let asked = move |links: &&Arc<FileLinks<2>>| types.is_none_or(|types| types.contains(&links.name));
+        self.start().into_iter().flat_map(|start| &start.bonds).filter(asked)
+    }
+
+    /// The angles of a file, likewise.
+    pub(crate) fn file_angles(&self, types: Option<&[String]>) -> impl Iterator<Item = &Arc<FileLinks<3>>> {
+        let asked = move |links: &&Arc<FileLinks<3>>| types.is_none_or(|types| types.contains(&links.name));
+        self.start().into_iter().flat_map(|start| &start.angles).filter(asked)
+    }
+
+    /// Whether bonds and angles that name nothing are those of a file: where it has them, and groups have no chains.
+    pub(crate) fn links_are_from_file(&self, types: Option<&[String]>) -> bool {
+        self.state.is_some() && (types.is_some() || self.particles.iter().all(|group| group.chain.is_none()))
+    }
 }
 
 fn current_version() -> u32 {
@@ -54,7 +127,7 @@ fn current_version() -> u32 {
 }
 
 /// An orthogonal periodic box.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Space {
     /// Edge lengths, one for each dimension of the scene: one, two or three.

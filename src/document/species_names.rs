@@ -25,6 +25,16 @@ impl<'a> SpeciesNames<'a> {
         self.names.len()
     }
 
+    /// The place of a name.
+    pub fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| *known == name)
+    }
+
+    /// All names, in order of first appearance.
+    pub fn names(&self) -> &[&'a str] {
+        &self.names
+    }
+
     /// A name has to be that of the species of some group.
     pub fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
         if self.known.contains(name) {

@@ -10,6 +10,9 @@ const MARGIN: f64 = 8.0;
 
 /// Largest velocity along an axis that a group of a scene starts with; of thermal ones the standard deviation.
 fn at_start(scene: &Scene, group: &ParticleGroup, physics: &dyn Physics) -> f64 {
+    if let Some(fastest) = scene.speed_from_file(&group.species) {
+        return fastest;
+    }
     match &group.velocities {
         Velocities::Thermal => thermal(scene.temperature, physics.mean_mass(group)),
         Velocities::ShearWave { amplitude, .. } => amplitude.abs(),
@@ -71,7 +74,7 @@ pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
         let random = pushed / group.mass;
         let what = if random > start.max(bath) {
             "velocities of the random force"
-        } else if bath > start || group.velocities == Velocities::Thermal {
+        } else if bath > start || group.velocities == Velocities::Thermal && scene.state.is_none() {
             "thermal velocities"
         } else {
             "velocities"

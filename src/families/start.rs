@@ -1,13 +1,14 @@
 //! Where the particles of a scene start, and how fast.
 
 use super::particles::chains;
-use crate::document::{Generator, ParticleGroup, Placement, Scene, Velocities};
+use crate::document::{FileStart, Generator, ParticleGroup, Placement, Scene, StateVelocities, Velocities};
 use crate::families::Model;
 use crate::noise::{self, stream};
 use crate::state::{State, crossings};
 use std::ops::Range;
 
-/// The state at step 0 of a scene: particles numbered group by group, each group in its own order.
+/// The state at step 0 of a scene: particles numbered group by group, each group in its own order; those of a file in the order of
+/// the file.
 ///
 /// `scene` has been checked and `model` was made from it. The words of random placements and velocities depend on
 /// the seed and the particle's number only, and always come from Threefry: what is drawn once may cost a little more.
@@ -28,6 +29,16 @@ use std::ops::Range;
 pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut state = State::default();
     let mut thermal = Vec::new();
+    if let Some(asked) = &scene.state {
+        if let Some(start) = scene.start() {
+            state = from_file(start, asked.velocities, model);
+        }
+        let moves = |id: &usize| !model.species[state.species[*id] as usize].fixed;
+        if asked.velocities == StateVelocities::Thermal {
+            thermal.extend((0..state.len()).filter(moves));
+        }
+        return complete(state, scene, model, &thermal);
+    }
     let lattices = scene.particles.iter().filter(|group| group.placement.is_lattice()).count();
     let mut lattice = 0;
     for group in &scene.particles {
@@ -43,11 +54,74 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    model.physics().complete_start(&mut state, scene, model, &thermal);
-    if scene.output.trajectory.is_some() {
+    complete(state, scene, model, &thermal)
+}
+
+/// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.
+fn complete(mut state: State, scene: &Scene, model: &Model, thermal: &[usize]) -> State {
+    model.physics().complete_start(&mut state, scene, model, thermal);
+    if scene.output.trajectory.is_none() {
+        state.images = Vec::new();
+    } else if state.images.is_empty() {
         state.images = images(&state, model);
     }
     state
+}
+
+/// The particles of a file, copy by copy.
+fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> State {
+    let Some(places) = &start.places else { return State::default() };
+    let mut state = State::default();
+    let [x, y, z] = start.copies.map(u64::from);
+    // What the fractions of a copy are of the whole box.
+    let part =
+        |fraction: u32, copy: u64, copies: u64| (((copy << 32) + u64::from(fraction) + copies / 2) / copies) as u32;
+    let species: Vec<u32> = start.species.iter().map(|species| u32::from(*species)).collect();
+    for copy in 0..x * y * z {
+        let [i, j, k] = [copy % x, copy / x % y, copy / (x * y)];
+        state
+            .positions
+            .extend(places.positions.iter().map(|[a, b, c]| [part(*a, i, x), part(*b, j, y), part(*c, k, z)]));
+        state.species.extend_from_slice(&species);
+    }
+    let key = noise::step_key(model.seed, stream::VELOCITY, 0);
+    let momentum = |id: usize| {
+        let species = &model.species[state.species[id] as usize];
+        match velocities {
+            _ if species.fixed => [0; 3],
+            StateVelocities::Rest => [0; 3],
+            StateVelocities::Thermal => thermal_momentum(id, species.mass, key, model),
+            StateVelocities::File => {
+                let velocity = places.velocities.get(id % particles_of_copy(start)).copied().unwrap_or_default();
+                velocity.map(|part| to_units(species.mass * part, model))
+            }
+        }
+    };
+    state.momenta = (0..state.len()).map(momentum).collect();
+    state.images.clone_from(&places.images);
+    state
+}
+
+/// Particles of one copy.
+fn particles_of_copy(start: &FileStart) -> usize {
+    start.species.len().max(1)
+}
+
+/// A momentum in integer units.
+fn to_units(momentum: f64, model: &Model) -> i32 {
+    (momentum / model.units.momentum).round_ties_even() as i32
+}
+
+/// A momentum of Maxwell's distribution.
+fn thermal_momentum(id: usize, mass: f64, key: [u32; 2], model: &Model) -> [i32; 3] {
+    let width = (mass * model.temperature).sqrt();
+    std::array::from_fn(|axis| {
+        if axis >= model.units.dimension {
+            return 0;
+        }
+        let words = noise::words(Generator::Threefry2x32, key, [id as u32, axis as u32]);
+        to_units(width * noise::gaussian(words), model)
+    })
 }
 
 /// Times round the box at the start, so that what is bonded together is whole: from the first particle of every molecule
@@ -155,30 +229,19 @@ pub(crate) fn lattice_sites(count: u64, lengths: &[f64]) -> [u64; 3] {
 
 /// Appends the momenta of a group, rounded to integer units.
 pub(super) fn set_in_motion(state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
-    let dimension = model.units.dimension;
     let (first, count) = (ids.start, ids.len());
-    let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
     match &group.velocities {
         _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
-            let width = (group.mass * model.temperature).sqrt();
-            state.momenta.extend((first..first + count).map(|id| {
-                std::array::from_fn(|axis| {
-                    if axis >= dimension {
-                        return 0;
-                    }
-                    let words = noise::words(Generator::Threefry2x32, key, [id as u32, axis as u32]);
-                    to_units(width * noise::gaussian(words))
-                })
-            }));
+            state.momenta.extend((first..first + count).map(|id| thermal_momentum(id, group.mass, key, model)));
         }
         Velocities::Rest | Velocities::Geostrophic | Velocities::ShearWave { .. } => {
             state.momenta.resize(first + count, [0; 3]);
         }
         Velocities::Listed { velocities } => {
             state.momenta.extend(velocities.iter().take(count).map(|velocity| {
-                std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0)))
+                std::array::from_fn(|axis| to_units(group.mass * velocity.get(axis).copied().unwrap_or(0.0), model))
             }));
             state.momenta.resize(first + count, [0; 3]);
         }

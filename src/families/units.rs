@@ -28,6 +28,9 @@ pub(super) fn momentum_unit(
     let hottest = baths.fold(scene.temperature, f64::max);
     let mut scale = (heaviest * hottest).sqrt().max(chains.map_or(0.0, ChainTrios::momentum_scale));
     for group in &scene.particles {
+        if let Some(fastest) = scene.speed_from_file(&group.species) {
+            scale = scale.max(group.mass * fastest / 8.0);
+        }
         if let Velocities::Listed { velocities } = &group.velocities {
             let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
             scale = scale.max(group.mass * fastest / 8.0);

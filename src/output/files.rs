@@ -21,7 +21,7 @@ pub const ENERGIES_PLOT: &str = "energies.png";
 /// The picture of the last state.
 pub const SNAPSHOT: &str = "snapshot.png";
 /// The state to resume from.
-pub const CHECKPOINT: &str = "checkpoint.bin";
+pub use crate::state_file::checkpoint::FILE as CHECKPOINT;
 /// The summary of the run.
 pub const SUMMARY: &str = "run.json";
 /// The trajectory in HOOMD's GSD format.

@@ -1,8 +1,8 @@
 //! What distinguishes the files of one run from those of another.
 
 use super::OutputError;
-use super::checkpoint::Fnv;
 use crate::scene::Scene;
+use crate::state_file::checkpoint::Fnv;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;

@@ -37,7 +37,7 @@ pub fn redraw(
     let summary = Summary::load(&directory.file(files::SUMMARY))?;
     let text = serde_json::to_string(&summary.scene).unwrap_or_default();
     let name = directory.file(files::SUMMARY).display().to_string();
-    let scene = scene::parse(&name, &text, overrides)?;
+    let scene = scene::parse_kept(&name, &text, overrides, None)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     summary.check_run(checkpoint.run_id, &checkpoint.scene, &directory.file(files::SUMMARY))?;

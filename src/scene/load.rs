@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use serde_json::Value;
 
@@ -13,7 +13,8 @@ use crate::families::{self, StepCheck};
 use super::path::related;
 use super::shape::Substitute;
 use super::{
-    Problem, Problems, Scene, SceneError, Warning, builtin, nearest, overrides, semantics, shape, shorten, text,
+    FileStart, KeptStart, Problem, Problems, Scene, SceneError, Warning, builtin, nearest, overrides, semantics, shape,
+    shorten, start, text,
 };
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
@@ -111,7 +112,8 @@ pub fn unknown_builtin(name: &str) -> SceneError {
     }
 }
 
-/// Reads a scene from JSON text; `name` is what messages call it. Otherwise like [`load`].
+/// Reads a scene from JSON text; `name` is what messages call it, and a file of its state is looked for beside a file of that
+/// name. Otherwise like [`load`].
 ///
 /// ```
 /// use mesoscope::scene::{self, SceneError};
@@ -151,7 +153,7 @@ pub fn parse_for(
     overrides: &[String],
     steps: Option<u64>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    parse_checked(name, text, overrides, steps, StepCheck::Refuse)
+    parse_checked(name, text, overrides, steps, StepCheck::Refuse, Source::File)
 }
 
 /// Like [`parse`], but a time step that no scheme is stable with is accepted: to see what becomes of it.
@@ -159,7 +161,29 @@ pub fn parse_for(
 /// # Errors
 /// As [`parse`], for all other mistakes.
 pub(crate) fn parse_any_step(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow)?.0)
+    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow, Source::File)?.0)
+}
+
+/// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known.
+///
+/// # Errors
+/// As [`parse`].
+pub(crate) fn parse_kept(
+    name: &str,
+    text: &str,
+    overrides: &[String],
+    start: Option<Arc<FileStart>>,
+) -> Result<Scene, SceneError> {
+    Ok(parse_checked(name, text, overrides, None, StepCheck::Refuse, Source::Kept(start))?.0)
+}
+
+/// Where what a scene keeps of the file of its state comes from.
+#[derive(Debug, Clone)]
+enum Source {
+    /// The file, which is looked for beside a scene of that name.
+    File,
+    /// The run that has read it.
+    Kept(Option<Arc<FileStart>>),
 }
 
 fn parse_checked(
@@ -168,9 +192,17 @@ fn parse_checked(
     overrides: &[String],
     steps: Option<u64>,
     step: StepCheck,
+    source: Source,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
-    if reading.problems.is_empty() {
+    let mut reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
+    let mut unreadable = Problems::default();
+    if let Ok(scene) = &mut reading.scene {
+        match source {
+            Source::File => unreadable = start::read(scene, &reading.masses, name, &mut reading.notices),
+            Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
+        }
+    }
+    if reading.problems.is_empty() && unreadable.is_empty() {
         let scene = reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
@@ -180,7 +212,9 @@ fn parse_checked(
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
     }
     let mut problems = reading.problems;
-    if let Ok(scene) = reading.scene {
+    problems.append(unreadable);
+    // What a file should say, or what its box is compared with, is missing wherever it is needed.
+    if let Some(scene) = reading.scene.ok().filter(|scene| scene.state.is_none()) {
         let mut misfits = semantics::check(&scene);
         drop(scene);
         // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
@@ -206,8 +240,10 @@ struct Reading {
     problems: Problems,
     /// The scene, in which numbers that were refused are replaced; it satisfies the schema. Or why there is none.
     scene: Result<Scene, String>,
-    /// What was shortened for a run of so many steps.
+    /// What was shortened for a run of so many steps, or is not used of a file.
     notices: Vec<Warning>,
+    /// Which groups give their mass.
+    masses: Vec<bool>,
 }
 
 impl Reading {
@@ -224,6 +260,8 @@ impl Reading {
         let left_out = |place: &str| document.pointer(place).is_none();
         let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
         problems.append(shape::check(&SCHEMA, &mut document, substitute));
+        let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
+        let masses = groups.map(|group| group.get("mass").is_some()).collect();
         // What the shape check has mended may be readable, and then everything can be said at once.
         if !problems.is_empty() {
             fill_in(&mut document, substitute);
@@ -232,11 +270,12 @@ impl Reading {
             families::complete(&mut scene, integrator, colour);
             scene
         });
-        Ok(Self { problems, scene, notices })
+        Ok(Self { problems, scene, notices, masses })
     }
 }
 
-/// The text of a scene with overrides written into it, and nothing else changed.
+/// The text of a scene with overrides written into it, and nothing else changed but the path of the file of its state: that becomes
+/// absolute, since the text may be kept anywhere.
 ///
 /// # Errors
 /// As [`parse`].
@@ -246,6 +285,11 @@ pub(crate) fn with_overrides(name: &str, text: &str, overrides: &[String]) -> Re
     problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
     if !problems.is_empty() {
         return Err(invalid(name, problems));
+    }
+    if let Some(file) = document.pointer_mut("/state/file")
+        && let Some(path) = file.as_str().map(|file| start::path(name, file))
+    {
+        *file = std::path::absolute(&path).unwrap_or(path).display().to_string().into();
     }
     let text = serde_json::to_string_pretty(&document)
         .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
@@ -259,7 +303,7 @@ pub(crate) fn with_overrides(name: &str, text: &str, overrides: &[String]) -> Re
 pub(crate) fn checked(name: &str, scene: &Scene) -> Result<Scene, SceneError> {
     let text = serde_json::to_string(scene)
         .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
-    parse(name, &text, &[])
+    parse_kept(name, &text, &[], scene.start().cloned())
 }
 
 /// Numbers for further checks in place of required ones that a scene lacks.

@@ -12,11 +12,12 @@ mod path;
 mod semantics;
 mod shape;
 mod shorten;
+mod start;
 mod text;
 
 pub use crate::document::*;
 pub use builtin::{Builtin, builtin};
-pub(crate) use load::{checked, parse_any_step, with_overrides};
+pub(crate) use load::{checked, parse_any_step, parse_kept, with_overrides};
 pub use load::{load, load_for, parse, parse_for, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;

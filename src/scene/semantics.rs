@@ -157,6 +157,18 @@ fn check_number_of_runs(scene: &Scene, problems: &mut Problems) {
     let (mut bonds, mut angles) = (0_u64, 0_u64);
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let (sum, found, what) = match interaction {
+            Interaction::Bonds(asked)
+                if asked.pairs.is_empty() && scene.links_are_from_file(asked.types.as_deref()) =>
+            {
+                let counts = scene.file_bonds(asked.types.as_deref()).map(|links| links.count());
+                (&mut bonds, counts.fold(0, u64::saturating_add), "bonds")
+            }
+            Interaction::Angles(asked)
+                if asked.triples.is_empty() && scene.links_are_from_file(asked.types.as_deref()) =>
+            {
+                let counts = scene.file_angles(asked.types.as_deref()).map(|links| links.count());
+                (&mut angles, counts.fold(0, u64::saturating_add), "angles")
+            }
             Interaction::Bonds(asked) if asked.pairs.is_empty() => {
                 (&mut bonds, along_chains(asked.species.as_deref(), 2), "bonds")
             }

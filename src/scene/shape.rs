@@ -300,6 +300,7 @@ impl<'a> Walker<'a> {
             .iter()
             .any(|layer| layer["additionalProperties"] == false || layer["unevaluatedProperties"] == false);
         let required = layers.iter().filter_map(|layer| layer["required"].as_array()).flatten();
+        let required = required.chain(layers.iter().flat_map(|layer| required_otherwise(layer, object)));
         let required: Vec<&str> = required.filter_map(Value::as_str).collect();
         let mut missing: Vec<&str> = required.iter().copied().filter(|key| !object.contains_key(*key)).collect();
         let mut readable = missing.is_empty();
@@ -341,6 +342,14 @@ impl<'a> Walker<'a> {
         }
         readable
     }
+}
+
+/// Keys that are required where those that an `if` requires are not there.
+fn required_otherwise<'a>(layer: &'a Value, object: &Map<String, Value>) -> &'a [Value] {
+    let is_there = |key: &Value| key.as_str().and_then(|key| object.get(key)).is_some_and(|value| !value.is_null());
+    let condition = layer["if"]["required"].as_array().map_or(&[][..], Vec::as_slice);
+    let otherwise = layer["else"]["required"].as_array().map_or(&[][..], Vec::as_slice);
+    if condition.iter().all(is_there) { &[] } else { otherwise }
 }
 
 /// A schema and what it refers to, outermost first.
@@ -549,7 +558,7 @@ mod tests {
             "const",
             "default",
             "description",
-            // What `if` says of the number of particles is said in better words where the meaning is checked.
+            // Of `if` and `else` the required keys are read; numbers of particles are checked, in better words, with their meaning.
             "else",
             "enum",
             "exclusiveMaximum",

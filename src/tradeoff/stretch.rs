@@ -58,6 +58,7 @@ impl Stretch {
         let mut scene: Scene = serde_json::from_value(document).map_err(mismatch)?;
         scene.time.equilibration = (self.equilibration / variant.time.step).round() as u64;
         scene.time.steps = self.steps(&scene);
+        scene.kept = variant.kept.clone();
         scene::checked(name, &scene).map_err(wrong)
     }
 }

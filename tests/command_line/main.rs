@@ -14,6 +14,7 @@ mod particles;
 mod schema;
 mod shallow_water;
 mod stability;
+mod states;
 mod sweep;
 mod terminal;
 mod tradeoff;

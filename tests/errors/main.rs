@@ -10,4 +10,5 @@ mod damage;
 mod fuzzing;
 mod scenes;
 mod shallow_water;
+mod states;
 mod voronoi;

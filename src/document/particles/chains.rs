@@ -4,7 +4,7 @@ use crate::document::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Bonds along chains, or between listed particles.
+/// Bonds along chains, between listed particles, or of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BondsInteraction {
@@ -15,6 +15,10 @@ pub struct BondsInteraction {
     /// Pairs of particle numbers to bond, in place of chains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pairs: Vec<[u32; 2]>,
+    /// Types of bonds in the file of `state`, in place of chains; left out in a scene with a `state` and no chains, all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
+    pub types: Option<Vec<String>>,
     /// The potential; left out, none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub potential: Option<BondPotential>,
@@ -66,7 +70,7 @@ pub enum BondPotential {
     },
 }
 
-/// Stiffness of chains, or of listed triples.
+/// Stiffness of chains, of listed triples, or of the angles of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnglesInteraction {
@@ -77,6 +81,10 @@ pub struct AnglesInteraction {
     /// Triples of particle numbers with the vertex of the angle in the middle, in place of chains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub triples: Vec<[u32; 3]>,
+    /// Types of angles in the file of `state`, in place of chains; left out in a scene with a `state` and no chains, all of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(max = 256))]
+    pub types: Option<Vec<String>>,
     /// Stiffness k.
     pub stiffness: f64,
 }

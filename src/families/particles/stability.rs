@@ -7,10 +7,11 @@
 //! unstable, and refused.
 
 use crate::document::{
-    Bath, BondPotential, BondsInteraction, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
+    Bath, BondPotential, BondsInteraction, FileStart, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
 use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, Limit, Model, Particles};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// B + W beyond which nothing is stable.
 const LIMIT: f64 = 4.0;
@@ -327,6 +328,8 @@ fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
 struct Members {
     /// The first number after those of a group, and the species of the group.
     ends: Vec<(u64, usize)>,
+    /// The file that says so in their place.
+    start: Option<Arc<FileStart>>,
 }
 
 impl Members {
@@ -344,10 +347,13 @@ impl Members {
                 ends.push((end, index));
             }
         }
-        Self { ends }
+        Self { ends, start: scene.start().cloned() }
     }
 
     fn species(&self, particle: u32) -> usize {
+        if let Some(start) = &self.start {
+            return start.species_of(particle).unwrap_or(0);
+        }
         let group = self.ends.partition_point(|(end, _)| *end <= u64::from(particle));
         self.ends.get(group).map_or(0, |(_, species)| *species)
     }

@@ -107,15 +107,25 @@ fn warn_of_places(scene: &Scene, warnings: &mut Vec<Warning>) {
             positions.iter().map(move |place| (place.iter().map(|part| (part + 0.0).to_bits()).collect(), index))
         })
         .collect();
+    if let Some(of_file) = scene.start().and_then(|start| start.places.as_ref()) {
+        let mut fractions = of_file.positions.clone();
+        fractions.sort_unstable();
+        let shared = fractions.windows(2).filter(|pair| pair[0] == pair[1]).count();
+        if shared > 0 {
+            warn(warnings, "state.file", in_one_place(shared));
+        }
+    }
     places.sort_unstable();
     let shared = places.windows(2).filter(|pair| pair[0].0 == pair[1].0);
     let Some(group) = shared.clone().map(|pair| pair[1].1).min() else { return };
-    let message = format!(
-        "{} particles start where another one is: without a direction between them no force of a pair acts, and those that start \
-         with the same velocity never part; put them some distance apart",
-        shared.count()
-    );
-    warn(warnings, format!("particles[{group}].placement.positions"), message);
+    warn(warnings, format!("particles[{group}].placement.positions"), in_one_place(shared.count()));
+}
+
+fn in_one_place(count: usize) -> String {
+    format!(
+        "{count} particles start where another one is: without a direction between them no force of a pair acts, and those that start \
+         with the same velocity never part; put them some distance apart"
+    )
 }
 
 /// Chains that no bond holds together are nothing but a way to place particles.

@@ -25,16 +25,12 @@ mod read;
 use super::{Extent, Id, OutputError, write_atomically};
 use crate::scene::{Scene, SceneError};
 use crate::state::{State, StateArray};
+use crate::state_file::checkpoint::{Fnv, MAGIC, START, VERSION};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 pub(super) use read::id_of;
 pub use read::load;
-
-const MAGIC: [u8; 8] = *b"MESOCKPT";
-const VERSION: u32 = 5;
-const HEADER: usize = 8 + 4 + 8;
-const CHECKSUM: usize = 8;
 
 /// Everything a run needs to continue as if it had never stopped.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,8 +139,10 @@ pub fn save(
     files: &[(String, Extent)],
     sections: &[(String, Vec<u8>)],
 ) -> Result<(), OutputError> {
+    let start = scene.start().map(|start| (START.to_owned(), start.to_bytes()));
     let scene = serde_json::to_vec(scene).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
-    let sections_length: u64 = sections.iter().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
+    let sections = || start.iter().chain(sections);
+    let sections_length: u64 = sections().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
     let mut arrays = StateArray::ALL.map(|array| (array.name(), state.words(array))).to_vec();
     arrays.retain(|(_, words)| !words.is_empty());
     let run_id = run_id.to_string();
@@ -184,8 +182,8 @@ pub fn save(
             payload.number(extent.bytes)?;
             payload.bytes(&extent.crc32.to_le_bytes())?;
         }
-        payload.number(sections.len() as u64)?;
-        for (name, bytes) in sections {
+        payload.number(sections().count() as u64)?;
+        for (name, bytes) in sections() {
             payload.counted(name.as_bytes())?;
             payload.counted(bytes)?;
         }
@@ -195,21 +193,6 @@ pub fn save(
         let checksum = payload.checksum.0;
         writer.write_all(&checksum.to_le_bytes())
     })
-}
-
-/// FNV-1a with 64 bits. Each step is a bijection of the sum, so no change of a single byte goes unseen.
-pub(super) struct Fnv(pub(super) u64);
-
-impl Fnv {
-    pub(super) fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    pub(super) fn add(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
 }
 
 struct Payload<'a> {

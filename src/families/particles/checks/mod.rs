@@ -262,9 +262,27 @@ fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path
 fn check_bonds(scene: &Scene, names: &SpeciesNames<'_>, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
     check_bath(&bonds.bath, vec![(format!("{path}.friction"), bonds.friction)], path, problems);
     check_members(scene, names, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
+    let in_file = || scene.file_bonds(bonds.types.as_deref()).any(|links| !links.members.is_empty());
+    if check_file(
+        scene,
+        bonds.types.as_deref(),
+        "pairs",
+        bonds.pairs.is_empty(),
+        bonds.species.is_some(),
+        &in_file,
+        path,
+        problems,
+    ) {
+        check_rest_length(scene, bonds, path, problems);
+        return;
+    }
     if bonds.species.is_none() || bonds.pairs.is_empty() {
         check_presence(scene, bonds.species.as_deref(), "pairs", bonds.pairs.is_empty(), 2, path, problems);
     }
+    check_rest_length(scene, bonds, path, problems);
+}
+
+fn check_rest_length(scene: &Scene, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
     let rest = match bonds.potential {
         None => return,
         Some(BondPotential::Harmonic { length, .. } | BondPotential::Fene { length, .. }) => length,
@@ -286,6 +304,19 @@ fn check_angles(
     problems: &mut Problems,
 ) {
     check_members(scene, names, angles.species.as_deref(), "triples", &angles.triples, path, problems);
+    let in_file = || scene.file_angles(angles.types.as_deref()).any(|links| !links.members.is_empty());
+    if check_file(
+        scene,
+        angles.types.as_deref(),
+        "triples",
+        angles.triples.is_empty(),
+        angles.species.is_some(),
+        &in_file,
+        path,
+        problems,
+    ) {
+        return;
+    }
     if angles.species.is_none() || angles.triples.is_empty() {
         check_presence(scene, angles.species.as_deref(), "triples", angles.triples.is_empty(), 3, path, problems);
     }
@@ -349,6 +380,40 @@ fn check_members<const LENGTH: usize>(
         let more = mistakes - LISTED;
         problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "as above"));
     }
+}
+
+/// Whether bonds or angles are those of a file; mistakes of what they say about it are added.
+#[expect(clippy::too_many_arguments, reason = "bonds and angles have the same keys in different types")]
+fn check_file(
+    scene: &Scene,
+    types: Option<&[String]>,
+    key: &str,
+    unlisted: bool,
+    names_species: bool,
+    in_file: &dyn Fn() -> bool,
+    path: &str,
+    problems: &mut Problems,
+) -> bool {
+    if types.is_some() && (scene.state.is_none() || !unlisted || names_species) {
+        let found = match (&scene.state, unlisted) {
+            (None, _) => "found in a scene without a `state`".to_owned(),
+            (_, false) => format!("found together with `{key}`"),
+            _ => "found together with `species`".to_owned(),
+        };
+        let accepted = format!("`types` of the file of `state`, or `{key}`, or `species` with chains");
+        problems.push(Problem::new(format!("{path}.types"), found, accepted));
+        return true;
+    }
+    if !unlisted || names_species || !scene.links_are_from_file(types) {
+        return false;
+    }
+    // Of a run that continues, the file was there once.
+    if scene.start().is_some() && !in_file() {
+        let noun = if key == "pairs" { "bonds" } else { "angles" };
+        let accepted = format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`");
+        problems.push(Problem::new(path, format!("found no {noun} in the file of `state`"), accepted));
+    }
+    true
 }
 
 /// An interaction along chains needs chains.

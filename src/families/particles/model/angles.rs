@@ -30,7 +30,10 @@ impl Angles {
     ) {
         let kind = self.stiffness.len() as u32;
         self.stiffness.push(interaction.stiffness);
-        if interaction.triples.is_empty() {
+        let types = interaction.types.as_deref();
+        if interaction.triples.is_empty() && scene.links_are_from_file(types) {
+            scene.file_angles(types).for_each(|links| self.runs.add_file(kind, links));
+        } else if interaction.triples.is_empty() {
             self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
         } else {
             self.runs.add_listed(kind, &interaction.triples);

@@ -50,7 +50,10 @@ impl Bonds {
             temperature: interaction.bath.temperature(scene.temperature),
             exclude_repulsion: interaction.exclude_repulsion,
         });
-        if interaction.pairs.is_empty() {
+        let types = interaction.types.as_deref();
+        if interaction.pairs.is_empty() && scene.links_are_from_file(types) {
+            scene.file_bonds(types).for_each(|links| self.runs.add_file(kind, links));
+        } else if interaction.pairs.is_empty() {
             self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
         } else {
             self.runs.add_listed(kind, &interaction.pairs);

@@ -1,10 +1,12 @@
 //! Momenta that the forces of a scene make by themselves, however cold it is.
 
+use std::collections::HashSet;
 use std::f64::consts::PI;
 
 use super::PairForce;
 use crate::document::{
-    AnglesInteraction, BondPotential, BondsInteraction, Chain, Interaction, ParticleGroup, Placement, Scene,
+    AnglesInteraction, BondPotential, BondsInteraction, Chain, FileLinks, Interaction, ParticleGroup, Placement, Scene,
+    SpeciesNames,
 };
 use crate::families::Species;
 
@@ -70,6 +72,8 @@ struct Particles<'a> {
     scene: &'a Scene,
     /// Groups with the number of their first particle and of their particles.
     groups: Vec<(u64, u64, &'a ParticleGroup)>,
+    /// Masses of the species, by their places; none of what is held.
+    masses: Vec<Option<f64>>,
     heaviest: f64,
 }
 
@@ -82,7 +86,12 @@ impl<'a> Particles<'a> {
             groups.push((first, count, group));
             first = first.saturating_add(count);
         }
-        Self { scene, groups, heaviest }
+        let mass = |name: &&str| {
+            let group = scene.particles.iter().find(|group| group.species == **name)?;
+            mobile_mass(group.mass, group.fixed, heaviest)
+        };
+        let masses = SpeciesNames::of(scene).names().iter().map(mass).collect();
+        Self { scene, groups, masses, heaviest }
     }
 
     fn mass(&self, group: &ParticleGroup) -> Option<f64> {
@@ -101,7 +110,15 @@ impl<'a> Particles<'a> {
         (number - first < *count).then_some((number - first, *count, *group))
     }
 
+    /// The mass of a species, by its place.
+    fn mass_of_species(&self, place: usize) -> Option<f64> {
+        self.masses.get(place).copied().flatten()
+    }
+
     fn mass_of(&self, particle: u32) -> Option<f64> {
+        if let Some(start) = self.scene.start() {
+            return start.species_of(particle).and_then(|place| self.mass_of_species(place));
+        }
         self.group_of(particle).and_then(|(_, _, group)| self.mass(group))
     }
 
@@ -117,12 +134,24 @@ impl<'a> Particles<'a> {
     /// The mass that angles move.
     fn bent(&self, angles: &AnglesInteraction) -> f64 {
         let of_triple = |triple: &[u32; 3]| moved(triple.map(|particle| self.mass_of(particle)));
-        if angles.triples.is_empty() {
+        if angles.triples.is_empty() && self.scene.links_are_from_file(angles.types.as_deref()) {
+            self.scene.file_angles(angles.types.as_deref()).map(|links| self.heaviest_of(links)).fold(0.0, f64::max)
+        } else if angles.triples.is_empty() {
             let masses = self.chains(angles.species.as_deref()).filter_map(|(_, group, _)| self.mass(group));
             masses.fold(0.0, f64::max)
         } else {
             angles.triples.iter().map(of_triple).fold(0.0, f64::max)
         }
+    }
+
+    /// The largest mass that angles of a file move.
+    fn heaviest_of(&self, links: &FileLinks<3>) -> f64 {
+        let kinds: HashSet<[Option<usize>; 3]> = match self.scene.start() {
+            Some(start) => links.members.iter().map(|members| members.map(|member| start.species_of(member))).collect(),
+            None => HashSet::new(),
+        };
+        let mass = |place: Option<usize>| place.and_then(|place| self.mass_of_species(place));
+        kinds.into_iter().map(|kinds| moved(kinds.map(mass))).fold(0.0, f64::max)
     }
 
     /// How bonds of a length at rest start: of those that start alike, one.
@@ -132,6 +161,15 @@ impl<'a> Particles<'a> {
         let off = |distance: Option<f64>| {
             distance.map_or((farthest - length).max(length), |distance| (distance - length).abs())
         };
+        if bonds.pairs.is_empty() && self.scene.links_are_from_file(bonds.types.as_deref()) {
+            let of_types = self.scene.file_bonds(bonds.types.as_deref()).flat_map(|links| &links.spans);
+            let of_span = |((a, b), span): (&(u8, u8), &[f64; 2])| {
+                let mass = moved([*a, *b].map(|place| self.mass_of_species(place.into())));
+                let extension = span.iter().map(|distance| off(Some(*distance))).fold(0.0, f64::max);
+                Start { mass, extension }
+            };
+            return of_types.map(of_span).collect();
+        }
         if bonds.pairs.is_empty() {
             let chains = self.chains(bonds.species.as_deref());
             let of_chains = chains.filter_map(|(count, group, chain)| {

@@ -1,7 +1,8 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
-use crate::document::Scene;
+use crate::document::{FileLinks, Scene};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::Arc;
 
 /// Runs of `LENGTH` particles in a row, in order: bonds and angles.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,6 +25,8 @@ enum Shape<const LENGTH: usize> {
     Strand { before: u32, first: u32, beads: u32, after: u32, species: usize, end_species: usize },
     /// Particle numbers that the scene lists.
     Listed(Vec<[u32; LENGTH]>),
+    /// What is in a file, and in copies of it.
+    File(Arc<FileLinks<LENGTH>>),
 }
 
 /// What some runs of a kind have in common: the species of their particles, or the particles themselves.
@@ -66,6 +69,11 @@ impl<const LENGTH: usize> Runs<LENGTH> {
     /// Adds listed runs.
     pub fn add_listed(&mut self, kind: u32, runs: &[[u32; LENGTH]]) {
         self.stretches.push(Stretch { kind, shape: Shape::Listed(runs.to_vec()) });
+    }
+
+    /// Adds those of a file.
+    pub fn add_file(&mut self, kind: u32, links: &Arc<FileLinks<LENGTH>>) {
+        self.stretches.push(Stretch { kind, shape: Shape::File(Arc::clone(links)) });
     }
 
     /// Number of runs.
@@ -118,6 +126,8 @@ impl Runs<2> {
                 }
                 Shape::Strand { beads, .. } => most = most.max(if *beads > 0 { 2 } else { 1 }),
                 Shape::Listed(pairs) => listed.extend(pairs.iter().flat_map(|[a, b]| [(*a, *b), (*b, *a)])),
+                // Every copy is like the first.
+                Shape::File(links) => listed.extend(links.members.iter().flat_map(|[a, b]| [(*a, *b), (*b, *a)])),
             }
         }
         // A particle in a listed pair has partners along its chain beside.
@@ -147,6 +157,7 @@ impl<const LENGTH: usize> Shape<LENGTH> {
             Self::Chains { chains, starts, .. } => chains.saturating_mul(*starts),
             Self::Strand { beads, .. } => u64::from(*beads) + 1,
             Self::Listed(runs) => runs.len() as u64,
+            Self::File(links) => links.count(),
         }
     }
 
@@ -163,6 +174,7 @@ impl<const LENGTH: usize> Shape<LENGTH> {
                 place => first + (place - 1) as u32,
             }),
             Self::Listed(runs) => runs[index as usize],
+            Self::File(links) => links.link(index),
         }
     }
 
@@ -171,6 +183,7 @@ impl<const LENGTH: usize> Shape<LENGTH> {
             Self::Chains { species, .. } => Alike::Species(*species),
             Self::Strand { species, end_species, .. } => Alike::Ended(*species, *end_species),
             Self::Listed(runs) => Alike::Listed(runs),
+            Self::File(links) => Alike::Listed(&links.members),
         }
     }
 }

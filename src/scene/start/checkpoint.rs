@@ -1,0 +1,104 @@
+//! The particles of an earlier run, from its last checkpoint.
+
+use crate::families::Model;
+use crate::scene::{FileStart, Scene, parse_kept};
+use crate::state::{State, StateArray};
+use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
+use crate::state_file::{Links, Mistake, ParticleFile};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The checkpoint that a path means: that of a directory, or itself.
+pub(super) fn of(path: &Path) -> Option<PathBuf> {
+    if path.is_dir() {
+        return Some(path.join(FILE));
+    }
+    let mut start = Vec::new();
+    checkpoint::open_regular_file(path).ok()?.take(MAGIC.len() as u64).read_to_end(&mut start).ok()?;
+    (start == MAGIC).then(|| path.to_path_buf())
+}
+
+/// The particles of a checkpoint, in the order and with the positions and velocities that they have there.
+pub(super) fn particles(path: &Path) -> Result<ParticleFile, Mistake> {
+    if !path.exists() {
+        let found = format!("the directory has no `{FILE}`: no run has saved its state there");
+        return Err(Mistake::new("", found, "the directory of a run with a checkpoint, or a file"));
+    }
+    let content = checkpoint::read(path, |_, _, _| Ok::<(), ContentError>(())).map_err(|error| refusal(&error))?;
+    let start = content.sections.iter().find(|(name, _)| name == START);
+    let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
+    let scene = parse_kept("its scene", &content.scene, &[], start)
+        .map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
+    of_state(&scene, &content.state)
+}
+
+fn refusal(error: &ContentError) -> Mistake {
+    let accepted = "a checkpoint as this version of the program writes it";
+    match error {
+        ContentError::Io(error) => Mistake::new("", format!("it cannot be read ({error})"), accepted),
+        ContentError::Magic => Mistake::new("", "it is no checkpoint", accepted),
+        ContentError::Version { found } => {
+            Mistake::new("", format!("found a checkpoint of format {found}"), format!("format {VERSION}"))
+        }
+        ContentError::Length { expected, found } => {
+            damaged(&format!("it should have {expected} bytes and has {found}: it was cut short or altered"))
+        }
+        ContentError::Checksum => damaged("its checksum does not match its content"),
+        ContentError::Malformed(problem) => damaged(problem),
+    }
+}
+
+fn damaged(problem: &str) -> Mistake {
+    Mistake::new("", problem, "a checkpoint as a run has left it")
+}
+
+/// The particles of a state of a scene.
+fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
+    let model = Model::new(scene);
+    if model.particles().is_none() || model.chains().is_some() {
+        let found = "found a run whose particles have more than a species, a position and a momentum";
+        return Err(Mistake::new("", found, "a run of particles with forces between them"));
+    }
+    let species = |particle: usize| model.species.get(state.species[particle] as usize);
+    if state.len() as u64 != model.particle_count() || (0..state.len()).any(|particle| species(particle).is_none()) {
+        return Err(damaged("its particles are not those of its scene"));
+    }
+    let mass = |particle: usize| species(particle).map_or(1.0, |species| species.mass);
+    let velocity = |particle: usize| model.units.momentum(state.momenta[particle]).map(|part| part / mass(particle));
+    let memory = [StateArray::PairBaths, StateArray::PositionBaths, StateArray::BondBaths, StateArray::Holds];
+    let remembers = memory.iter().any(|array| state.length(*array) > 0);
+    Ok(ParticleFile {
+        species: model.species.iter().map(|species| species.name.clone()).collect(),
+        labelled: true,
+        types: state.species.clone(),
+        masses: model.species.iter().map(|species| Some(species.mass)).collect(),
+        dimension: Some(model.units.dimension),
+        lengths: Some(model.units.lengths),
+        positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
+        velocities: (0..state.len()).map(velocity).collect(),
+        images: state.images.clone(),
+        bonds: by_kind(
+            "bond",
+            model.bonds().into_iter().flat_map(|bonds| bonds.iter()).map(|bond| (bond.ends, bond.kind)),
+        ),
+        angles: by_kind(
+            "angle",
+            model.angles().into_iter().flat_map(|all| all.iter()).map(|angle| (angle.ends, angle.kind)),
+        ),
+        unused: if remembers { vec!["what its baths remember".to_owned()] } else { Vec::new() },
+        ..ParticleFile::default()
+    })
+}
+
+/// Bonds or angles by their kind, which trajectories name so too.
+fn by_kind<const LENGTH: usize>(noun: &str, all: impl Iterator<Item = ([u32; LENGTH], u32)>) -> Vec<Links<LENGTH>> {
+    let mut found: Vec<Links<LENGTH>> = Vec::new();
+    for (members, kind) in all {
+        while found.len() <= kind as usize {
+            found.push(Links { name: format!("{noun} {}", found.len()), members: Vec::new() });
+        }
+        found[kind as usize].members.push(members);
+    }
+    found
+}

@@ -1,0 +1,400 @@
+//! The state of a scene from a file: what the file says goes into the scene, and everything is compared with what the scene says.
+
+mod checkpoint;
+mod places;
+
+use super::{
+    FileStart, Interaction, KeptStart, Placement, Problem, Problems, Scene, SpeciesNames, StateFile, StateVelocities,
+    Velocities, Warning, nearest,
+};
+use crate::state_file::{self, Links, Mistake, ParticleFile, StateFileError};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Part of an edge by which a box of the scene may differ from that of the file: files in single precision round.
+const ROUNDING: f64 = 1e-6;
+
+/// Particles are numbered by 32-bit words.
+const MOST_PARTICLES: u64 = u32::MAX as u64;
+
+/// Species are numbered by eight bits.
+const MOST_SPECIES: usize = 256;
+
+/// Reads the file of a scene's state, if it has one, which lies beside a scene of that name; `masses` says which groups give
+/// theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
+pub(super) fn read(scene: &mut Scene, masses: &[bool], name: &str, notices: &mut Vec<Warning>) -> Problems {
+    let mut problems = Problems::default();
+    let Some(state) = scene.state.clone() else { return problems };
+    check_scene(scene, &mut problems);
+    if !problems.is_empty() {
+        return problems;
+    }
+    let path = path(name, &state.file);
+    let file = match particles(&path, state.frame) {
+        Ok(file) => file,
+        Err(error) => {
+            refuse(&state, error.mistakes, &mut problems);
+            return problems;
+        }
+    };
+    let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
+    reader.adopt(scene, masses);
+    notices.extend(reader.notices.into_iter().map(|message| Warning { path: "state.file".to_owned(), message }));
+    reader.problems
+}
+
+/// Where the file of a scene of that name is.
+pub(super) fn path(name: &str, file: &str) -> PathBuf {
+    Path::new(name).parent().unwrap_or(Path::new("")).join(file)
+}
+
+/// The particles of a file or of a run.
+fn particles(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
+    match checkpoint::of(path) {
+        Some(checkpoint) => {
+            let all = state_file::only_frame(frame).and_then(|()| checkpoint::particles(&checkpoint));
+            all.map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })
+        }
+        None => state_file::read(path, frame),
+    }
+}
+
+fn refuse(state: &StateFile, mistakes: Vec<Mistake>, problems: &mut Problems) {
+    let problem =
+        |mistake: Mistake| Problem::new("state.file", mistake.found_in(Path::new(&state.file)), mistake.accepted);
+    problems.extend(mistakes.into_iter().map(problem));
+}
+
+/// What a scene with a file has to be, whatever the file says.
+fn check_scene(scene: &Scene, problems: &mut Problems) {
+    let unsuited = |interaction: &Interaction| {
+        !interaction.is_of_particles() || matches!(interaction, Interaction::HarmonicChain(_))
+    };
+    if let Some(index) = scene.interactions.iter().position(unsuited) {
+        let found = format!("found in a scene with interactions[{index}], whose particles a file does not describe");
+        let accepted = "a state from a file in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `bonds` and `angles`: what other \
+                        particles consist of, such as masses of their own or energies, is in none of these files";
+        problems.push(Problem::new("state", found, accepted));
+    }
+    for (index, group) in scene.particles.iter().enumerate() {
+        if group.placement != Placement::Random {
+            let accepted = "no `placement`: the file of `state` says where particles start";
+            problems.push(Problem::new(format!("particles[{index}].placement"), "found beside a `state`", accepted));
+        }
+        if group.velocities != Velocities::Thermal {
+            let accepted = "no `velocities`: `state.velocities` is `file`, `thermal` or `rest` for all particles";
+            problems.push(Problem::new(format!("particles[{index}].velocities"), "found beside a `state`", accepted));
+        }
+    }
+    let species = SpeciesNames::of(scene).count();
+    if species > MOST_SPECIES {
+        let found = format!("found {species} species");
+        problems.push(Problem::new("particles", found, format!("at most {MOST_SPECIES} species")));
+    }
+}
+
+/// A file on its way into a scene.
+struct Reader<'a> {
+    state: &'a StateFile,
+    file: &'a ParticleFile,
+    problems: Problems,
+    notices: Vec<String>,
+}
+
+impl Reader<'_> {
+    fn push(&mut self, path: impl std::fmt::Display, found: impl Into<String>, accepted: impl Into<String>) {
+        self.problems.push(Problem::new(path, found, accepted));
+    }
+
+    /// Takes what the file says into the scene; stops where the rest would have no meaning.
+    fn adopt(&mut self, scene: &mut Scene, masses: &[bool]) {
+        let Some(lengths) = self.adopt_box(scene) else { return };
+        let dimension = scene.space.lengths.len();
+        refuse(self.state, self.file.mistakes(dimension, lengths), &mut self.problems);
+        let total =
+            self.state.copies().iter().fold(self.file.len() as u64, |all, copies| all.saturating_mul((*copies).into()));
+        if total > MOST_PARTICLES {
+            let found = format!(
+                "found {total} particles in {} copies of {}",
+                total / self.file.len().max(1) as u64,
+                self.file.len()
+            );
+            self.push(
+                "state.replicate",
+                found,
+                format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words"),
+            );
+        }
+        if self.state.velocities == StateVelocities::File && self.file.velocities.is_empty() && !self.file.is_empty() {
+            let found = format!("found \"file\", and no velocities in `{}`", self.state.file);
+            self.push(
+                "state.velocities",
+                found,
+                "\"thermal\" or \"rest\", or a file with velocities; GSD leaves out those that are all zero",
+            );
+        }
+        let Some(species) = self.species(scene) else { return };
+        self.adopt_counts(scene, &species);
+        self.adopt_masses(scene, masses, &species);
+        self.check_types(scene);
+        if !self.problems.is_empty() {
+            return;
+        }
+        self.note_what_is_not_used(scene, dimension);
+        let start = places::start(self.file, self.state, &species, dimension, lengths, SpeciesNames::of(scene).count());
+        self.check_order(scene, &start);
+        self.adopt_checksum(scene);
+        scene.kept = KeptStart::of(Arc::new(start));
+    }
+
+    /// The box of the file; that of the scene follows from it, or has to be the same.
+    fn adopt_box(&mut self, scene: &mut Scene) -> Option<[f64; 3]> {
+        let given = scene.space.lengths.len();
+        let dimension = if given > 0 { given } else { self.file.dimension.unwrap_or(3) };
+        let replicate = self.state.replicate.len();
+        if replicate > 0 && replicate != dimension {
+            let found = format!("found a list of {replicate}");
+            self.push("state.replicate", found, format!("a number of copies for each of the {dimension} axes"));
+            return None;
+        }
+        let copies = self.state.copies().map(f64::from);
+        let Some(lengths) = self.file.lengths else {
+            if given == 0 {
+                let found = format!("missing, and `{}` has no box", self.state.file);
+                self.push("space", found, "an object with `box`, or a file with a `Lattice`");
+                return None;
+            }
+            return Some(std::array::from_fn(|axis| {
+                scene.space.lengths.get(axis).map_or(1.0, |edge| edge / copies[axis])
+            }));
+        };
+        if given == 0 {
+            scene.space.lengths = (0..dimension).map(|axis| lengths[axis] * copies[axis]).collect();
+            return Some(lengths);
+        }
+        for axis in 0..dimension {
+            let (found, expected) = (scene.space.lengths[axis], lengths[axis] * copies[axis]);
+            if (found - expected).abs() > ROUNDING * expected {
+                let copied = if copies[axis] > 1.0 { format!(" in {} copies", copies[axis]) } else { String::new() };
+                let accepted = format!("{expected}, that of `{}`{copied}, or no `space` at all", self.state.file);
+                self.push(format!("space.box[{axis}]"), format!("found {found}"), accepted);
+            }
+        }
+        self.problems.is_empty().then_some(lengths)
+    }
+
+    /// The species of the scene for each one of the file that has particles.
+    fn species(&mut self, scene: &Scene) -> Option<Vec<Option<u8>>> {
+        let names = SpeciesNames::of(scene);
+        let mut counts = vec![0_u64; self.file.species.len().max(1)];
+        for kind in &self.file.types {
+            counts[*kind as usize] += 1;
+        }
+        let mut found = Vec::with_capacity(counts.len());
+        let mut lacking = Vec::new();
+        for (kind, name) in self.file.species.iter().enumerate() {
+            let place = if self.file.labelled { names.place(name) } else { (kind < names.count()).then_some(kind) };
+            if place.is_none() && counts[kind] > 0 {
+                lacking.push((name.clone(), counts[kind]));
+            }
+            found.push(place.map(|place| place as u8));
+        }
+        for (name, count) in &lacking {
+            let what = if self.file.labelled { "the species" } else { "type" };
+            let found = format!("`{}`: found {count} particles of {what} `{name}`", self.state.file);
+            let known = names.names().iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            let accepted = if self.file.labelled {
+                format!("the species of some particle group: {known}")
+            } else {
+                format!(
+                    "types 1 to {}, which are the species of the scene in their order: {known}; or labels of types",
+                    names.count()
+                )
+            };
+            let suggestion = nearest(name, names.names().iter().copied()).filter(|_| self.file.labelled);
+            self.problems.push(Problem::new("state.file", found, accepted).suggest(suggestion));
+        }
+        lacking.is_empty().then_some(found)
+    }
+
+    /// Numbers of particles; those that the scene gives have to be the same.
+    fn adopt_counts(&mut self, scene: &mut Scene, species: &[Option<u8>]) {
+        let copies = self.state.copies().iter().fold(1, |all: u64, copies| all.saturating_mul((*copies).into()));
+        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        let mut counts = vec![0_u64; names.len()];
+        for kind in &self.file.types {
+            if let Some(Some(place)) = species.get(*kind as usize) {
+                counts[usize::from(*place)] += 1;
+            }
+        }
+        let volume = scene.space.volume();
+        for (name, count) in names.iter().zip(counts) {
+            let count = count.saturating_mul(copies);
+            if count == 0 {
+                self.notices.push(format!("`{}` has no particles of `{name}`", self.state.file));
+            }
+            let of_species = |group: &&usize| scene.particles[**group].species == *name;
+            let groups: Vec<usize> = (0..scene.particles.len()).collect();
+            let groups: Vec<usize> = groups.iter().filter(of_species).copied().collect();
+            let given = |group: &usize| {
+                scene.particles[*group].count.is_some() || scene.particles[*group].number_density.is_some()
+            };
+            let found: Vec<u64> = groups.iter().map(|group| scene.particles[*group].resolved_count(volume)).collect();
+            let sum = found.iter().fold(0, |sum: u64, count| sum.saturating_add(*count));
+            let first = groups[0];
+            if groups.len() > 1 && !groups.iter().all(given) {
+                let accepted = format!("a `count` in each of the groups of `{name}`, {count} particles in all");
+                self.push(
+                    format!("particles[{first}]"),
+                    format!("found `{name}` in {} groups", groups.len()),
+                    accepted,
+                );
+            } else if given(&first) && sum != count {
+                let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
+                let accepted =
+                    format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);
+                self.push(format!("particles[{first}].{key}"), format!("found {sum} particles"), accepted);
+            }
+            for (group, found) in groups.iter().zip(found) {
+                let group = &mut scene.particles[*group];
+                (group.count, group.number_density) = (Some(if groups.len() > 1 { found } else { count }), None);
+            }
+        }
+    }
+
+    /// Masses that the scene leaves out are those of the file.
+    fn adopt_masses(&mut self, scene: &mut Scene, given: &[bool], species: &[Option<u8>]) {
+        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        for (kind, mass) in self.file.masses.iter().enumerate() {
+            let (Some(mass), Some(Some(place))) = (mass, species.get(kind)) else { continue };
+            let name = &names[usize::from(*place)];
+            for (index, group) in scene.particles.iter_mut().enumerate().filter(|(_, group)| group.species == *name) {
+                if !given.get(index).copied().unwrap_or(false) {
+                    group.mass = *mass;
+                } else if (group.mass - mass).abs() > ROUNDING * mass {
+                    self.notices.push(format!(
+                        "the mass {mass} of `{name}` is not used: particles[{index}] gives {}",
+                        group.mass
+                    ));
+                }
+            }
+        }
+    }
+
+    /// Types of bonds and angles that interactions name have to be in the file.
+    fn check_types(&mut self, scene: &Scene) {
+        let bonds: Vec<&str> = self.file.bonds.iter().map(|links| links.name.as_str()).collect();
+        let angles: Vec<&str> = self.file.angles.iter().map(|links| links.name.as_str()).collect();
+        for (index, interaction) in scene.interactions.iter().enumerate() {
+            let (types, known, noun) = match interaction {
+                Interaction::Bonds(asked) => (&asked.types, &bonds, "bonds"),
+                Interaction::Angles(asked) => (&asked.types, &angles, "angles"),
+                _ => continue,
+            };
+            for (place, name) in types.iter().flatten().enumerate().filter(|(_, name)| !known.contains(&name.as_str()))
+            {
+                let accepted = match known.as_slice() {
+                    [] => format!("no `types`: `{}` has no {noun}", self.state.file),
+                    names => {
+                        let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+                        format!("a type of {noun} in `{}`: {names}", self.state.file)
+                    }
+                };
+                let path = format!("interactions[{index}].types[{place}]");
+                let problem = Problem::new(path, format!("found \"{name}\""), accepted);
+                self.problems.push(problem.suggest(nearest(name, known.iter().copied())));
+            }
+        }
+    }
+
+    /// Chains are particles with consecutive numbers: with those, the file has to have the groups one after the other.
+    fn check_order(&mut self, scene: &Scene, start: &FileStart) {
+        let Some(chained) = scene.particles.iter().position(|group| group.chain.is_some()) else { return };
+        let names = SpeciesNames::of(scene);
+        let groups = scene.particles.iter().flat_map(|group| {
+            let place = names.place(&group.species).unwrap_or(0);
+            std::iter::repeat_n(place, usize::try_from(group.count.unwrap_or(0)).unwrap_or(usize::MAX))
+        });
+        let copied = start.copies != [1; 3];
+        let first_astray = if copied && names.count() > 1 {
+            Some(0)
+        } else {
+            groups.zip(&start.species).position(|(place, species)| place != usize::from(*species))
+        };
+        if let Some(particle) = first_astray {
+            let found = format!(
+                "found, and particle {} of `{}` is not where its group would have it",
+                self.file.number(particle),
+                self.state.file
+            );
+            let accepted = "a file with all particles of a group after each other, in the order of `particles`; or bonds of the file in place of chains";
+            self.push(format!("particles[{chained}].chain"), found, accepted);
+        }
+    }
+
+    /// A checksum in the scene has to be that of what was read.
+    fn adopt_checksum(&mut self, scene: &mut Scene) {
+        let found = places::checksum(self.file);
+        if let Some(given) = self.state.checksum.as_ref().filter(|given| **given != found) {
+            let found = format!("found \"{given}\", and \"{found}\" of `{}`", self.state.file);
+            self.push("state.checksum", found, "the file as it was, or no `checksum`");
+        }
+        if let Some(state) = &mut scene.state {
+            state.checksum = Some(found);
+        }
+    }
+
+    /// Says what is in the file, and nowhere in the scene.
+    fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize) {
+        let mut unused = self.file.unused.clone();
+        let mut note = |noun: &str, names: Vec<&str>| {
+            if !names.is_empty() {
+                unused.push(format!(
+                    "{noun} of type {}",
+                    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+                ));
+            }
+        };
+        let asked = |types: &Option<Vec<String>>, listed: bool, name: &str| {
+            !listed
+                && scene.links_are_from_file(types.as_deref())
+                && types.as_ref().is_none_or(|types| types.iter().any(|kind| kind == name))
+        };
+        let bonds = unasked(&self.file.bonds, |name| {
+            scene.interactions.iter().any(|interaction| {
+                matches!(interaction, Interaction::Bonds(bonds) if asked(&bonds.types, !bonds.pairs.is_empty(), name))
+            })
+        });
+        note("bonds", bonds);
+        let angles = unasked(&self.file.angles, |name| {
+            scene.interactions.iter().any(|interaction| {
+                matches!(interaction, Interaction::Angles(angles) if asked(&angles.types, !angles.triples.is_empty(), name))
+            })
+        });
+        note("angles", angles);
+        if self.state.velocities != StateVelocities::File && !self.file.velocities.is_empty() {
+            unused.push("velocities".to_owned());
+        }
+        if !self.file.images.is_empty() && self.file.images.iter().any(|image| *image != [0; 3]) {
+            if scene.output.trajectory.is_none() {
+                unused.push("images, for the scene writes no trajectory".to_owned());
+            } else if self.state.copies() != [1; 3] {
+                unused.push("images, for copies of its box lie in one".to_owned());
+            }
+        }
+        let beyond = |vectors: &[[f64; 3]]| (dimension..3).any(|axis| vectors.iter().any(|vector| vector[axis] != 0.0));
+        if beyond(&self.file.positions) || beyond(&self.file.velocities) {
+            let axes = &["x", "y", "z"][dimension..];
+            unused.push(format!("what it says along {}, for the scene has {dimension} dimensions", axes.join(" and ")));
+        }
+        if !unused.is_empty() {
+            self.notices.push(format!("not used of `{}`: {}", self.state.file, unused.join("; ")));
+        }
+    }
+}
+
+/// Names of types with links that nobody asks for.
+fn unasked<const LENGTH: usize>(all: &[Links<LENGTH>], is_asked: impl Fn(&str) -> bool) -> Vec<&str> {
+    let names = all.iter().filter(|links| !links.members.is_empty()).map(|links| links.name.as_str());
+    names.filter(|name| !is_asked(name)).collect()
+}

@@ -1,0 +1,142 @@
+//! Real positions of a file as integers, its bonds and angles with the copies that they reach, and a checksum of it all.
+
+use super::{FileStart, StateFile, StateVelocities};
+use crate::document::{FileLinks, FilePlaces};
+use crate::state::crossings;
+use crate::state_file::{Links, ParticleFile};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What a scene keeps of a file without mistakes, in whose box of these edges all particles are.
+pub(super) fn start(
+    file: &ParticleFile,
+    state: &StateFile,
+    species: &[Option<u8>],
+    dimension: usize,
+    lengths: [f64; 3],
+    species_of_scene: usize,
+) -> FileStart {
+    let copies = state.copies();
+    let fraction = |position: &[f64; 3]| -> [u32; 3] {
+        std::array::from_fn(|axis| {
+            if axis >= dimension {
+                return 0;
+            }
+            let turns = (position[axis] - file.origin[axis]) / lengths[axis];
+            ((turns - turns.floor()) * 4_294_967_296.0).round() as u64 as u32
+        })
+    };
+    let positions: Vec<[u32; 3]> = file.positions.iter().map(fraction).collect();
+    let species: Vec<u8> =
+        file.types.iter().map(|kind| species.get(*kind as usize).copied().flatten().unwrap_or(0)).collect();
+    let mut fastest = vec![0.0_f64; species_of_scene];
+    let mut velocities = Vec::new();
+    if state.velocities == StateVelocities::File {
+        let flat =
+            |velocity: &[f64; 3]| std::array::from_fn(|axis| if axis < dimension { velocity[axis] } else { 0.0 });
+        velocities = file.velocities.iter().map(flat).collect();
+        for (velocity, species) in velocities.iter().zip(&species) {
+            let most = &mut fastest[usize::from(*species)];
+            *most = velocity.iter().fold(*most, |most: f64, part: &f64| most.max(part.abs()));
+        }
+    }
+    // A position that rounds to the upper face is at the lower one, of the next image.
+    let image = |(image, position): (&[i32; 3], &[f64; 3])| -> [i32; 3] {
+        std::array::from_fn(|axis| {
+            let turns = (position[axis] - file.origin[axis]) / lengths[axis];
+            let rounded = i32::from((turns - turns.floor()) * 4_294_967_296.0 >= 4_294_967_295.5);
+            if axis < dimension { image[axis].saturating_add(turns.floor() as i32 + rounded) } else { 0 }
+        })
+    };
+    let images =
+        if copies == [1; 3] { file.images.iter().zip(&file.positions).map(image).collect() } else { Vec::new() };
+    let of_box = Cell { positions: &positions, species: &species, lengths, dimension, copies };
+    FileStart {
+        copies,
+        fastest,
+        bonds: file.bonds.iter().map(|links| of_box.links(links)).collect(),
+        angles: file.angles.iter().map(|links| of_box.links(links)).collect(),
+        places: Some(FilePlaces { velocities, images, positions: positions.clone() }),
+        species: species.clone(),
+    }
+}
+
+/// The box of a file with its particles.
+struct Cell<'a> {
+    positions: &'a [[u32; 3]],
+    species: &'a [u8],
+    lengths: [f64; 3],
+    dimension: usize,
+    copies: [u32; 3],
+}
+
+impl Cell<'_> {
+    fn links<const LENGTH: usize>(&self, links: &Links<LENGTH>) -> Arc<FileLinks<LENGTH>> {
+        let mut spans: BTreeMap<(u8, u8), [f64; 2]> = BTreeMap::new();
+        for members in &links.members {
+            let [a, b] = [members[0] as usize, members[1] as usize];
+            let distance = self.distance(a, b);
+            let kinds = (self.species[a].min(self.species[b]), self.species[a].max(self.species[b]));
+            let span = spans.entry(kinds).or_insert([distance; 2]);
+            *span = [span[0].min(distance), span[1].max(distance)];
+        }
+        let shifts =
+            if self.copies == [1; 3] { Vec::new() } else { links.members.iter().map(|all| self.shifts(all)).collect() };
+        Arc::new(FileLinks {
+            name: links.name.clone(),
+            members: links.members.clone(),
+            shifts,
+            copies: self.copies,
+            particles: self.positions.len() as u32,
+            spans,
+        })
+    }
+
+    /// The copies that particles are in, from that of the first, where each is near to the one before.
+    fn shifts<const LENGTH: usize>(&self, members: &[u32; LENGTH]) -> [[i8; 3]; LENGTH] {
+        let mut shifts = [[0; 3]; LENGTH];
+        for at in 1..LENGTH {
+            let [before, here] = [members[at - 1], members[at]].map(|member| self.positions[member as usize]);
+            let crossed = crossings(before, here);
+            shifts[at] = std::array::from_fn(|axis| shifts[at - 1][axis] + crossed[axis] as i8);
+        }
+        shifts
+    }
+
+    /// The shortest distance of two particles.
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        let apart = (0..self.dimension).map(|axis| {
+            let turns = self.positions[a][axis].wrapping_sub(self.positions[b][axis]).cast_signed();
+            f64::from(turns) * self.lengths[axis] / 4_294_967_296.0
+        });
+        apart.map(|part| part * part).sum::<f64>().sqrt()
+    }
+}
+
+/// CRC-32 of what a file says of particles, in hexadecimal digits.
+pub(super) fn checksum(file: &ParticleFile) -> String {
+    let mut sum = crc32fast::Hasher::new();
+    let mut add = |name: &str, bytes: &[u8]| {
+        sum.update(name.as_bytes());
+        sum.update(&(bytes.len() as u64).to_le_bytes());
+        sum.update(bytes);
+    };
+    for name in &file.species {
+        add("species", name.as_bytes());
+    }
+    add("types", bytemuck::cast_slice(&file.types));
+    add("box", bytemuck::cast_slice(&file.lengths.map_or(Vec::new(), |lengths| lengths.to_vec())));
+    add("origin", bytemuck::cast_slice(&file.origin));
+    add("positions", bytemuck::cast_slice(&file.positions));
+    add("velocities", bytemuck::cast_slice(&file.velocities));
+    add("images", bytemuck::cast_slice(&file.images));
+    let masses: Vec<f64> = file.masses.iter().map(|mass| mass.unwrap_or(0.0)).collect();
+    add("masses", bytemuck::cast_slice(&masses));
+    for links in &file.bonds {
+        add(&links.name, bytemuck::cast_slice(&links.members));
+    }
+    for links in &file.angles {
+        add(&links.name, bytemuck::cast_slice(&links.members));
+    }
+    format!("{:08x}", sum.finalize())
+}

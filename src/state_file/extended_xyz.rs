@@ -1,0 +1,390 @@
+//! Extended XYZ: frames of text, each with its number of particles, a line of `key=value` and a line for every particle:
+//! <https://github.com/libAtoms/extxyz>.
+//!
+//! Columns that are read: `pos`; `species_name`, as this program writes it, else `species`; `velo`, `velocities`, `velocity` or
+//! `vel`, else `momenta` over `masses`; `masses` or `mass`; `map_shift` or `images`; `id`. Without `Properties`, a line is a species
+//! and a position.
+
+use super::lines::Lines;
+use super::tally::Tally;
+use super::{MOST_PARTICLES, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, triclinic};
+use std::collections::{HashMap, HashSet};
+use std::fs::File;
+
+/// Species beyond this number are a sign of a column that is none.
+const MOST_SPECIES: usize = 4096;
+
+pub(super) fn is_one(start: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(start);
+    let mut lines = text.lines();
+    let count = lines.next().is_some_and(|line| line.trim().parse::<u64>().is_ok());
+    // A number alone may be the title of anything.
+    count && lines.next().is_some()
+}
+
+/// Where a frame begins.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    offset: u64,
+    lines_before: u64,
+}
+
+pub(super) fn read(file: File, length: u64, frame: i64) -> Result<ParticleFile, Mistakes> {
+    let mut lines = Lines::of(file);
+    let (frames, place) = find(&mut lines, length, frame)?;
+    let start = frames[place];
+    lines.seek(start.offset, start.lines_before)?;
+    let count = count_of(&mut lines, length)?.unwrap_or(0);
+    let Some(comment) = lines.next()? else {
+        return Err(Mistake::new("", "the file ends after the number of particles", "a line of keys").into());
+    };
+    let comment = comment.to_owned();
+    let place = lines.place();
+    let header = Header::of(&comment, &place)?;
+    particles(&mut lines, count, &header)
+}
+
+/// The frames as far as they are needed, and which of them is meant.
+fn find(lines: &mut Lines, length: u64, frame: i64) -> Result<(Vec<Frame>, usize), Mistakes> {
+    let mut frames = Vec::new();
+    loop {
+        let start = Frame { offset: lines.offset(), lines_before: lines.number() };
+        let Some(count) = count_of(lines, length)? else { break };
+        frames.push(start);
+        if u64::try_from(frame).is_ok_and(|wanted| wanted + 1 == frames.len() as u64) {
+            break;
+        }
+        // One line of keys and one for every particle.
+        for line in 0..=count {
+            if !lines.skip()? {
+                let number = frames.len() - 1;
+                let found = format!("frame {number} ends after {} of {count} particles", line.saturating_sub(1));
+                let accepted = match number {
+                    0 => "a whole file".to_owned(),
+                    _ => {
+                        format!("a whole file, or an earlier frame: `\"frame\": {}` is the last whole one", number - 1)
+                    }
+                };
+                return Err(Mistake::new(lines.place(), found, accepted).into());
+            }
+        }
+    }
+    let place = place_of_frame(frame, frames.len() as u64)? as usize;
+    Ok((frames, place))
+}
+
+/// The number of particles at the beginning of a frame; none at the end of the file, which empty lines may precede.
+fn count_of(lines: &mut Lines, length: u64) -> Result<Option<u64>, Mistakes> {
+    loop {
+        let Some(line) = lines.next()? else { return Ok(None) };
+        let text = line.trim().to_owned();
+        if text.is_empty() {
+            continue;
+        }
+        let Some(count) = text.parse::<u64>().ok().filter(|count| *count <= MOST_PARTICLES) else {
+            let found = format!("found `{}` in place of a number of particles", shortened(&text));
+            return Err(Mistake::new(lines.place(), found, format!("a whole number up to {MOST_PARTICLES}")).into());
+        };
+        // A line of a particle has a letter, a digit or two, and its end.
+        if count > length {
+            let found = format!("found {count} particles in a file of {length} bytes");
+            return Err(Mistake::new(lines.place(), found, "a whole file").into());
+        }
+        return Ok(Some(count));
+    }
+}
+
+fn shortened(text: &str) -> String {
+    let mut short: String = text.chars().take(40).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// What the line of keys says.
+struct Header {
+    lengths: Option<[f64; 3]>,
+    origin: [f64; 3],
+    dimension: Option<usize>,
+    columns: Columns,
+}
+
+/// The first columns of what is read.
+#[derive(Debug, Default)]
+struct Columns {
+    all: usize,
+    species: Option<usize>,
+    position: Option<usize>,
+    velocity: Option<usize>,
+    momentum: Option<usize>,
+    mass: Option<usize>,
+    image: Option<usize>,
+    id: Option<usize>,
+    unused: Vec<String>,
+}
+
+impl Header {
+    fn of(comment: &str, place: &str) -> Result<Self, Mistakes> {
+        let keys = keys(comment);
+        let value =
+            |name: &str| keys.iter().find(|(key, _)| key.eq_ignore_ascii_case(name)).map(|(_, value)| value.as_str());
+        let numbers = |name: &str, count: usize| -> Result<Option<Vec<f64>>, Mistake> {
+            let Some(text) = value(name) else { return Ok(None) };
+            let separators = |letter: char| letter.is_whitespace() || [',', '[', ']'].contains(&letter);
+            let parts = text.split(separators).filter(|part| !part.is_empty());
+            let numbers: Option<Vec<f64>> = parts.map(|part| part.parse().ok()).collect();
+            match numbers.filter(|numbers| numbers.len() == count) {
+                Some(numbers) => Ok(Some(numbers)),
+                None => Err(Mistake::new(
+                    place,
+                    format!("found {name}=\"{}\"", shortened(text)),
+                    format!("{count} numbers"),
+                )),
+            }
+        };
+        let mut lengths = None;
+        if let Some(lattice) = numbers("Lattice", 9)? {
+            let edges = [lattice[0], lattice[4], lattice[8]];
+            let across = [1, 2, 3, 5, 6, 7].map(|at| lattice[at]);
+            let longest = edges.iter().fold(0.0, |most: f64, edge| most.max(edge.abs()));
+            if across.iter().any(|part| part.abs() > 1e-12 * longest) {
+                return Err(triclinic(
+                    place,
+                    &format!("Lattice=\"{}\"", shortened(value("Lattice").unwrap_or_default())),
+                )
+                .into());
+            }
+            if let Some(mistake) = box_mistake(&edges) {
+                return Err(Mistake { place: place.to_owned(), ..mistake }.into());
+            }
+            lengths = Some(edges);
+        }
+        let origin = numbers("Origin", 3)?.map_or([0.0; 3], |origin| [origin[0], origin[1], origin[2]]);
+        let periodic = value("pbc").map(|text| {
+            let letters = text.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+            letters.map(|word| ["T", "True", "true", "1"].contains(&word)).collect::<Vec<bool>>()
+        });
+        let dimension = match periodic.as_deref() {
+            Some([true, false, false]) => Some(1),
+            Some([true, true, false]) => Some(2),
+            Some(_) => Some(3),
+            None => None,
+        };
+        let columns = Columns::of(value("Properties").unwrap_or("species:S:1:pos:R:3"), place)?;
+        Ok(Self { lengths, origin, dimension, columns })
+    }
+}
+
+/// Keys and values of a comment line; values may stand in quotes or braces.
+fn keys(comment: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut rest = comment.trim_start();
+    while !rest.is_empty() {
+        let end = rest.find(|letter: char| letter == '=' || letter.is_whitespace()).unwrap_or(rest.len());
+        let (key, after) = rest.split_at(end);
+        let Some(after) = after.strip_prefix('=') else {
+            rest = after.trim_start();
+            continue;
+        };
+        let close = match after.chars().next() {
+            Some('"') => Some('"'),
+            Some('\'') => Some('\''),
+            Some('{') => Some('}'),
+            _ => None,
+        };
+        let (value, after) = match close {
+            Some(close) => {
+                let inner = &after[1..];
+                let end = inner.find(close).unwrap_or(inner.len());
+                (&inner[..end], inner.get(end + 1..).unwrap_or_default())
+            }
+            None => after.split_at(after.find(char::is_whitespace).unwrap_or(after.len())),
+        };
+        found.push((key.to_owned(), value.to_owned()));
+        rest = after.trim_start();
+    }
+    found
+}
+
+impl Columns {
+    fn of(properties: &str, place: &str) -> Result<Self, Mistakes> {
+        let wrong = |accepted: &str| {
+            Mistakes::from(Mistake::new(place, format!("found Properties={}", shortened(properties)), accepted))
+        };
+        let parts: Vec<&str> = properties.split(':').collect();
+        if !parts.len().is_multiple_of(3) {
+            return Err(wrong("a name, a kind and a number of columns for each, divided by colons"));
+        }
+        let mut columns = Self::default();
+        let mut names = [None; 2];
+        for triple in parts.chunks_exact(3) {
+            let first = columns.all;
+            let Some(width) = triple[2].parse::<usize>().ok().filter(|width| (1..=10_000).contains(width)) else {
+                return Err(wrong("numbers of columns from 1 to 10000"));
+            };
+            columns.all += width;
+            let (place, needed) = match triple[0] {
+                "species_name" => (&mut names[0], 1),
+                "species" | "type" => (&mut names[1], 1),
+                "pos" => (&mut columns.position, 3),
+                "velo" | "velocities" | "velocity" | "vel" => (&mut columns.velocity, 3),
+                "momenta" => (&mut columns.momentum, 3),
+                "masses" | "mass" => (&mut columns.mass, 1),
+                "map_shift" | "images" => (&mut columns.image, 3),
+                "id" => (&mut columns.id, 1),
+                other => {
+                    columns.unused.push(format!("the column `{}`", shortened(other)));
+                    continue;
+                }
+            };
+            if width != needed {
+                return Err(wrong(&format!("{needed} columns of `{}`", triple[0])));
+            }
+            *place = Some(first);
+        }
+        columns.species = names[0].or(names[1]);
+        if columns.position.is_none() {
+            return Err(wrong("a column `pos` of positions"));
+        }
+        if columns.species.is_none() {
+            return Err(wrong("a column `species`"));
+        }
+        if columns.velocity.is_none() && columns.momentum.is_some() && columns.mass.is_none() {
+            columns.momentum = None;
+            columns.unused.push("the column `momenta`, for there are no `masses` in the file".to_owned());
+        }
+        Ok(columns)
+    }
+}
+
+/// Three numbers of a line.
+fn vector<T: std::str::FromStr>(words: &[&str], first: usize) -> Option<[T; 3]> {
+    let mut numbers = words.get(first..first + 3)?.iter().map(|word| word.parse().ok());
+    Some([numbers.next()??, numbers.next()??, numbers.next()??])
+}
+
+fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleFile, Mistakes> {
+    let columns = &header.columns;
+    let count = usize::try_from(count).unwrap_or(usize::MAX);
+    let mut file = ParticleFile {
+        labelled: true,
+        dimension: header.dimension,
+        origin: header.origin,
+        lengths: header.lengths,
+        unused: columns.unused.clone(),
+        ..ParticleFile::default()
+    };
+    file.positions.reserve(count);
+    let mut mistakes = Mistakes::default();
+    let mut masses = SpeciesMasses::default();
+    let mut known: HashMap<String, u32> = HashMap::new();
+    for particle in 0..count {
+        let place = format!("line {}", lines.number() + 1);
+        let Some(line) = lines.next()? else {
+            let found = format!("the file ends after {particle} of {count} particles");
+            mistakes.push(Mistake::new(lines.place(), found, "a whole file"));
+            break;
+        };
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        if words.len() != columns.all {
+            let found = format!("found {} columns", words.len());
+            mistakes.push(Mistake::new(place, found, format!("{}, as `Properties` says", columns.all)));
+            if mistakes.are_enough() {
+                break;
+            }
+            continue;
+        }
+        let number = |first: usize| words[first].parse::<f64>().ok();
+        let read = |first: Option<usize>| first.map(|first| (first, vector::<f64>(&words, first)));
+        let (position, velocity) = (read(columns.position), read(columns.velocity));
+        let momentum = if columns.velocity.is_none() { read(columns.momentum) } else { None };
+        let mass = columns.mass.map(|first| (first, number(first)));
+        let image = columns.image.map(|first| (first, vector::<i64>(&words, first)));
+        let id = columns.id.map(|first| (first, words[first].parse::<u64>().ok()));
+        let bad = [position, velocity, momentum].into_iter().flatten().find(|(_, value)| value.is_none());
+        let bad = bad.map(|(first, _)| (first, 3, "three numbers"));
+        let bad = bad.or(mass.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 1, "a mass")));
+        let bad =
+            bad.or(image.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 3, "three whole numbers")));
+        let bad = bad.or(id.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 1, "a whole number")));
+        if let Some((first, width, accepted)) = bad {
+            let found =
+                format!("found `{}` in column {}", shortened(&words[first..first + width].join(" ")), first + 1);
+            mistakes.push(Mistake::new(place, found, accepted));
+            if mistakes.are_enough() {
+                break;
+            }
+            continue;
+        }
+        let name = words[columns.species.unwrap_or(0)];
+        let species = match known.get(name) {
+            Some(species) => *species,
+            None if known.len() >= MOST_SPECIES => {
+                let found = format!("found more than {MOST_SPECIES} species");
+                mistakes.push(Mistake::new(place, found, "a column of names of species"));
+                break;
+            }
+            None => {
+                file.species.push(name.to_owned());
+                known.insert(name.to_owned(), known.len() as u32);
+                known.len() as u32 - 1
+            }
+        };
+        file.types.push(species);
+        file.positions.push(position.and_then(|(_, position)| position).unwrap_or_default());
+        let mass = mass.and_then(|(_, mass)| mass);
+        if let Some(mass) = mass {
+            masses.add(species as usize, mass, || particle.to_string());
+        }
+        let velocity = velocity.and_then(|(_, velocity)| velocity);
+        let over_mass = momentum.and_then(|(_, momentum)| momentum).zip(mass);
+        file.velocities.extend(velocity.or(over_mass.map(|(momentum, mass)| momentum.map(|part| part / mass))));
+        if let Some(image) = image.and_then(|(_, image)| image) {
+            let turns = image.map(i32::try_from);
+            if turns.iter().any(Result::is_err) {
+                let found = format!("found images beyond 32 bits: {image:?}");
+                mistakes.push(Mistake::new(place, found, "images from -2147483648 to 2147483647"));
+            }
+            file.images.push(turns.map(Result::unwrap_or_default));
+        }
+        file.numbers.extend(id.and_then(|(_, id)| id));
+    }
+    let mut seen = HashSet::new();
+    let mut again = Tally::default();
+    for number in &file.numbers {
+        if !seen.insert(number) {
+            again.add(|| number.to_string());
+        }
+    }
+    if let Some(particles) = again.phrase("particle") {
+        mistakes.push(Mistake::new(
+            "",
+            format!("found {particles} more than once"),
+            "a number of its own for every particle",
+        ));
+    }
+    file.masses = masses.finish(&file.species, &mut mistakes);
+    if mistakes.is_empty() { Ok(file) } else { Err(mistakes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_may_be_quoted() {
+        let found = keys(r#"Lattice="1 0 0" a='x y' b={1 2} plain=3 alone Properties=species:S:1 end="#);
+        let found: Vec<(&str, &str)> = found.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
+        let expected = [
+            ("Lattice", "1 0 0"),
+            ("a", "x y"),
+            ("b", "1 2"),
+            ("plain", "3"),
+            ("Properties", "species:S:1"),
+            ("end", ""),
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(keys("open=\"no end").len(), 1);
+    }
+}

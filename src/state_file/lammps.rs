@@ -1,0 +1,552 @@
+//! LAMMPS data files: <https://docs.lammps.org/read_data.html>.
+//!
+//! Atoms of the styles `atomic`, `bond`, `angle` and `molecular`, with or without image flags; Masses, Velocities, Bonds, Angles and
+//! labels of types. Other sections are skipped, and named. Atoms are put in the order of their ids, as LAMMPS writes them in any.
+
+use super::lines::Lines;
+use super::tally::Tally;
+use super::{FORMATS, Links, MOST_PARTICLES, Mistake, Mistakes, ParticleFile, box_mistake, triclinic};
+use std::collections::HashMap;
+use std::fs::File;
+
+/// Sections, as far as they are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Section {
+    Masses,
+    Atoms,
+    Velocities,
+    Bonds,
+    Angles,
+    AtomLabels,
+    BondLabels,
+    AngleLabels,
+}
+
+const READ: [(&str, Section); 8] = [
+    ("Masses", Section::Masses),
+    ("Atoms", Section::Atoms),
+    ("Velocities", Section::Velocities),
+    ("Bonds", Section::Bonds),
+    ("Angles", Section::Angles),
+    ("Atom Type Labels", Section::AtomLabels),
+    ("Bond Type Labels", Section::BondLabels),
+    ("Angle Type Labels", Section::AngleLabels),
+];
+
+const SKIPPED: [&str; 24] = [
+    "Dihedrals",
+    "Impropers",
+    "Ellipsoids",
+    "Lines",
+    "Triangles",
+    "Bodies",
+    "Dihedral Type Labels",
+    "Improper Type Labels",
+    "Pair Coeffs",
+    "PairIJ Coeffs",
+    "Bond Coeffs",
+    "Angle Coeffs",
+    "Dihedral Coeffs",
+    "Improper Coeffs",
+    "BondBond Coeffs",
+    "BondAngle Coeffs",
+    "MiddleBondTorsion Coeffs",
+    "EndBondTorsion Coeffs",
+    "AngleTorsion Coeffs",
+    "AngleAngleTorsion Coeffs",
+    "BondBond13 Coeffs",
+    "AngleAngle Coeffs",
+    "Molecules",
+    "Atom Types",
+];
+
+/// The most types that a file may announce.
+const MOST_TYPES: u64 = 1 << 20;
+
+pub(super) fn is_one(start: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(start);
+    text.lines().skip(1).any(|line| {
+        let mut words = uncommented(line).split_ascii_whitespace();
+        words.next().is_some_and(|word| word.parse::<u64>().is_ok())
+            && words.next() == Some("atoms")
+            && words.next().is_none()
+    })
+}
+
+/// A line without its comment.
+fn uncommented(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default().trim()
+}
+
+fn shortened(text: &str) -> String {
+    text.chars().take(60).collect()
+}
+
+/// What the header announces.
+#[derive(Debug, Default)]
+struct Header {
+    atoms: u64,
+    atom_types: u64,
+    bonds: u64,
+    bond_types: u64,
+    angles: u64,
+    angle_types: u64,
+    bounds: [Option<[f64; 2]>; 3],
+    unused: Vec<String>,
+}
+
+/// Names of types: labels, where the file has them.
+#[derive(Debug, Default)]
+struct Types {
+    labels: HashMap<String, u32>,
+    count: u32,
+}
+
+impl Types {
+    /// The place of a type that is named by its number or label.
+    fn place(&self, word: &str) -> Option<u32> {
+        match word.parse::<u32>() {
+            Ok(number) => number.checked_sub(1).filter(|place| *place < self.count),
+            Err(_) => self.labels.get(word).copied(),
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = (1..=self.count).map(|number| number.to_string()).collect();
+        for (label, place) in &self.labels {
+            if let Some(name) = names.get_mut(*place as usize) {
+                name.clone_from(label);
+            }
+        }
+        names
+    }
+}
+
+/// An atom as it is read.
+struct Atom {
+    id: u64,
+    kind: u32,
+    position: [f64; 3],
+    image: Option<[i32; 3]>,
+}
+
+/// Everything that has been read of a file.
+struct Reader {
+    lines: Lines,
+    header: Header,
+    mistakes: Mistakes,
+    /// A line that begins the next section.
+    ahead: Option<(String, String)>,
+    kinds: [Types; 3],
+    masses: Vec<Option<f64>>,
+    atoms: Vec<Atom>,
+    velocities: Vec<(u64, [f64; 3])>,
+    bonds: Vec<([u64; 2], u32)>,
+    angles: Vec<([u64; 3], u32)>,
+}
+
+pub(super) fn read(file: File, length: u64) -> Result<ParticleFile, Mistakes> {
+    let mut reader = Reader {
+        lines: Lines::of(file),
+        header: Header::default(),
+        mistakes: Mistakes::default(),
+        ahead: None,
+        kinds: Default::default(),
+        masses: Vec::new(),
+        atoms: Vec::new(),
+        velocities: Vec::new(),
+        bonds: Vec::new(),
+        angles: Vec::new(),
+    };
+    reader.read_header(length)?;
+    reader.read_sections()?;
+    reader.finish()
+}
+
+/// The name of a section and the comment behind it, if a line is one.
+fn section_of(line: &str) -> Option<(&'static str, Option<Section>, String)> {
+    let name = uncommented(line);
+    let comment = line.split_once('#').map_or(String::new(), |(_, comment)| comment.trim().to_owned());
+    let read = READ.iter().find(|(known, _)| *known == name).map(|(name, section)| (*name, Some(*section)));
+    let skipped = || SKIPPED.iter().find(|known| **known == name).map(|name| (*name, None));
+    read.or_else(skipped).map(|(name, section)| (name, section, comment))
+}
+
+impl Reader {
+    fn refuse(&mut self, found: String, accepted: impl Into<String>) {
+        let place = self.lines.place();
+        self.mistakes.push(Mistake::new(place, found, accepted));
+    }
+
+    fn read_header(&mut self, length: u64) -> Result<(), Mistakes> {
+        // The first line is a title.
+        self.lines.next()?;
+        loop {
+            let Some(line) = self.lines.next()? else { break };
+            if let Some((name, _, comment)) = section_of(line) {
+                self.ahead = Some((name.to_owned(), comment));
+                break;
+            }
+            let text = uncommented(line).to_owned();
+            if !text.is_empty() {
+                self.header_line(&text, length);
+            }
+            if self.mistakes.are_enough() {
+                break;
+            }
+        }
+        for (axis, name) in ["xlo xhi", "ylo yhi", "zlo zhi"].into_iter().enumerate() {
+            match self.header.bounds[axis] {
+                None => {
+                    self.mistakes.push(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box"))
+                }
+                Some([low, high]) => {
+                    if let Some(mistake) = box_mistake(&[high - low]) {
+                        self.mistakes.push(Mistake { found: format!("{} (`{name}`)", mistake.found), ..mistake });
+                    }
+                }
+            }
+        }
+        let counts = [self.header.atom_types, self.header.bond_types, self.header.angle_types];
+        for (types, count) in self.kinds.iter_mut().zip(counts) {
+            types.count = count as u32;
+        }
+        if self.mistakes.is_empty() { Ok(()) } else { Err(std::mem::take(&mut self.mistakes)) }
+    }
+
+    fn header_line(&mut self, text: &str, length: u64) {
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        let first_word = words.iter().position(|word| word.parse::<f64>().is_err()).unwrap_or(words.len());
+        let (numbers, name) = (&words[..first_word], words[first_word..].join(" "));
+        let numbers: Vec<f64> = numbers.iter().filter_map(|word| word.parse().ok()).collect();
+        let axis = ["xlo xhi", "ylo yhi", "zlo zhi"].iter().position(|bounds| *bounds == name);
+        if let (Some(axis), [low, high]) = (axis, numbers.as_slice()) {
+            self.header.bounds[axis] = Some([*low, *high]);
+            return;
+        }
+        match (name.as_str(), numbers.as_slice()) {
+            ("xy xz yz", [0.0, 0.0, 0.0]) => return,
+            ("xy xz yz", _) | ("avec" | "bvec" | "cvec", [_, _, _]) => {
+                let mistake = triclinic(self.lines.place(), text);
+                return self.mistakes.push(mistake);
+            }
+            ("abc origin", _) => return,
+            _ => {}
+        }
+        let [count] = numbers.as_slice() else {
+            return self.refuse(
+                format!("found `{}`", shortened(text)),
+                "a line of the header, or a section that LAMMPS knows",
+            );
+        };
+        // A line has at least a few digits and its end.
+        let (most, limit) = if name.ends_with("types") {
+            (MOST_TYPES as f64, format!("up to {MOST_TYPES}"))
+        } else {
+            ((length / 4).min(MOST_PARTICLES) as f64, format!("no more than fit in a file of {length} bytes"))
+        };
+        if !(*count >= 0.0 && count.fract() == 0.0 && *count <= most) {
+            return self.refuse(format!("found `{}`", shortened(text)), format!("a whole number, {limit}"));
+        }
+        let count = *count as u64;
+        match name.as_str() {
+            "atoms" => self.header.atoms = count,
+            "atom types" => self.header.atom_types = count,
+            "bonds" => self.header.bonds = count,
+            "bond types" => self.header.bond_types = count,
+            "angles" => self.header.angles = count,
+            "angle types" => self.header.angle_types = count,
+            "dihedrals" | "impropers" | "ellipsoids" | "lines" | "triangles" | "bodies" if count > 0 => {
+                self.header.unused.push(format!("its {count} {name}"));
+            }
+            // Types of what is not read, and room for what may be added.
+            _ => {}
+        }
+    }
+
+    /// The next line that is not empty, without its comment; none where a section begins or the file ends.
+    fn body_line(&mut self) -> Result<Option<String>, Mistakes> {
+        loop {
+            let Some(line) = self.lines.next()? else { return Ok(None) };
+            let text = uncommented(line);
+            if text.is_empty() {
+                continue;
+            }
+            // Labels may be anything, and yet a section is known by its whole line.
+            if let Some((name, _, comment)) = section_of(line) {
+                self.ahead = Some((name.to_owned(), comment));
+                return Ok(None);
+            }
+            return Ok(Some(text.to_owned()));
+        }
+    }
+
+    fn read_sections(&mut self) -> Result<(), Mistakes> {
+        let mut seen: Vec<String> = Vec::new();
+        while let Some((name, comment)) = self.ahead.take() {
+            let known = READ.iter().find(|(known, _)| *known == name).map(|(_, section)| *section);
+            if seen.contains(&name) && known.is_some() {
+                self.refuse(format!("found the section `{name}` again"), "every section once");
+                break;
+            }
+            seen.push(name.clone());
+            match known {
+                Some(section) => self.read_section(section, &name, &comment)?,
+                None => {
+                    self.header.unused.push(format!("the section `{name}`"));
+                    while self.body_line()?.is_some() {}
+                }
+            }
+            if self.mistakes.are_enough() {
+                break;
+            }
+        }
+        for (name, count) in
+            [("Atoms", self.header.atoms), ("Bonds", self.header.bonds), ("Angles", self.header.angles)]
+        {
+            if count > 0 && !seen.iter().any(|known| known == name) && self.mistakes.is_empty() {
+                let found = format!("no section `{name}`, and {count} of them in the header");
+                self.mistakes.push(Mistake::new("", found, "a whole file"));
+            }
+        }
+        Ok(())
+    }
+
+    fn read_section(&mut self, section: Section, name: &str, comment: &str) -> Result<(), Mistakes> {
+        let header = &self.header;
+        let count = match section {
+            Section::Masses | Section::AtomLabels => header.atom_types,
+            Section::Atoms | Section::Velocities => header.atoms,
+            Section::Bonds => header.bonds,
+            Section::Angles => header.angles,
+            Section::BondLabels => header.bond_types,
+            Section::AngleLabels => header.angle_types,
+        };
+        let style = match comment.split_ascii_whitespace().next() {
+            Some("atomic") if section == Section::Atoms => Some(0),
+            Some("bond" | "angle" | "molecular") if section == Section::Atoms => Some(1),
+            Some(other) if section == Section::Atoms => {
+                let found = format!("found atoms of the style `{}`", shortened(other));
+                self.refuse(
+                    found,
+                    "the styles `atomic`, `bond`, `angle` and `molecular`: others have more than a place and a type",
+                );
+                return Err(std::mem::take(&mut self.mistakes));
+            }
+            _ => None,
+        };
+        for line in 0..count {
+            let Some(text) = self.body_line()? else {
+                let found = format!("the section `{name}` ends after {line} of {count} lines");
+                self.refuse(found, "as many lines as the header announces");
+                return Ok(());
+            };
+            let words: Vec<&str> = text.split_ascii_whitespace().collect();
+            let accepted = self.read_line(section, style, &words);
+            if let Err(accepted) = accepted {
+                self.refuse(format!("found `{}`", shortened(&text)), accepted);
+                if self.mistakes.are_enough() {
+                    return Ok(());
+                }
+            }
+        }
+        if self.ahead.is_none()
+            && let Some(text) = self.body_line()?
+        {
+            let found = format!("found `{}` after {count} lines of `{name}`", shortened(&text));
+            self.refuse(found, "as many lines as the header announces, and a section that LAMMPS knows");
+            while self.body_line()?.is_some() {}
+        }
+        Ok(())
+    }
+
+    /// Takes a line of a section; else says what would be accepted.
+    fn read_line(&mut self, section: Section, style: Option<usize>, words: &[&str]) -> Result<(), String> {
+        let whole = |word: &str| word.parse::<u64>().ok();
+        match section {
+            Section::Masses => {
+                let [kind, mass] = words else { return Err("a type and its mass".to_owned()) };
+                let mass = mass.parse::<f64>().ok().filter(|mass| mass.is_finite() && *mass > 0.0);
+                let place = self.kinds[0].place(kind).ok_or_else(|| self.accepted_type(0))?;
+                self.masses.resize(self.kinds[0].count as usize, None);
+                self.masses[place as usize] = Some(mass.ok_or("a mass greater than zero")?);
+            }
+            Section::Atoms => return self.read_atom(style, words),
+            Section::Velocities => {
+                let read = || Some((whole(words[0])?, vector(&words[1..])?));
+                let read = if words.len() == 4 { read() } else { None };
+                self.velocities.push(read.ok_or("an id and three numbers")?);
+            }
+            Section::Bonds => {
+                let [_, kind, ends @ ..] = words else { return Err("a number, a type and two ids".to_owned()) };
+                let kind = self.kinds[1].place(kind).ok_or_else(|| self.accepted_type(1))?;
+                let [Some(a), Some(b)] = [ends.first(), ends.get(1)].map(|word| word.and_then(|word| whole(word)))
+                else {
+                    return Err("a number, a type and two ids".to_owned());
+                };
+                self.bonds.push(([a, b], kind));
+            }
+            Section::Angles => {
+                let [_, kind, ends @ ..] = words else { return Err("a number, a type and three ids".to_owned()) };
+                let kind = self.kinds[2].place(kind).ok_or_else(|| self.accepted_type(2))?;
+                let ids = [ends.first(), ends.get(1), ends.get(2)].map(|word| word.and_then(|word| whole(word)));
+                let [Some(a), Some(b), Some(c)] = ids else { return Err("a number, a type and three ids".to_owned()) };
+                self.angles.push(([a, b, c], kind));
+            }
+            Section::AtomLabels | Section::BondLabels | Section::AngleLabels => {
+                let types = &mut self.kinds[match section {
+                    Section::AtomLabels => 0,
+                    Section::BondLabels => 1,
+                    _ => 2,
+                }];
+                let [number, label] = words else { return Err("a number of a type and its label".to_owned()) };
+                let place = number.parse().ok().and_then(|number: u32| number.checked_sub(1));
+                let place = place.filter(|place| *place < types.count).ok_or("a number of a type")?;
+                if types.labels.insert((*label).to_owned(), place).is_some() {
+                    return Err("every label once".to_owned());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn accepted_type(&self, of: usize) -> String {
+        let types = &self.kinds[of];
+        let labels = if types.labels.is_empty() { "" } else { ", or a label" };
+        format!("a type from 1 to {}{labels}", types.count)
+    }
+
+    fn read_atom(&mut self, style: Option<usize>, words: &[&str]) -> Result<(), String> {
+        let accepted =
+            "an id, a type and a position (style `atomic`), or a molecule before the type (styles `bond`, `angle` and \
+                        `molecular`), and three images or none"
+                .to_owned();
+        // A line of the second kind has one column more, with images or without.
+        let shift = match words.len() {
+            5 | 8 => 0,
+            6 | 9 => 1,
+            _ => return Err(accepted),
+        };
+        if style.is_some_and(|style| style != shift) {
+            return Err(accepted);
+        }
+        let id = words[0].parse::<u64>().map_err(|_| accepted.clone())?;
+        let kind = self.kinds[0].place(words[1 + shift]).ok_or_else(|| self.accepted_type(0))?;
+        let position = vector(&words[2 + shift..5 + shift]).ok_or(accepted)?;
+        let image = match words.get(5 + shift..8 + shift) {
+            None => None,
+            Some(words) => {
+                let turns: Option<Vec<i32>> = words.iter().map(|word| word.parse().ok()).collect();
+                match turns.as_deref() {
+                    Some([x, y, z]) => Some([*x, *y, *z]),
+                    _ => return Err("images, whole numbers from -2147483648 to 2147483647".to_owned()),
+                }
+            }
+        };
+        self.atoms.push(Atom { id, kind, position, image });
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<ParticleFile, Mistakes> {
+        // What a line that is refused should have said is missing elsewhere.
+        if !self.mistakes.is_empty() {
+            return Err(self.mistakes);
+        }
+        self.atoms.sort_by_key(|atom| atom.id);
+        let mut again = Tally::default();
+        for pair in self.atoms.windows(2).filter(|pair| pair[0].id == pair[1].id) {
+            again.add(|| pair[0].id.to_string());
+        }
+        if let Some(atoms) = again.phrase("atom") {
+            self.mistakes.push(Mistake::new(
+                "",
+                format!("found {atoms} more than once"),
+                "an id of its own for every atom",
+            ));
+        }
+        let numbers: Vec<u64> = self.atoms.iter().map(|atom| atom.id).collect();
+        let place = |id: u64| numbers.binary_search(&id).ok();
+        let mut velocities = Vec::new();
+        if !self.velocities.is_empty() {
+            let mut missing = Tally::default();
+            velocities = vec![[f64::NAN; 3]; numbers.len()];
+            for (id, velocity) in &self.velocities {
+                match place(*id) {
+                    Some(place) => velocities[place] = *velocity,
+                    None => missing.add(|| id.to_string()),
+                }
+            }
+            if let Some(atoms) = missing.phrase("atom") {
+                let found = format!("found velocities of {atoms}");
+                self.mistakes.push(Mistake::new("", found, "velocities of atoms that are in the section `Atoms`"));
+            }
+        }
+        let bonds = links(&self.kinds[1], &self.bonds, "bond", &place, &mut self.mistakes);
+        let angles = links(&self.kinds[2], &self.angles, "angle", &place, &mut self.mistakes);
+        let with_images = self.atoms.iter().filter(|atom| atom.image.is_some()).count();
+        if with_images > 0 && with_images < self.atoms.len() {
+            let found = format!("found images of {with_images} of {} atoms", self.atoms.len());
+            self.mistakes.push(Mistake::new("", found, "images of all atoms, or of none"));
+        }
+        if self.atoms.is_empty() && self.mistakes.is_empty() && self.header.atoms > 0 {
+            self.mistakes.push(Mistake::new("", "there are no atoms", FORMATS));
+        }
+        if !self.mistakes.is_empty() {
+            return Err(self.mistakes);
+        }
+        self.masses.resize(self.kinds[0].count as usize, None);
+        let bounds = self.header.bounds.map(Option::unwrap_or_default);
+        Ok(ParticleFile {
+            species: self.kinds[0].names(),
+            labelled: !self.kinds[0].labels.is_empty(),
+            types: self.atoms.iter().map(|atom| atom.kind).collect(),
+            masses: self.masses,
+            dimension: None,
+            origin: bounds.map(|[low, _]| low),
+            lengths: Some(bounds.map(|[low, high]| high - low)),
+            positions: self.atoms.iter().map(|atom| atom.position).collect(),
+            velocities,
+            images: if with_images > 0 {
+                self.atoms.iter().filter_map(|atom| atom.image).collect()
+            } else {
+                Vec::new()
+            },
+            bonds,
+            angles,
+            unused: self.header.unused,
+            numbers,
+        })
+    }
+}
+
+/// Three numbers.
+fn vector(words: &[&str]) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
+    numbers?.try_into().ok()
+}
+
+/// Bonds or angles by type, with places in place of ids.
+fn links<const LENGTH: usize>(
+    types: &Types,
+    all: &[([u64; LENGTH], u32)],
+    noun: &str,
+    place: &impl Fn(u64) -> Option<usize>,
+    mistakes: &mut Mistakes,
+) -> Vec<Links<LENGTH>> {
+    let mut missing = Tally::default();
+    let mut found: Vec<Links<LENGTH>> =
+        types.names().into_iter().map(|name| Links { name, members: Vec::new() }).collect();
+    for (ids, kind) in all {
+        let places = ids.map(place);
+        if places.contains(&None) {
+            missing.add(|| ids.map(|id| id.to_string()).join("-"));
+        } else {
+            found[*kind as usize].members.push(places.map(|place| place.unwrap_or(0) as u32));
+        }
+    }
+    if let Some(links) = missing.phrase(noun) {
+        let found = format!("found {links} of atoms that are not there");
+        mistakes.push(Mistake::new("", found, "ids of the section `Atoms`"));
+    }
+    found
+}

@@ -1,0 +1,445 @@
+//! Files that particles start from: GSD, extended XYZ, LAMMPS data, and checkpoints of earlier runs.
+//!
+//! Every format has a file of its own. The first three become one [`ParticleFile`], with what the file says in its own units and
+//! order. A length that a file announces is compared with its size before anything is allocated.
+
+pub mod checkpoint;
+mod extended_xyz;
+mod gsd;
+mod lammps;
+mod lines;
+mod tally;
+
+use crate::printable;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use tally::Tally;
+
+/// What a file says of particles, in the order and with the units of the file.
+///
+/// ```
+/// use mesoscope::state_file;
+///
+/// # let directory = tempfile::tempdir()?;
+/// # let path = directory.path().join("two.xyz");
+/// let text = "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3\nA 1 1 1 0 0 2\nB 2 2 2 0 1 0\n";
+/// std::fs::write(&path, text)?;
+/// let file = state_file::read(&path, -1)?;
+/// assert_eq!((file.len(), file.lengths), (2, Some([4.0, 5.0, 6.0])));
+/// assert_eq!((file.species[1].as_str(), file.velocities[1]), ("B", [0.0, 1.0, 0.0]));
+///
+/// let error = state_file::read(&path, 7).unwrap_err();
+/// assert!(error.to_string().contains("found frame 7; accepted: 0, or -1 from the end: the file has 1 frame"), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ParticleFile {
+    /// Names of the species.
+    pub species: Vec<String>,
+    /// Whether these are names; otherwise they are the numbers of types, from 1.
+    pub labelled: bool,
+    /// The species of every particle, as an index of `species`.
+    pub types: Vec<u32>,
+    /// What the file calls its particles; empty where they are counted from 0.
+    pub numbers: Vec<u64>,
+    /// Masses of the species, where the file has them.
+    pub masses: Vec<Option<f64>>,
+    /// Number of dimensions, where the file says so.
+    pub dimension: Option<usize>,
+    /// The lower corner of the box.
+    pub origin: [f64; 3],
+    /// Edge lengths of the box, if the file has one.
+    pub lengths: Option<[f64; 3]>,
+    /// Positions.
+    pub positions: Vec<[f64; 3]>,
+    /// Velocities; empty where the file has none.
+    pub velocities: Vec<[f64; 3]>,
+    /// How often each particle has gone round the box; empty where the file does not say.
+    pub images: Vec<[i32; 3]>,
+    /// Bonds, type by type.
+    pub bonds: Vec<Links<2>>,
+    /// Angles, type by type, with the vertex in the middle.
+    pub angles: Vec<Links<3>>,
+    /// What else there is in the file, in words.
+    pub unused: Vec<String>,
+}
+
+/// Bonds or angles of one type.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Links<const LENGTH: usize> {
+    /// The name of the type.
+    pub name: String,
+    /// The particles of each, by their places in the file.
+    pub members: Vec<[u32; LENGTH]>,
+}
+
+/// One thing that is wrong with a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mistake {
+    /// The line or frame, or nothing where it is the file as a whole.
+    pub place: String,
+    /// What is there.
+    pub found: String,
+    /// What would be right, or what to do.
+    pub accepted: String,
+}
+
+/// Why particles cannot be read from a file: all that is wrong with it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .mistakes.iter().map(|mistake| mistake.of(.path)).collect::<Vec<_>>().join("\n"))]
+pub struct StateFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong with it.
+    pub mistakes: Vec<Mistake>,
+}
+
+impl Mistake {
+    pub(crate) fn new(place: impl Into<String>, found: impl Into<String>, accepted: impl Into<String>) -> Self {
+        Self { place: place.into(), found: found.into(), accepted: accepted.into() }
+    }
+
+    /// What is found, with the file and the place.
+    #[must_use]
+    pub fn found_in(&self, path: &Path) -> String {
+        let comma = if self.place.is_empty() { "" } else { ", " };
+        format!("`{}`{comma}{}: {}", printable::path(path), self.place, self.found)
+    }
+
+    fn of(&self, path: &Path) -> String {
+        format!("{}; accepted: {}", self.found_in(path), self.accepted)
+    }
+}
+
+/// Mistakes of a file under way; a reader goes on as long as it can.
+#[derive(Debug, Default)]
+struct Mistakes {
+    listed: Vec<Mistake>,
+    unlisted: usize,
+}
+
+impl Mistakes {
+    /// Mistakes of a file that are told; more are counted.
+    const MOST: usize = 8;
+
+    fn push(&mut self, mistake: Mistake) {
+        if self.listed.len() < Self::MOST { self.listed.push(mistake) } else { self.unlisted += 1 }
+    }
+
+    /// Whether nothing more has to be read to say what is wrong.
+    fn are_enough(&self) -> bool {
+        self.unlisted >= 1000
+    }
+
+    fn is_empty(&self) -> bool {
+        self.listed.is_empty()
+    }
+
+    fn into_list(mut self) -> Vec<Mistake> {
+        if self.unlisted > 0 {
+            let count = self.unlisted;
+            let more = if count == 1 { "1 more mistake".to_owned() } else { format!("{count} more mistakes") };
+            self.listed.push(Mistake::new("", format!("found {more} like these"), "as above"));
+        }
+        self.listed
+    }
+}
+
+impl From<Mistake> for Mistakes {
+    fn from(mistake: Mistake) -> Self {
+        Self { listed: vec![mistake], unlisted: 0 }
+    }
+}
+
+impl From<io::Error> for Mistakes {
+    fn from(error: io::Error) -> Self {
+        unreadable(&error).into()
+    }
+}
+
+fn unreadable(error: &io::Error) -> Mistake {
+    Mistake::new("", format!("it cannot be read ({error})"), FORMATS)
+}
+
+/// What is accepted in place of anything else.
+const FORMATS: &str =
+    "a file in GSD, extended XYZ or the data format of LAMMPS, or the directory of a run with a checkpoint";
+
+/// The most particles in a file: they are numbered by 32-bit words.
+const MOST_PARTICLES: u64 = u32::MAX as u64;
+
+/// Reads the particles of a frame, from 0, or from the end where it is negative. The format is recognised by the content.
+///
+/// # Errors
+/// [`StateFileError`] says all that is wrong with the file, with lines or frames.
+pub fn read(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
+    let error = |mistakes: Mistakes| StateFileError { path: path.to_path_buf(), mistakes: mistakes.into_list() };
+    read_any(path, frame).map_err(error)
+}
+
+fn read_any(path: &Path, frame: i64) -> Result<ParticleFile, Mistakes> {
+    let mut file = File::open(path)?;
+    let data = file.metadata()?;
+    if !data.is_file() {
+        // A device may never end.
+        return Err(Mistake::new("", "it is not a regular file", FORMATS).into());
+    }
+    let mut start = Vec::new();
+    file.by_ref().take(START).read_to_end(&mut start)?;
+    file.seek(SeekFrom::Start(0))?;
+    let length = data.len();
+    if gsd::is_one(&start) {
+        gsd::read(file, length, frame)
+    } else if extended_xyz::is_one(&start) {
+        extended_xyz::read(file, length, frame)
+    } else if lammps::is_one(&start) {
+        only_frame(frame)?;
+        lammps::read(file, length)
+    } else {
+        let found = if start.is_empty() { "it is empty" } else { "it is in none of the formats that can be read" };
+        Err(Mistake::new("", found, FORMATS).into())
+    }
+}
+
+/// Bytes that tell the formats apart: comments may stand before a header of LAMMPS.
+const START: u64 = 1 << 14;
+
+/// Refuses a frame of a file that has one.
+pub(crate) fn only_frame(frame: i64) -> Result<(), Mistake> {
+    place_of_frame(frame, 1).map(|_| ())
+}
+
+/// Which frame of so many is meant.
+fn place_of_frame(frame: i64, frames: u64) -> Result<u64, Mistake> {
+    let place = if frame < 0 { i128::from(frames) + i128::from(frame) } else { i128::from(frame) };
+    if let Ok(place) = u64::try_from(place)
+        && place < frames
+    {
+        return Ok(place);
+    }
+    let found = format!("found frame {frame}");
+    Err(Mistake::new(
+        "",
+        found,
+        match frames {
+            0 => "a file with a frame: this one has none".to_owned(),
+            1 => "0, or -1 from the end: the file has 1 frame".to_owned(),
+            _ => format!("0 to {}, or -1 to -{frames} from the end: the file has {frames} frames", frames - 1),
+        },
+    ))
+}
+
+impl ParticleFile {
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are no particles.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// What the file calls a particle.
+    #[must_use]
+    pub fn number(&self, particle: usize) -> u64 {
+        self.numbers.get(particle).copied().unwrap_or(particle as u64)
+    }
+
+    /// What is wrong with the particles in a box of so many dimensions: axes beyond are not looked at.
+    #[must_use]
+    pub fn mistakes(&self, dimension: usize, lengths: [f64; 3]) -> Vec<Mistake> {
+        let mut mistakes = Mistakes::default();
+        let mut nowhere = Tally::default();
+        let mut outside = Tally::default();
+        let mut endless = Tally::default();
+        for (particle, position) in self.positions.iter().enumerate() {
+            let place = &position[..dimension];
+            if place.iter().any(|value| !value.is_finite()) {
+                nowhere.add(|| self.number(particle).to_string());
+            } else if (0..dimension).any(|axis| !is_inside(position[axis] - self.origin[axis], lengths[axis])) {
+                let shown = place.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+                outside.add(|| format!("{} at ({shown})", self.number(particle)));
+            }
+        }
+        for (particle, velocity) in self.velocities.iter().enumerate() {
+            if velocity[..dimension].iter().any(|value| !value.is_finite()) {
+                endless.add(|| self.number(particle).to_string());
+            }
+        }
+        if let Some(particles) = nowhere.phrase("particle") {
+            mistakes.push(Mistake::new(
+                "",
+                format!("found {particles} with positions that are no finite numbers"),
+                "finite numbers",
+            ));
+        }
+        if let Some(particles) = outside.phrase("particle") {
+            let upper: Vec<String> = (0..dimension)
+                .map(|axis| format!("{} to {}", self.origin[axis], self.origin[axis] + lengths[axis]))
+                .collect();
+            let accepted = format!(
+                "positions inside the box, {}: take them modulo the box, and keep the turns in images",
+                upper.join(" × ")
+            );
+            mistakes.push(Mistake::new("", format!("found {particles} outside the box"), accepted));
+        }
+        if let Some(particles) = endless.phrase("particle") {
+            mistakes.push(Mistake::new(
+                "",
+                format!("found {particles} with velocities that are no finite numbers"),
+                "finite numbers",
+            ));
+        }
+        self.check_links(&self.bonds, "bond", &mut mistakes);
+        self.check_links(&self.angles, "angle", &mut mistakes);
+        mistakes.into_list()
+    }
+
+    /// Bonds and angles join particles that are there, all different, and each set of them once.
+    fn check_links<const LENGTH: usize>(&self, all: &[Links<LENGTH>], noun: &str, mistakes: &mut Mistakes) {
+        for links in all {
+            let (mut missing, mut repeated, mut again) = (Tally::default(), Tally::default(), Tally::default());
+            let named = |members: &[u32; LENGTH]| {
+                let numbers: Vec<String> =
+                    members.iter().map(|member| self.number(*member as usize).to_string()).collect();
+                numbers.join("-")
+            };
+            let mut known = Vec::with_capacity(links.members.len());
+            for members in &links.members {
+                if members.iter().any(|member| *member as usize >= self.len()) {
+                    missing.add(|| named(members));
+                } else if (1..LENGTH).any(|at| members[..at].contains(&members[at])) {
+                    repeated.add(|| named(members));
+                } else {
+                    let backward = std::array::from_fn(|at| members[LENGTH - 1 - at]);
+                    known.push((*members).min(backward));
+                }
+            }
+            known.sort_unstable();
+            for pair in known.windows(2).filter(|pair| pair[0] == pair[1]) {
+                again.add(|| named(&pair[0]));
+            }
+            let mut refuse = |tally: Tally, what: &str, accepted: &str| {
+                if let Some(found) = tally.phrase(noun) {
+                    let found = format!("found {found} of type `{}`, {what}", links.name);
+                    mistakes.push(Mistake::new("", found, accepted));
+                }
+            };
+            let most = format!("particles of the file, which has {}", self.len());
+            refuse(missing, "to particles that are not there", &most);
+            refuse(repeated, "of a particle with itself", "particles that are all different");
+            refuse(again, "more than once", &format!("every {noun} once"));
+        }
+    }
+}
+
+/// Part of an edge by which a position may lie beyond it: files in single precision round.
+const ROUNDING: f64 = 1e-6;
+
+/// Whether a place lies on an edge of a box from 0 to `length`.
+fn is_inside(place: f64, length: f64) -> bool {
+    (-ROUNDING * length..=(1.0 + ROUNDING) * length).contains(&place)
+}
+
+/// Why edges of a box are none, if they are.
+fn box_mistake(lengths: &[f64]) -> Option<Mistake> {
+    let bad = lengths.iter().find(|length| !(length.is_finite() && (1e-100..=1e100).contains(*length)))?;
+    Some(Mistake::new("", format!("found a box with an edge of {bad}"), "edges of positive length"))
+}
+
+/// The refusal of a box that is not orthogonal.
+fn triclinic(place: impl Into<String>, tilts: &str) -> Mistake {
+    let found = format!("found a triclinic box ({tilts})");
+    Mistake::new(
+        place,
+        found,
+        "an orthogonal box: positions are fractions of the edges, which have to be along the axes",
+    )
+}
+
+/// Masses of species from those of particles: of one species all are the same.
+#[derive(Debug, Default)]
+struct SpeciesMasses {
+    masses: Vec<Option<f64>>,
+    different: Vec<Tally>,
+}
+
+impl SpeciesMasses {
+    fn add(&mut self, species: usize, mass: f64, particle: impl FnOnce() -> String) {
+        if species >= self.masses.len() {
+            self.masses.resize(species + 1, None);
+            self.different.resize_with(species + 1, Tally::default);
+        }
+        let known = *self.masses[species].get_or_insert(mass);
+        // A mass that is no number is not even equal to itself.
+        if known != mass || !(mass.is_finite() && mass > 0.0) {
+            self.different[species].add(particle);
+        }
+    }
+
+    /// The masses of all species; what differs within one is a mistake.
+    fn finish(mut self, species: &[String], mistakes: &mut Mistakes) -> Vec<Option<f64>> {
+        for (index, tally) in self.different.into_iter().enumerate() {
+            if let (Some(particles), Some(known)) = (tally.phrase("particle"), self.masses[index]) {
+                let found = format!("found {particles} of `{}` with other masses than {known}", species[index]);
+                let accepted =
+                    "one mass for a species, greater than zero: give particles of another mass another species";
+                mistakes.push(Mistake::new("", found, accepted));
+            }
+        }
+        self.masses.resize(species.len(), None);
+        self.masses
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn frames_are_counted_from_both_ends() {
+        assert_eq!(place_of_frame(-1, 5), Ok(4));
+        assert_eq!(place_of_frame(-5, 5), Ok(0));
+        assert_eq!(place_of_frame(4, 5), Ok(4));
+        for frame in [5, -6, i64::MAX, i64::MIN] {
+            let accepted = place_of_frame(frame, 5).unwrap_err().accepted;
+            assert_eq!(accepted, "0 to 4, or -1 to -5 from the end: the file has 5 frames");
+        }
+        assert!(place_of_frame(0, 0).is_err());
+    }
+
+    #[test]
+    fn all_that_is_wrong_with_particles_is_said() {
+        let mut file = ParticleFile {
+            species: vec!["A".to_owned()],
+            types: vec![0; 4],
+            positions: vec![[0.0, 1.0, 9.0], [4.0, 5.0, 9.0], [f64::NAN, 0.0, 0.0], [4.1, 0.0, 0.0]],
+            velocities: vec![[0.0; 3], [f64::INFINITY, 0.0, 0.0], [0.0; 3], [0.0; 3]],
+            bonds: vec![Links { name: "b".to_owned(), members: vec![[0, 1], [1, 0], [2, 2], [3, 4]] }],
+            ..ParticleFile::default()
+        };
+        let found: Vec<String> = file.mistakes(2, [4.0, 5.0, 1.0]).into_iter().map(|mistake| mistake.found).collect();
+        assert_eq!(
+            found,
+            [
+                "found particle 2 with positions that are no finite numbers",
+                "found particle 3 at (4.1, 0) outside the box",
+                "found particle 1 with velocities that are no finite numbers",
+                "found bond 3-4 of type `b`, to particles that are not there",
+                "found bond 2-2 of type `b`, of a particle with itself",
+                "found bond 0-1 of type `b`, more than once",
+            ]
+        );
+        // The third axis counts in three dimensions.
+        file.positions.truncate(2);
+        assert_eq!(
+            file.mistakes(3, [4.0, 5.0, 1.0])[0].found,
+            "found particles 0 at (0, 1, 9), 1 at (4, 5, 9) outside the box"
+        );
+    }
+}

@@ -1,0 +1,438 @@
+//! States from files: what this program wrote is read back, what others write is what it says, and a run that began with a file
+//! goes on without it.
+
+use std::fs;
+use std::path::Path;
+
+use hoomd_gsd::file_layer::GsdFile;
+use mesoscope::families::reference::{CouplingsReference, Reference};
+use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
+use mesoscope::scene::{self, Scene, TrajectoryFormat, Warning};
+use mesoscope::state::State;
+use serde_json::{Value, json};
+
+use crate::support::program::{Place, bytes, fails, succeeds};
+use crate::support::start;
+
+/// Chains and a solvent whose name is no chemical symbol, in a box without round numbers.
+fn melt() -> Value {
+    json!({
+        "title": "a melt",
+        "seed": 5,
+        "space": {"box": [4.1, 5.3, 6.7]},
+        "time": {"step": 0.01, "steps": 40},
+        "temperature": 1,
+        "particles": [
+            {"species": "C", "count": 60, "mass": 1.5, "chain": {"beads": 5, "spacing": 0.8}},
+            {"species": "a solvent", "count": 90},
+        ],
+        "interactions": [
+            {"type": "dpd", "repulsion": 25, "friction": 4.5},
+            {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 20}},
+            {"type": "angles", "stiffness": 2},
+        ],
+        "output": {
+            "energies": {"every": 5},
+            "trajectory": {"every": 10},
+            "checkpoint": {"every": 20},
+            "plot": {"width": 640, "height": 480},
+            "snapshot": {"width": 100, "height": 80},
+        },
+    })
+}
+
+/// The scene with the file of a state, and groups that leave out what the file says.
+fn with_state(scene: &Value, state: Value) -> Value {
+    let mut scene = scene.clone();
+    scene["state"] = state;
+    scene.as_object_mut().unwrap().remove("space");
+    for group in scene["particles"].as_array_mut().unwrap() {
+        for key in ["count", "mass", "chain"] {
+            group.as_object_mut().unwrap().remove(key);
+        }
+    }
+    scene
+}
+
+/// A scene in a directory, and what is not used of its file.
+#[track_caller]
+fn load(directory: &Path, scene: &Value) -> (Scene, Vec<Warning>) {
+    let path = directory.join("scene.json");
+    fs::write(&path, scene.to_string()).unwrap();
+    scene::load_for(path.to_str().unwrap(), &[], None).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The largest difference of two states: of positions as parts of the box, of momenta as parts of the largest.
+fn difference(a: &State, b: &State) -> [f64; 2] {
+    let apart = |a: u32, b: u32| f64::from(a.wrapping_sub(b).cast_signed().unsigned_abs()) / 4_294_967_296.0;
+    let positions = a.positions.iter().flatten().zip(b.positions.iter().flatten()).map(|(a, b)| apart(*a, *b));
+    let largest = a.momenta.iter().flatten().fold(0, |most: u32, unit| most.max(unit.unsigned_abs()));
+    let apart = |a: i32, b: i32| f64::from((a - b).unsigned_abs()) / f64::from(largest);
+    let momenta = a.momenta.iter().flatten().zip(b.momenta.iter().flatten()).map(|(a, b)| apart(*a, *b));
+    [positions.fold(0.0, f64::max), momenta.fold(0.0, f64::max)]
+}
+
+/// Trajectories hold single precision: numbers are rounded by at most 2⁻²⁴ of themselves. Positions in GSD are up to half an edge, of
+/// a box that is rounded too; those in extended XYZ up to a whole one. A checkpoint holds every bit.
+#[test]
+fn what_was_written_is_read_back() {
+    let place = tempfile::tempdir().unwrap();
+    let text = melt();
+    let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
+    let (model, mut state) = start(&written);
+    // Somewhere else than at the start, and round the box.
+    for (id, image) in state.images.iter_mut().enumerate() {
+        *image = image.map(|turns| turns + id as i32 % 3 - 1);
+    }
+    let id = Id::of_run(&written);
+    for (format, name) in [(TrajectoryFormat::Gsd, "a.gsd"), (TrajectoryFormat::ExtendedXyz, "a.xyz")] {
+        let mut writer = TrajectoryWriter::create(&place.path().join(name), format, &model, id).unwrap();
+        let other = State { step: 5, ..start(&changed_seed(&text)).1 };
+        writer.append(&other).unwrap();
+        writer.append(&State { step: 10, ..state.clone() }).unwrap();
+        writer.append(&State { step: 15, ..other }).unwrap();
+        writer.flush().unwrap();
+    }
+    fs::create_dir(place.path().join("run")).unwrap();
+    checkpoint::save(&place.path().join("run").join(files::CHECKPOINT), id, &written, &state, &[], &[]).unwrap();
+    let single = 2.0_f64.powi(-24);
+    for (file, frame, tolerances) in
+        [("a.gsd", 1, [single, 2.0 * single]), ("a.xyz", -2, [1.5 * single, 2.0 * single]), ("run", -1, [0.0, 0.0])]
+    {
+        let mut asked = with_state(&text, json!({"file": file, "frame": frame}));
+        asked["particles"] = json!([{"species": "C"}, {"species": "a_solvent"}]);
+        if file != "a.xyz" {
+            asked["particles"][1]["species"] = json!("a solvent");
+        } else {
+            // This format knows no bonds.
+            asked["interactions"].as_array_mut().unwrap().truncate(1);
+        }
+        if file == "a.gsd" {
+            // Nor does this one know angles, as it is written.
+            asked["interactions"].as_array_mut().unwrap().truncate(2);
+        }
+        let (scene, notices) = load(place.path(), &asked);
+        let (read, found) = start(&scene);
+        for axis in 0..3 {
+            let ratio = read.units.lengths[axis] / model.units.lengths[axis];
+            assert!((ratio - 1.0).abs() <= tolerances[0], "{file}: {ratio}");
+        }
+        let apart = difference(&state, &found);
+        assert!(apart[0] <= tolerances[0] && apart[1] <= tolerances[1], "{file}: {apart:?}");
+        assert_eq!((&found.species, &found.images), (&state.species, &state.images), "{file}");
+        let masses: Vec<f64> = read.species.iter().map(|species| species.mass).collect();
+        assert_eq!(masses, [1.5, 1.0], "{file}");
+        let bonds = |model: &mesoscope::families::Model| model.bonds().map_or(0, |bonds| bonds.iter().count());
+        assert_eq!(bonds(&read), if file == "a.xyz" { 0 } else { bonds(&model) });
+        if file == "run" {
+            assert_eq!(found, state);
+            let angles =
+                |model: &mesoscope::families::Model| model.angles().map_or(Vec::new(), |all| all.iter().collect());
+            assert_eq!(angles(&read), angles(&model));
+            assert_eq!(notices, []);
+        }
+    }
+    // The scene itself, with its chains, from its own state.
+    let mut again = text.clone();
+    again["state"] = json!({"file": "run"});
+    let (scene, notices) = load(place.path(), &again);
+    assert_eq!(start(&scene).1, state);
+    assert_eq!(notices.len(), 1);
+    assert_eq!(
+        notices[0].to_string(),
+        "state.file: not used of `run`: bonds of type `bond 0`; angles of type `angle 0`"
+    );
+    // Everything that is resolved is in the scene, and it is that scene again.
+    let text = serde_json::to_string(&scene).unwrap();
+    let name = place.path().join("scene.json");
+    assert_eq!(scene::parse(name.to_str().unwrap(), &text, &[]).unwrap(), scene);
+}
+
+fn changed_seed(text: &Value) -> Scene {
+    scene::parse("melt", &text.to_string(), &["seed=6".to_owned()]).unwrap()
+}
+
+/// Positions and velocities of double precision give every bit again, in both versions of the file layer.
+#[test]
+fn double_precision_keeps_every_bit() {
+    let place = tempfile::tempdir().unwrap();
+    let mut text = melt();
+    text["space"]["box"] = json!([4, 5, 6]);
+    text["interactions"].as_array_mut().unwrap().truncate(1);
+    text["particles"][0]["chain"] = Value::Null;
+    let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
+    let (model, state) = start(&written);
+    let units = model.units;
+    let path = place.path().join("a.gsd");
+    let mut file = GsdFile::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, 0.0, 0.0, 0.0]).unwrap();
+    file.write_scalars("particles/N", [state.len() as u32]).unwrap();
+    let name = |text: &str| -> [u8; 16] { std::array::from_fn(|at| text.as_bytes().get(at).copied().unwrap_or(0)) };
+    file.write_arrays("particles/types", [name("a solvent"), name("C")]).unwrap();
+    file.write_scalars("particles/typeid", state.species.iter().map(|species| 1 - species)).unwrap();
+    file.write_scalars("particles/mass", state.species.iter().map(|species| [1.5_f32, 1.0][*species as usize]))
+        .unwrap();
+    let centred = |fraction: &[u32; 3]| -> [f64; 3] {
+        let position = units.position(*fraction);
+        std::array::from_fn(|axis| position[axis] - 0.5 * units.lengths[axis])
+    };
+    file.write_arrays("particles/position", state.positions.iter().map(centred)).unwrap();
+    let masses = [1.5, 1.0];
+    let velocity = |id: usize| units.momentum(state.momenta[id]).map(|part| part / masses[state.species[id] as usize]);
+    file.write_arrays("particles/velocity", (0..state.len()).map(velocity)).unwrap();
+    file.end_frame().unwrap();
+    file.sync_all().unwrap();
+    drop(file);
+    let asked = with_state(&text, json!({"file": "a.gsd"}));
+    let again = || State { images: Vec::new(), ..start(&load(place.path(), &asked).0).1 };
+    assert_eq!(again(), State { images: Vec::new(), ..state.clone() });
+    // The first version has a field of 64 bytes for every name.
+    let mut content = bytes(&path);
+    let word = |content: &[u8], at: usize| u64::from_le_bytes(content[at..at + 8].try_into().unwrap()) as usize;
+    let (names, length) = (word(&content, 24), 64 * word(&content, 32));
+    let packed: Vec<Vec<u8>> = content[names..names + length].split(|byte| *byte == 0).map(<[u8]>::to_vec).collect();
+    content[names..names + length].fill(0);
+    for (place, name) in packed.iter().take_while(|name| !name.is_empty()).enumerate() {
+        content[names + 64 * place..][..name.len()].copy_from_slice(name);
+    }
+    content[44..48].copy_from_slice(&(1_u32 << 16).to_le_bytes());
+    fs::write(&path, content).unwrap();
+    assert_eq!(again(), State { images: Vec::new(), ..state });
+}
+
+/// Three beads and a solvent in any order, with comments and images.
+const LAMMPS: &str = "LAMMPS data file, written by hand
+
+4 atoms
+2 atom types
+2 bonds
+2 bond types
+1 angles
+1 angle types
+
+-2 6 xlo xhi   # an edge of 8
+0 4 ylo yhi
+0 2 zlo zhi
+
+Masses
+
+2 3   # solvent
+1 1.5
+
+Pair Coeffs
+
+1 25 4.5
+2 25 4.5
+
+Atoms # molecular
+
+30 1 1 5.5 1 1 0 0 0
+10 1 1 -1.5 1 1 1 0 0   # over the boundary
+20 1 1 -0.5 1 1.5 1 0 -2
+7 2 2 2 3 0.5
+
+Velocities
+
+7 0.25 0 0
+10 1 0 0
+20 0 -1 0
+30 0 0 0.5
+
+Bonds
+
+1 1 30 10
+2 2 10 20
+
+Angles
+
+1 1 30 10 20
+";
+
+#[test]
+fn a_file_of_lammps_is_what_it_says() {
+    let place = tempfile::tempdir().unwrap();
+    let partial = place.path().join("init.data");
+    fs::write(&partial, LAMMPS).unwrap();
+    let asked = json!({
+        "title": "by hand",
+        "time": {"step": 0.01, "steps": 10},
+        "temperature": 1,
+        "state": {"file": "init.data"},
+        "particles": [{"species": "bead"}, {"species": "solvent"}],
+        "interactions": [
+            {"type": "bonds", "types": ["2"], "potential": {"type": "harmonic", "stiffness": 5}},
+            {"type": "angles", "stiffness": 1},
+        ],
+        "output": {"trajectory": {"every": 10}},
+    });
+    let told = scene::load(write(place.path(), &asked).as_str(), &[]).unwrap_err().to_string();
+    assert!(told.contains("found images of 3 of 4 atoms"), "{told}");
+    fs::write(&partial, LAMMPS.replace("7 2 2 2 3 0.5\n", "7 2 2 2 3 0.5 0 0 0\n")).unwrap();
+    let (scene, notices) = load(place.path(), &asked);
+    let (model, state) = start(&scene);
+    // By their ids: 7, 10, 20, 30.
+    let eighth = 1 << 29;
+    let x = |place: u32| place * (eighth / 2);
+    assert_eq!(
+        state.positions,
+        [[x(8), 3 << 30, 1 << 30], [x(1), 1 << 30, 1 << 31], [x(3), 1 << 30, 3 << 30], [x(15), 1 << 30, 1 << 31]]
+    );
+    assert_eq!(state.species, [1, 0, 0, 0]);
+    assert_eq!(state.images, [[0; 3], [1, 0, 0], [1, 0, -2], [0; 3]]);
+    let velocities: Vec<[f64; 3]> = (0..4)
+        .map(|id| model.units.momentum(state.momenta[id]).map(|part| part / [1.5, 3.0][state.species[id] as usize]))
+        .collect();
+    assert_eq!(velocities, [[0.25, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.5]]);
+    let masses: Vec<f64> = model.species.iter().map(|species| species.mass).collect();
+    assert_eq!((model.units.lengths, masses), ([8.0, 4.0, 2.0], vec![1.5, 3.0]));
+    let bonds: Vec<[u32; 2]> = model.bonds().unwrap().iter().map(|bond| bond.ends).collect();
+    let angles: Vec<[u32; 3]> = model.angles().unwrap().iter().map(|angle| angle.ends).collect();
+    assert_eq!((bonds, angles), (vec![[1, 2]], vec![[3, 1, 2]]));
+    let said: Vec<String> = notices.iter().map(ToString::to_string).collect();
+    assert_eq!(said, ["state.file: not used of `init.data`: the section `Pair Coeffs`; bonds of type `1`"]);
+    let momentum = mesoscope::families::warnings(&scene).iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert!(
+        momentum.iter().any(|warning| warning.contains("add up to a momentum of (2.250000, -1.500000, 0.750000)")),
+        "{momentum:?}"
+    );
+}
+
+fn write(directory: &Path, scene: &Value) -> String {
+    let path = directory.join("scene.json");
+    fs::write(&path, scene.to_string()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// Copies of a box are what the box is, over and over: the energy is as many times as large, whatever crosses the boundary.
+#[test]
+fn copies_of_a_box_are_like_the_box() {
+    let place = tempfile::tempdir().unwrap();
+    let text = melt();
+    let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
+    let (model, state) = start(&written);
+    fs::create_dir(place.path().join("run")).unwrap();
+    let path = place.path().join("run").join(files::CHECKPOINT);
+    checkpoint::save(&path, Id::of_run(&written), &written, &state, &[], &[]).unwrap();
+    let crossing = model.bonds().unwrap().iter().filter(|bond| {
+        let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
+        mesoscope::state::crossings(a, b) != [0; 3]
+    });
+    assert!(crossing.count() > 3, "bonds cross the boundary");
+    let one = CouplingsReference::new(model, state.clone());
+    let alone = one.observe().unwrap();
+    let [energy, kinetic] = [alone.potential_energy, alone.kinetic_energy];
+    let (scene, _) = load(place.path(), &with_state(&text, json!({"file": "run", "replicate": [2, 1, 3]})));
+    let lengths = [2.0 * 4.1, 5.3, 3.0 * 6.7];
+    assert!((0..3).all(|axis| (scene.space.lengths[axis] - lengths[axis]).abs() < 1e-12), "{:?}", scene.space);
+    let (model, six) = start(&scene);
+    assert_eq!((six.len(), model.bonds().unwrap().count()), (900, 6 * 48));
+    let seen = CouplingsReference::new(model, six).observe().unwrap();
+    // Positions are rounded to 2⁻³² of an edge, which changes no energy by more than a part in 10⁷.
+    let ratio = seen.potential_energy / energy;
+    assert!((ratio / 6.0 - 1.0).abs() < 1e-7, "{ratio}");
+    assert!((seen.kinetic_energy / kinetic / 6.0 - 1.0).abs() < 1e-12);
+    // Neighbours along the first axis are those of the box too.
+    let fluid = json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]);
+    let mut simple = with_state(&text, json!({"file": "run"}));
+    simple["interactions"] = fluid;
+    let counted = |asked: &Value| {
+        let (model, state) = start(&load(place.path(), asked).0);
+        Reference::new(model, state).radial_distribution(1.5, 3)
+    };
+    let single = counted(&simple);
+    simple["state"]["replicate"] = json!([3, 1, 1]);
+    assert_eq!(counted(&simple), single.iter().map(|pairs| 3 * pairs).collect::<Vec<_>>());
+}
+
+/// Velocities of Maxwell's distribution are those of any other scene, and leave nothing of the momentum.
+#[test]
+fn velocities_are_drawn_where_that_is_asked_for() {
+    let place = tempfile::tempdir().unwrap();
+    let text = melt();
+    let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
+    let (_, state) = start(&written);
+    fs::create_dir(place.path().join("run")).unwrap();
+    let path = place.path().join("run").join(files::CHECKPOINT);
+    checkpoint::save(&path, Id::of_run(&written), &written, &state, &[], &[]).unwrap();
+    let asked = |velocities: &str| {
+        start(&load(place.path(), &with_state(&text, json!({"file": "run", "velocities": velocities}))).0).1
+    };
+    assert_eq!(asked("thermal"), state, "the same seed draws the same");
+    assert_eq!(asked("rest").momenta, [[0; 3]; 150]);
+    let changed = with_state(&text, json!({"file": "run", "velocities": "thermal"}));
+    let other = start(&scene::load(&write(place.path(), &changed), &["seed=8".to_owned()]).unwrap()).1;
+    assert!(other.momenta != state.momenta && other.positions == state.positions);
+    assert_eq!(other.total_momentum(), [0; 3]);
+}
+
+/// A run in two parts, the file gone in between, leaves the bytes of one that was not interrupted.
+#[test]
+fn a_run_goes_on_without_its_file() {
+    let origin = tempfile::tempdir().unwrap();
+    let text = melt();
+    let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
+    let (_, state) = start(&written);
+    let place =
+        Place::of(with_state(&text, json!({"file": "before", "replicate": [1, 2, 1], "velocities": "thermal"})));
+    fs::create_dir(place.path("before")).unwrap();
+    checkpoint::save(&place.path("before").join(files::CHECKPOINT), Id::of_run(&written), &written, &state, &[], &[])
+        .unwrap();
+    place.run("whole", &["--quiet"]);
+    place.run("parts", &["--quiet", "--steps", "20"]);
+    fs::rename(place.path("before"), origin.path().join("elsewhere")).unwrap();
+    let scene = place.argument("scene.json");
+    fails(&["run", &scene, "--out", &place.argument("none")], 2, &["state.file: `before`: it cannot be read"]);
+    succeeds(&["resume", &place.argument("parts"), "--steps", "40", "--quiet"]);
+    succeeds(&["plot", &place.argument("parts"), "--set", "output.plot.theme=dark"]);
+    for name in [files::ENERGIES, files::TRAJECTORY_GSD, files::CHECKPOINT] {
+        let [whole, parts] = ["whole", "parts"].map(|run| bytes(&place.path(run).join(name)));
+        assert!(whole == parts, "{name} differs");
+    }
+    let summary = place.summary("parts");
+    assert_eq!(summary.scene.state.as_ref().unwrap().checksum.as_ref().unwrap().len(), 8);
+    assert_eq!(summary.scene, place.summary("whole").scene);
+    // What it keeps of the file can be damaged too.
+    let found = checkpoint::load(&place.path("parts").join(files::CHECKPOINT)).unwrap();
+    assert_eq!(found.scene.start().unwrap().particles(), 300);
+    let mut without = found.scene.clone();
+    without.kept = Default::default();
+    checkpoint::save(
+        &place.path("parts").join(files::CHECKPOINT),
+        found.run_id,
+        &without,
+        &found.state,
+        &found.files,
+        &found.sections,
+    )
+    .unwrap();
+    fails(
+        &["resume", &place.argument("parts"), "--steps", "60"],
+        5,
+        &["what it keeps of the file of its state makes no sense"],
+    );
+}
+
+/// Planes and lines: what a file has of further axes is not used, and said to be so.
+#[test]
+fn fewer_dimensions() {
+    let place = tempfile::tempdir().unwrap();
+    let text =
+        "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3\nA 1 1 3 0 0 1\nA 2 2 3 0 0 1\n";
+    fs::write(place.path().join("a.xyz"), text).unwrap();
+    let mut asked = json!({
+        "title": "flat",
+        "space": {"box": [4, 5]},
+        "time": {"step": 0.01, "steps": 10},
+        "temperature": 1,
+        "state": {"file": "a.xyz"},
+        "particles": [{"species": "A"}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+    });
+    let (scene, notices) = load(place.path(), &asked);
+    assert_eq!(start(&scene).1.positions, [[1 << 30, 858_993_459, 0], [1 << 31, 1_717_986_918, 0]]);
+    assert_eq!(start(&scene).1.momenta, [[0; 3]; 2]);
+    assert_eq!(notices[0].message, "not used of `a.xyz`: what it says along z, for the scene has 2 dimensions");
+    fs::write(place.path().join("a.xyz"), text.replace("velo:R:3", "velo:R:3 pbc=\"T T F\"")).unwrap();
+    asked.as_object_mut().unwrap().remove("space");
+    assert_eq!(load(place.path(), &asked).0.space.lengths, [4.0, 5.0]);
+}

@@ -1,0 +1,634 @@
+//! Files that particles start from, with mistakes: each is refused with its place and what is accepted there. Damaged ones, at
+//! random from a seed, are answered without a panic, in bounded time and memory.
+
+use std::fs;
+use std::path::Path;
+
+use hoomd_gsd::file_layer::GsdFile;
+use mesoscope::scene::{self, Scene, SceneError};
+use rand::rngs::StdRng;
+use rand::{RngExt as _, SeedableRng as _};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::cost::{MEMORY, PATIENCE, measured};
+
+/// Four particles of two species, bonded and bent.
+const LAMMPS: &str = "a chain
+
+4 atoms
+2 atom types
+3 bonds
+1 bond types
+2 angles
+1 angle types
+
+0 4 xlo xhi
+0 5 ylo yhi
+-1 5 zlo zhi
+
+Atom Type Labels
+
+1 A
+2 B
+
+Bond Type Labels
+
+1 backbone
+
+Masses
+
+1 1.5
+2 2
+
+Atoms # molecular
+
+3 1 A 2 1 0 0 0 1
+1 1 A 1 1 0 0 0 0
+4 1 B 3 1 0 -1 0 2
+2 1 B 1.5 1.5 0 0 0 0
+
+Velocities
+
+1 0.5 0 0
+2 -0.5 0 0
+3 0 1 0
+4 0 -1 0
+
+Bonds
+
+1 1 1 2
+2 backbone 2 3
+3 1 3 4
+
+Angles
+
+1 1 1 2 3
+2 1 2 3 4
+";
+
+const XYZ: &str = "3
+Lattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3 pbc=\"T T T\"
+A 1 1 1 0.5 0 0
+B 2 2 2 -0.5 0 0
+A 3 3 3 0 0 1
+";
+
+/// A scene with the file of a state.
+fn text(file: &str, changes: &[(&str, Value)]) -> String {
+    let mut scene = json!({
+        "title": "from a file",
+        "time": {"step": 0.001, "steps": 10},
+        "temperature": 1,
+        "state": {"file": file},
+        "particles": [{"species": "A"}, {"species": "B"}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+        "output": {"energies": {"every": 10}},
+    });
+    for (pointer, value) in changes {
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        match scene.pointer_mut(parent).unwrap() {
+            Value::Array(list) => list.push(value.clone()),
+            object => object[key] = value.clone(),
+        }
+    }
+    scene.to_string()
+}
+
+/// A directory with a scene and a file.
+struct Place(TempDir);
+
+impl Place {
+    fn of(name: &str, content: impl AsRef<[u8]>) -> Self {
+        let place = Self(tempfile::tempdir().unwrap());
+        fs::write(place.path().join(name), content).unwrap();
+        place
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn load(&self, file: &str, changes: &[(&str, Value)]) -> Result<Scene, SceneError> {
+        let scene = self.path().join("scene.json");
+        fs::write(&scene, text(file, changes)).unwrap();
+        scene::load(scene.to_str().unwrap(), &[])
+    }
+
+    /// All that is said of the scene.
+    #[track_caller]
+    fn problems(&self, file: &str, changes: &[(&str, Value)]) -> Vec<String> {
+        match self.load(file, changes) {
+            Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect(),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// What is said of one mistake in a file of this text.
+#[track_caller]
+fn refused(content: &str, changes: &[(&str, Value)], expected: &[&str]) {
+    let place = Place::of("init", content);
+    let found = place.problems("init", changes);
+    assert_eq!(found, expected);
+}
+
+/// The file with a part replaced; the part is there.
+#[track_caller]
+fn replaced(text: &str, part: &str, with: &str) -> String {
+    assert!(text.contains(part), "{part}");
+    text.replacen(part, with, 1)
+}
+
+#[test]
+fn right_files_are_accepted() {
+    for (content, particles, lengths) in [(LAMMPS, 4, [4.0, 5.0, 6.0]), (XYZ, 3, [4.0, 5.0, 6.0])] {
+        let scene = Place::of("init", content).load("init", &[]).unwrap();
+        let model = mesoscope::families::Model::new(&scene);
+        assert_eq!((model.particle_count(), scene.space.lengths.as_slice()), (particles, lengths.as_slice()));
+    }
+}
+
+#[test]
+fn files_that_are_none() {
+    let formats = "accepted: a file in GSD, extended XYZ or the data format of LAMMPS, or the directory of a run with a checkpoint";
+    let place = Place::of("init", "what is this?\n");
+    let foreign = format!("state.file: `init`: it is in none of the formats that can be read; {formats}");
+    assert_eq!(place.problems("init", &[]), [foreign]);
+    let missing = place.problems("other", &[]);
+    assert!(missing[0].starts_with("state.file: `other`: it cannot be read ("), "{missing:?}");
+    fs::write(place.path().join("empty"), "").unwrap();
+    assert_eq!(place.problems("empty", &[]), [format!("state.file: `empty`: it is empty; {formats}")]);
+    fs::create_dir(place.path().join("results")).unwrap();
+    assert_eq!(
+        place.problems("results", &[]),
+        [
+            "state.file: `results`: the directory has no `checkpoint.bin`: no run has saved its state there; accepted: the \
+          directory of a run with a checkpoint, or a file"
+        ]
+    );
+    fs::write(place.path().join("results/checkpoint.bin"), b"MESOCKPTxx").unwrap();
+    let cut = place.problems("results", &[]);
+    assert!(
+        cut[0].starts_with("state.file: `results`: it should have 28 bytes and has 10: it was cut short"),
+        "{cut:?}"
+    );
+}
+
+#[test]
+fn files_that_end_too_early() {
+    let lines = |text: &str, count: usize| text.lines().take(count).fold(String::new(), |all, line| all + line + "\n");
+    refused(
+        &lines(XYZ, 4),
+        &[],
+        &["state.file: `init`, line 4: frame 0 ends after 2 of 3 particles; accepted: a whole file"],
+    );
+    let second_cut = format!("{XYZ}{}", lines(XYZ, 3));
+    refused(
+        &second_cut,
+        &[],
+        &[
+            "state.file: `init`, line 8: frame 1 ends after 1 of 3 particles; accepted: a whole file, or an earlier frame: \
+           `\"frame\": 0` is the last whole one",
+        ],
+    );
+    assert!(Place::of("init", &second_cut).load("init", &[("/state/frame", json!(0))]).is_ok());
+    refused(
+        &lines(LAMMPS, 32),
+        &[],
+        &[
+            "state.file: `init`, line 32: the section `Atoms` ends after 3 of 4 lines; accepted: as many lines as the header announces",
+        ],
+    );
+    refused(
+        &replaced(LAMMPS, "4 atoms", "4000000000 atoms"),
+        &[],
+        &[&format!(
+            "state.file: `init`, line 3: found `4000000000 atoms`; accepted: a whole number, no more than fit in a file of {} bytes",
+            LAMMPS.len() + 9
+        )],
+    );
+    refused(
+        &replaced(XYZ, "3\n", "4000000000\n"),
+        &[],
+        &[&format!(
+            "state.file: `init`, line 1: found 4000000000 particles in a file of {} bytes; accepted: a whole file",
+            XYZ.len() + 9
+        )],
+    );
+}
+
+#[test]
+fn species_that_the_scene_lacks() {
+    refused(
+        &replaced(XYZ, "B 2", "AA 2"),
+        &[],
+        &[
+            "state.file: `init`: found 1 particles of the species `AA`; did you mean `A`? accepted: the species of some particle \
+           group: `A`, `B`",
+        ],
+    );
+    let unlabelled = LAMMPS.replace("Atom Type Labels\n\n1 A\n2 B\n\n", "").replace(" A ", " 1 ").replace(" B ", " 2 ");
+    assert!(Place::of("init", &unlabelled).load("init", &[]).is_ok());
+    refused(
+        &unlabelled,
+        &[("/particles", json!([{"species": "A"}]))],
+        &[
+            "state.file: `init`: found 2 particles of type `2`; accepted: types 1 to 1, which are the species of the scene in their \
+           order: `A`; or labels of types",
+        ],
+    );
+}
+
+#[test]
+fn bonds_to_what_is_not_there() {
+    let far = replaced(&replaced(LAMMPS, "3 1 3 4", "3 1 3 7"), "2 1 2 3 4", "2 1 9 3 4");
+    refused(
+        &far,
+        &[],
+        &[
+            "state.file: `init`: found bond 3-7 of atoms that are not there; accepted: ids of the section `Atoms`",
+            "state.file: `init`: found angle 9-3-4 of atoms that are not there; accepted: ids of the section `Atoms`",
+        ],
+    );
+    refused(
+        &replaced(LAMMPS, "3 1 3 4", "3 1 2 1"),
+        &[],
+        &["state.file: `init`: found bond 1-2 of type `backbone`, more than once; accepted: every bond once"],
+    );
+    refused(
+        &replaced(LAMMPS, "3 1 3 4", "3 2 3 4"),
+        &[],
+        &["state.file: `init`, line 46: found `3 2 3 4`; accepted: a type from 1 to 1, or a label"],
+    );
+    let bonds = json!({"type": "bonds", "types": ["backbones"], "potential": {"type": "harmonic", "stiffness": 4}});
+    refused(
+        LAMMPS,
+        &[("/interactions/-", bonds.clone())],
+        &[
+            "interactions[1].types[0]: found \"backbones\"; did you mean `backbone`? accepted: a type of bonds in `init`: `backbone`",
+        ],
+    );
+    refused(
+        XYZ,
+        &[("/interactions/-", bonds)],
+        &["interactions[1].types[0]: found \"backbones\"; accepted: no `types`: `init` has no bonds"],
+    );
+    let all = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 4}});
+    refused(
+        XYZ,
+        &[("/interactions/-", all)],
+        &[
+            "interactions[1]: found no bonds in the file of `state`; accepted: a file with bonds, `pairs` of particle ids, or \
+           particles with a `chain`",
+        ],
+    );
+}
+
+#[test]
+fn ids_and_numbers() {
+    refused(
+        &replaced(LAMMPS, "\n1 1 A 1 1 0", "\n3 1 A 1 1 0"),
+        &[],
+        &[
+            "state.file: `init`: found atom 3 more than once; accepted: an id of its own for every atom",
+            "state.file: `init`: found velocities of atom 1; accepted: velocities of atoms that are in the section `Atoms`",
+            "state.file: `init`: found bond 1-2 of atoms that are not there; accepted: ids of the section `Atoms`",
+            "state.file: `init`: found angle 1-2-3 of atoms that are not there; accepted: ids of the section `Atoms`",
+        ],
+    );
+    refused(
+        &replaced(XYZ, "A 1 1 1", "A nan 1 1"),
+        &[],
+        &["state.file: `init`: found particle 0 with positions that are no finite numbers; accepted: finite numbers"],
+    );
+    refused(
+        &replaced(XYZ, "0 0 1", "0 0 inf"),
+        &[],
+        &["state.file: `init`: found particle 2 with velocities that are no finite numbers; accepted: finite numbers"],
+    );
+    refused(
+        &replaced(XYZ, "B 2 2 2", "B 2 7 2"),
+        &[],
+        &[
+            "state.file: `init`: found particle 1 at (2, 7, 2) outside the box; accepted: positions inside the box, 0 to 4 × 0 to 5 × \
+           0 to 6: take them modulo the box, and keep the turns in images",
+        ],
+    );
+    refused(
+        &replaced(LAMMPS, "3 1 0 -1 0 2", "3 1 0 2147483648 0 0"),
+        &[],
+        &[
+            "state.file: `init`, line 32: found `4 1 B 3 1 0 2147483648 0 0`; accepted: images, whole numbers from -2147483648 to \
+           2147483647",
+        ],
+    );
+    refused(
+        &replaced(LAMMPS, "2 1 B 1.5 1.5 0 0 0 0", "2 1 B 1.5 1.5x 0 0 0 0"),
+        &[],
+        &[
+            "state.file: `init`, line 33: found `2 1 B 1.5 1.5x 0 0 0 0`; accepted: an id, a type and a position (style `atomic`), \
+           or a molecule before the type (styles `bond`, `angle` and `molecular`), and three images or none",
+        ],
+    );
+    refused(
+        &replaced(LAMMPS, "# molecular", "# full"),
+        &[],
+        &[
+            "state.file: `init`, line 28: found atoms of the style `full`; accepted: the styles `atomic`, `bond`, `angle` and \
+           `molecular`: others have more than a place and a type",
+        ],
+    );
+    let heavy = replaced(XYZ, "velo:R:3", "velo:R:3:masses:R:1");
+    let heavy = heavy.replace("0 0 1\n", "0 0 1 2\n").replace("0.5 0 0\n", "0.5 0 0 1\n");
+    refused(
+        &heavy,
+        &[],
+        &[
+            "state.file: `init`: found particle 2 of `A` with other masses than 1; accepted: one mass for a species, greater than \
+           zero: give particles of another mass another species",
+        ],
+    );
+}
+
+#[test]
+fn boxes() {
+    refused(
+        &replaced(LAMMPS, "-1 5 zlo zhi", "-1 5 zlo zhi\n0.5 0 0 xy xz yz"),
+        &[],
+        &[
+            "state.file: `init`, line 13: found a triclinic box (0.5 0 0 xy xz yz); accepted: an orthogonal box: positions are \
+           fractions of the edges, which have to be along the axes",
+        ],
+    );
+    assert!(
+        Place::of("init", replaced(LAMMPS, "-1 5 zlo zhi", "-1 5 zlo zhi\n0 0 0 xy xz yz")).load("init", &[]).is_ok()
+    );
+    let tilted = Place::of("init", replaced(XYZ, "0 5 0", "1 5 0")).problems("init", &[]);
+    assert!(tilted[0].contains("line 2: found a triclinic box"), "{tilted:?}");
+    refused(
+        XYZ,
+        &[("/space", json!({"box": [4, 5.1, 6]}))],
+        &["space.box[1]: found 5.1; accepted: 5, that of `init`, or no `space` at all"],
+    );
+    refused(
+        XYZ,
+        &[("/space", json!({"box": [8, 5, 6]})), ("/state/replicate", json!([2, 2, 1]))],
+        &["space.box[1]: found 5; accepted: 10, that of `init` in 2 copies, or no `space` at all"],
+    );
+    refused(
+        &replaced(LAMMPS, "0 4 xlo xhi", "4 0 xlo xhi"),
+        &[],
+        &["state.file: `init`: found a box with an edge of -4 (`xlo xhi`); accepted: edges of positive length"],
+    );
+    refused(
+        &replaced(XYZ, "Lattice=\"4 0 0 0 5 0 0 0 6\" ", ""),
+        &[],
+        &["space: missing, and `init` has no box; accepted: an object with `box`, or a file with a `Lattice`"],
+    );
+    assert!(
+        Place::of("init", replaced(XYZ, "Lattice=\"4 0 0 0 5 0 0 0 6\" ", ""))
+            .load("init", &[("/space", json!({"box": [4, 4, 4]}))])
+            .is_ok()
+    );
+}
+
+#[test]
+fn frames_copies_and_velocities() {
+    for frame in [1, -2] {
+        refused(
+            XYZ,
+            &[("/state/frame", json!(frame))],
+            &[&format!(
+                "state.file: `init`: found frame {frame}; accepted: 0, or -1 from the end: the file has 1 frame"
+            )],
+        );
+    }
+    refused(
+        LAMMPS,
+        &[("/state/frame", json!(3))],
+        &["state.file: `init`: found frame 3; accepted: 0, or -1 from the end: the file has 1 frame"],
+    );
+    refused(
+        XYZ,
+        &[("/state/replicate", json!([2, 0, 1]))],
+        &["state.replicate[1]: found 0; accepted: a whole number from 1 to 4294967295"],
+    );
+    refused(
+        XYZ,
+        &[("/state/replicate", json!([2, 2]))],
+        &["state.replicate: found a list of 2; accepted: a number of copies for each of the 3 axes"],
+    );
+    refused(
+        XYZ,
+        &[("/state/replicate", json!([100_000, 100_000, 1]))],
+        &[
+            "state.replicate: found 30000000000 particles in 10000000000 copies of 3; accepted: at most 4294967295 particles, since \
+           they are numbered by 32-bit words",
+        ],
+    );
+    let still = replaced(&XYZ.replace(" 0.5 0 0\n", "\n").replace(" -0.5 0 0\n", "\n"), " 0 0 1\n", "\n");
+    let still = replaced(&still, ":velo:R:3", "");
+    refused(
+        &still,
+        &[],
+        &[
+            "state.velocities: found \"file\", and no velocities in `init`; accepted: \"thermal\" or \"rest\", or a file with \
+           velocities; GSD leaves out those that are all zero",
+        ],
+    );
+    for other in ["thermal", "rest"] {
+        assert!(Place::of("init", &still).load("init", &[("/state/velocities", json!(other))]).is_ok());
+    }
+}
+
+#[test]
+fn what_does_not_go_with_a_file() {
+    refused(
+        XYZ,
+        &[
+            ("/particles/0", json!(0)),
+            ("/particles", json!([{"species": "A", "count": 3}, {"species": "B", "mass": 2}])),
+        ],
+        &[
+            "particles[0].count: found 3 particles; accepted: 2, the number of particles of `A` in `init`, or no `count`",
+        ],
+    );
+    let listed = json!([
+        {"species": "A", "placement": {"type": "listed", "positions": [[1, 1, 1]]}, "velocities": {"type": "rest"}}, {"species": "B"}
+    ]);
+    refused(
+        XYZ,
+        &[("/particles", listed)],
+        &[
+            "particles[0].placement: found beside a `state`; accepted: no `placement`: the file of `state` says where particles start",
+            "particles[0].velocities: found beside a `state`; accepted: no `velocities`: `state.velocities` is `file`, `thermal` or \
+             `rest` for all particles",
+        ],
+    );
+    for interaction in [
+        json!({"type": "voronoi", "form": "paper"}),
+        json!({"type": "shallow-water", "mesh": [16, 16], "wave_speed": 1, "rotation": 1}),
+    ] {
+        let place = Place::of("init", XYZ);
+        let found =
+            place.problems("init", &[("/interactions", json!([interaction])), ("/space", json!({"box": [4, 5]}))]);
+        assert!(
+            found.iter().any(|problem| problem.starts_with("state: found in a scene with interactions[0]")),
+            "{found:?}"
+        );
+    }
+    refused(
+        XYZ,
+        &[("/state/checksum", json!("12345678"))],
+        &[&format!(
+            "state.checksum: found \"12345678\", and \"{}\" of `init`; accepted: the file as it was, or no `checksum`",
+            Place::of("init", XYZ).load("init", &[]).unwrap().state.unwrap().checksum.unwrap()
+        )],
+    );
+    let place = Place::of("init", XYZ);
+    let alone = scene::parse(
+        "test",
+        &text("init", &[("/state", Value::Null), ("/particles", json!([{"species": "A", "count": 1}]))]),
+        &[],
+    );
+    assert!(alone.unwrap_err().to_string().contains("space: missing; accepted: an object with `box`"));
+    let types = json!([{"type": "bonds", "types": ["x"], "pairs": [[0, 1]]}]);
+    assert_eq!(place.problems("init", &[("/interactions", types.clone())]).len(), 1, "of types and pairs");
+    let chains = json!([{"species": "A", "chain": {"beads": 2}}, {"species": "B"}]);
+    let found = place.problems("init", &[("/particles", chains)]);
+    assert!(
+        found[0]
+            .starts_with("particles[0].chain: found, and particle 1 of `init` is not where its group would have it"),
+        "{found:?}"
+    );
+}
+
+/// A frame of GSD: two bonded particles, of which the second has its image at the end.
+fn gsd(path: &Path, image: i64, bond: u32, tilt: f32) {
+    let mut file = GsdFile::create(path, "test", "hoomd", (1, 4)).unwrap();
+    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, tilt, 0.0, 0.0]).unwrap();
+    file.write_scalars("particles/N", [2_u32]).unwrap();
+    file.write_arrays("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
+    file.write_scalars("particles/typeid", [0_u32, 1]).unwrap();
+    file.write_arrays("particles/position", [[0.0_f64, 0.0, 0.0], [1.0, 1.0, 1.0]]).unwrap();
+    file.write_arrays("particles/velocity", [[0.5_f64, 0.0, 0.0], [-0.5, 0.0, 0.0]]).unwrap();
+    file.write_arrays("particles/image", [[0_i64, 0, 0], [image, 0, 0]]).unwrap();
+    file.write_scalars("bonds/N", [1_u32]).unwrap();
+    file.write_arrays("bonds/types", [[b'x', 0]]).unwrap();
+    file.write_scalars("bonds/typeid", [0_u32]).unwrap();
+    file.write_arrays("bonds/group", [[0_u32, bond]]).unwrap();
+    file.end_frame().unwrap();
+    file.sync_all().unwrap();
+}
+
+#[test]
+fn frames_of_gsd() {
+    let place = Place::of("other", "");
+    let path = place.path().join("init.gsd");
+    gsd(&path, -2, 1, 0.0);
+    assert!(place.load("init.gsd", &[]).is_ok());
+    gsd(&path, 1 << 31, 1, 0.0);
+    assert_eq!(
+        place.problems("init.gsd", &[]),
+        [
+            "state.file: `init.gsd`, frame 0: found images of particle 1 beyond 32 bits: [2147483648.0, 0.0, 0.0]; accepted: images from \
+          -2147483648 to 2147483647"
+        ]
+    );
+    gsd(&path, 0, 7, 0.0);
+    assert_eq!(
+        place.problems("init.gsd", &[]),
+        [
+            "state.file: `init.gsd`: found bond 0-7 of type `x`, to particles that are not there; accepted: particles of the file, \
+          which has 2"
+        ]
+    );
+    gsd(&path, 0, 1, 0.25);
+    assert!(place.problems("init.gsd", &[])[0].contains("frame 0: found a triclinic box (xy = 0.25, xz = 0, yz = 0)"));
+    let mut file = GsdFile::create(&path, "test", "other", (1, 4)).unwrap();
+    file.end_frame().unwrap();
+    file.sync_all().unwrap();
+    drop(file);
+    assert_eq!(
+        place.problems("init.gsd", &[]),
+        [
+            "state.file: `init.gsd`: found the schema `other` in version 1; accepted: a GSD file of the schema `hoomd` in version 1 or 2"
+        ]
+    );
+}
+
+/// The file with some bytes changed, taken out, put in or cut off; numbers and lengths among them become extreme.
+fn damaged(whole: &[u8], random: &mut StdRng) -> Vec<u8> {
+    let mut bytes = whole.to_vec();
+    for _ in 0..random.random_range(1..=4) {
+        let place = random.random_range(0..bytes.len().max(1)).min(bytes.len());
+        match random.random_range(0..6) {
+            0 => bytes.truncate(place),
+            1 if place < bytes.len() => bytes[place] ^= 1 << random.random_range(0..8),
+            2 if place + 8 <= bytes.len() => {
+                let word = [0, u64::MAX, 1 << 62, 1 << 32, random.random()][random.random_range(0..5)];
+                bytes[place..place + 8].copy_from_slice(&u64::to_le_bytes(word));
+            }
+            3 => {
+                let word = ["999999999999", "-1", "nan", "1e308", "\n", " ", "\"", "0", "#"][random.random_range(0..9)];
+                bytes.splice(place..place, word.bytes());
+            }
+            4 => {
+                let end = (place + random.random_range(0..40)).min(bytes.len());
+                bytes.drain(place..end);
+            }
+            _ => {
+                let end = (place + random.random_range(0..40)).min(bytes.len());
+                let again = bytes[place..end].to_vec();
+                bytes.splice(place..place, again);
+            }
+        }
+    }
+    bytes
+}
+
+fn damaged_files_are_answered(cases: u64) {
+    let place = Place::of("xyz", XYZ);
+    fs::write(place.path().join("lammps"), LAMMPS).unwrap();
+    gsd(&place.path().join("gsd"), 3, 1, 0.0);
+    let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 4}});
+    let angles = json!({"type": "angles", "stiffness": 1});
+    let mut accepted = 0;
+    for case in 0..cases {
+        let format = ["xyz", "lammps", "gsd"][(case % 3) as usize];
+        let whole = fs::read(place.path().join(format)).unwrap();
+        let mut random = StdRng::seed_from_u64(case);
+        fs::write(place.path().join("init"), damaged(&whole, &mut random)).unwrap();
+        let changes = [("/interactions/-", bonds.clone()), ("/interactions/-", angles.clone())];
+        let changes = &changes[..[0, 2, 1][(case % 3) as usize]];
+        let (answer, cost) = measured(|| {
+            let scene = match place.load("init", changes) {
+                Ok(scene) => scene,
+                Err(SceneError::Invalid { problems, .. }) => {
+                    assert!(problems.iter().all(|problem| !problem.path.is_empty()), "{problems:?}");
+                    return false;
+                }
+                Err(error) => panic!("{error}"),
+            };
+            let model = mesoscope::families::Model::new(&scene);
+            mesoscope::families::initial_state(&scene, &model).len() as u64 == model.particle_count()
+        });
+        let answer = answer.unwrap_or_else(|_| panic!("case {case} of {format} panics"));
+        assert!(cost.time < PATIENCE && cost.memory < MEMORY, "case {case}: {:?}, {} bytes", cost.time, cost.memory);
+        accepted += u64::from(answer);
+    }
+    // Much of the text is comments, and many a digit may be another.
+    assert!(accepted > cases / 50 && accepted < cases * 9 / 10, "{accepted} of {cases} are accepted");
+}
+
+#[test]
+fn some_damaged_files() {
+    damaged_files_are_answered(300);
+}
+
+#[test]
+#[ignore = "thousands of files"]
+fn many_damaged_files() {
+    damaged_files_are_answered(20_000);
+}
