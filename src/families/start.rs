@@ -70,7 +70,9 @@ fn complete(mut state: State, scene: &Scene, model: &Model, thermal: &[usize]) -
 
 /// The particles of a file, copy by copy.
 fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> State {
-    let Some(places) = &start.places else { return State::default() };
+    let Some(places) = start.places.as_ref().filter(|places| !places.positions.is_empty()) else {
+        return State::default();
+    };
     let mut state = State::default();
     let [x, y, z] = start.copies.map(u64::from);
     // What the fractions of a copy are of the whole box.

@@ -201,15 +201,6 @@ impl Gsd {
             return Err(self.wrong(name, &found, &format!("{rows} × {COLUMNS} numbers")));
         }
         let bytes = self.bytes(name, entry)?;
-        fn convert<const SIZE: usize, const COLUMNS: usize>(
-            bytes: &[u8],
-            number: impl Fn([u8; SIZE]) -> f64,
-        ) -> Vec<[f64; COLUMNS]> {
-            let one = |row: &[u8], column: usize| {
-                row[column * SIZE..(column + 1) * SIZE].try_into().map_or(f64::NAN, &number)
-            };
-            bytes.chunks_exact(SIZE * COLUMNS).map(|row| std::array::from_fn(|column| one(row, column))).collect()
-        }
         Ok(match entry.kind {
             1 => convert(&bytes, |word| u8::from_le_bytes(word).into()),
             2 => convert(&bytes, |word| u16::from_le_bytes(word).into()),
@@ -390,6 +381,15 @@ impl Gsd {
         let is_there = |name: &&str| self.entry_or_first(name, true).is_some_and(|entry| entry.rows > 0);
         NAMES.into_iter().filter(is_there).map(|name| format!("`{name}`")).collect()
     }
+}
+
+/// Numbers of a known size, row by row.
+fn convert<const SIZE: usize, const COLUMNS: usize>(
+    bytes: &[u8],
+    number: impl Fn([u8; SIZE]) -> f64,
+) -> Vec<[f64; COLUMNS]> {
+    let one = |row: &[u8], column: usize| row[column * SIZE..(column + 1) * SIZE].try_into().map_or(f64::NAN, &number);
+    bytes.chunks_exact(SIZE * COLUMNS).map(|row| std::array::from_fn(|column| one(row, column))).collect()
 }
 
 /// Names of version 2: one after the other, each ended by a zero.

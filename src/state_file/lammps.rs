@@ -33,7 +33,7 @@ const READ: [(&str, Section); 8] = [
     ("Angle Type Labels", Section::AngleLabels),
 ];
 
-const SKIPPED: [&str; 24] = [
+const SKIPPED: [&str; 22] = [
     "Dihedrals",
     "Impropers",
     "Ellipsoids",
@@ -56,8 +56,6 @@ const SKIPPED: [&str; 24] = [
     "AngleAngleTorsion Coeffs",
     "BondBond13 Coeffs",
     "AngleAngle Coeffs",
-    "Molecules",
-    "Atom Types",
 ];
 
 /// The most types that a file may announce.
@@ -181,8 +179,7 @@ impl Reader {
     fn read_header(&mut self, length: u64) -> Result<(), Mistakes> {
         // The first line is a title.
         self.lines.next()?;
-        loop {
-            let Some(line) = self.lines.next()? else { break };
+        while let Some(line) = self.lines.next()? {
             if let Some((name, _, comment)) = section_of(line) {
                 self.ahead = Some((name.to_owned(), comment));
                 break;
@@ -198,7 +195,7 @@ impl Reader {
         for (axis, name) in ["xlo xhi", "ylo yhi", "zlo zhi"].into_iter().enumerate() {
             match self.header.bounds[axis] {
                 None => {
-                    self.mistakes.push(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box"))
+                    self.mistakes.push(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box"));
                 }
                 Some([low, high]) => {
                     if let Some(mistake) = box_mistake(&[high - low]) {
@@ -225,12 +222,11 @@ impl Reader {
             return;
         }
         match (name.as_str(), numbers.as_slice()) {
-            ("xy xz yz", [0.0, 0.0, 0.0]) => return,
+            ("xy xz yz", [0.0, 0.0, 0.0]) | ("abc origin", _) => return,
             ("xy xz yz", _) | ("avec" | "bvec" | "cvec", [_, _, _]) => {
                 let mistake = triclinic(self.lines.place(), text);
                 return self.mistakes.push(mistake);
             }
-            ("abc origin", _) => return,
             _ => {}
         }
         let [count] = numbers.as_slice() else {
@@ -290,12 +286,11 @@ impl Reader {
                 break;
             }
             seen.push(name.clone());
-            match known {
-                Some(section) => self.read_section(section, &name, &comment)?,
-                None => {
-                    self.header.unused.push(format!("the section `{name}`"));
-                    while self.body_line()?.is_some() {}
-                }
+            if let Some(section) = known {
+                self.read_section(section, &name, &comment)?;
+            } else {
+                self.header.unused.push(format!("the section `{name}`"));
+                while self.body_line()?.is_some() {}
             }
             if self.mistakes.are_enough() {
                 break;

@@ -91,7 +91,7 @@ fn write(scene: &Scene, place: &Path) {
 }
 
 /// The interpreter of a virtual environment with what could be installed; none without Python.
-fn python(target: &Path) -> Option<PathBuf> {
+pub fn python(target: &Path, packages: &[&str]) -> Option<PathBuf> {
     let environment = target.join("readers");
     let interpreter = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if !interpreter.exists() {
@@ -100,8 +100,8 @@ fn python(target: &Path) -> Option<PathBuf> {
             return None;
         }
     }
-    for package in PACKAGES {
-        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", package];
+    for package in packages {
+        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", *package];
         let installed = Command::new(&interpreter).args(install).output();
         if !installed.is_ok_and(|output| output.status.success()) {
             println!("pip cannot install {package}");
@@ -117,7 +117,7 @@ fn other_programs_read_what_was_written() {
     for (name, scene) in scenes() {
         write(&scene, &root.path().join(name));
     }
-    let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR"))) else {
+    let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), &PACKAGES) else {
         println!("NOT TESTED: there is no Python that makes virtual environments");
         return;
     };

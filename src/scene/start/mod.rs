@@ -9,7 +9,7 @@ use super::{
 };
 use crate::state_file::{self, Links, Mistake, ParticleFile, StateFileError};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Part of an edge by which a box of the scene may differ from that of the file: files in single precision round.
 const ROUNDING: f64 = 1e-6;
@@ -93,6 +93,18 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
     }
 }
 
+/// The start that was read last, if it is the same: the variants of a sweep share it.
+fn shared(start: FileStart) -> Arc<FileStart> {
+    static LAST: Mutex<Weak<FileStart>> = Mutex::new(Weak::new());
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = last.upgrade().filter(|known| **known == start) {
+        return known;
+    }
+    let start = Arc::new(start);
+    *last = Arc::downgrade(&start);
+    start
+}
+
 /// A file on its way into a scene.
 struct Reader<'a> {
     state: &'a StateFile,
@@ -144,7 +156,7 @@ impl Reader<'_> {
         let start = places::start(self.file, self.state, &species, dimension, lengths, SpeciesNames::of(scene).count());
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
-        scene.kept = KeptStart::of(Arc::new(start));
+        scene.kept = KeptStart::of(shared(start));
     }
 
     /// The box of the file; that of the scene follows from it, or has to be the same.
@@ -327,7 +339,8 @@ impl Reader<'_> {
                 self.file.number(particle),
                 self.state.file
             );
-            let accepted = "a file with all particles of a group after each other, in the order of `particles`; or bonds of the file in place of chains";
+            let accepted = "a file with all particles of a group after each other, in the order of `particles`; or bonds of the \
+                            file in place of chains";
             self.push(format!("particles[{chained}].chain"), found, accepted);
         }
     }
