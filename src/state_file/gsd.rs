@@ -227,7 +227,7 @@ impl Gsd {
         }
     }
 
-    /// Names of types, each a row of characters.
+    /// Names of types, each a row of characters; none where there is no row.
     fn names(&mut self, name: &str) -> Result<Option<Vec<String>>, Mistakes> {
         let Some(entry) = self.entry_or_first(name, true) else { return Ok(None) };
         if entry.rows > 1 << 16 || entry.size() != Some(1) {
@@ -237,7 +237,8 @@ impl Gsd {
         let rows = bytes.chunks(entry.columns.max(1) as usize);
         let text =
             |row: &[u8]| String::from_utf8_lossy(row.split(|byte| *byte == 0).next().unwrap_or_default()).into_owned();
-        Ok(Some(rows.map(text).collect()))
+        let names: Vec<String> = rows.map(text).collect();
+        Ok(Some(names).filter(|names| !names.is_empty()))
     }
 
     /// Indices of types: whole numbers, each the place of a name.
