@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 24] = [
+const LAYERS: [&str; 25] = [
     "printable",
     "numbers",
     "table",

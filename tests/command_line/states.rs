@@ -122,12 +122,15 @@ fn what_was_written_is_read_back() {
         assert_eq!((&found.species, &found.images), (&state.species, &state.images), "{file}");
         let masses: Vec<f64> = read.species.iter().map(|species| species.mass).collect();
         assert_eq!(masses, [1.5, 1.0], "{file}");
-        let bonds = |model: &mesoscope::families::Model| model.bonds().map_or(0, |bonds| bonds.iter().count());
+        let bonds = |model: &mesoscope::families::Model| {
+            model.particles().bonds.as_ref().map_or(0, |bonds| bonds.iter().count())
+        };
         assert_eq!(bonds(&read), if file == "a.xyz" { 0 } else { bonds(&model) });
         if file == "run" {
             assert_eq!(found, state);
-            let angles =
-                |model: &mesoscope::families::Model| model.angles().map_or(Vec::new(), |all| all.iter().collect());
+            let angles = |model: &mesoscope::families::Model| {
+                model.particles().angles.as_ref().map_or(Vec::new(), |all| all.iter().collect())
+            };
             assert_eq!(angles(&read), angles(&model));
             assert_eq!(notices, []);
         }
@@ -285,8 +288,8 @@ fn a_file_of_lammps_is_what_it_says() {
     assert_eq!(velocities, [[0.25, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.5]]);
     let masses: Vec<f64> = model.species.iter().map(|species| species.mass).collect();
     assert_eq!((model.units.lengths, masses), ([8.0, 4.0, 2.0], vec![1.5, 3.0]));
-    let bonds: Vec<[u32; 2]> = model.bonds().unwrap().iter().map(|bond| bond.ends).collect();
-    let angles: Vec<[u32; 3]> = model.angles().unwrap().iter().map(|angle| angle.ends).collect();
+    let bonds: Vec<[u32; 2]> = model.particles().bonds.as_ref().unwrap().iter().map(|bond| bond.ends).collect();
+    let angles: Vec<[u32; 3]> = model.particles().angles.as_ref().unwrap().iter().map(|angle| angle.ends).collect();
     assert_eq!((bonds, angles), (vec![[1, 2]], vec![[3, 1, 2]]));
     let said: Vec<String> = notices.iter().map(ToString::to_string).collect();
     assert_eq!(said, ["state.file: not used of `init.data`: the section `Pair Coeffs`; bonds of type `1`"]);
@@ -313,7 +316,7 @@ fn copies_of_a_box_are_like_the_box() {
     fs::create_dir(place.path().join("run")).unwrap();
     let path = place.path().join("run").join(files::CHECKPOINT);
     checkpoint::save(&path, Id::of_run(&written), &written, &state, &[], &[]).unwrap();
-    let crossing = model.bonds().unwrap().iter().filter(|bond| {
+    let crossing = model.particles().bonds.as_ref().unwrap().iter().filter(|bond| {
         let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
         mesoscope::state::crossings(a, b) != [0; 3]
     });
@@ -325,7 +328,7 @@ fn copies_of_a_box_are_like_the_box() {
     let lengths = [2.0 * 4.1, 5.3, 3.0 * 6.7];
     assert!((0..3).all(|axis| (scene.space.lengths[axis] - lengths[axis]).abs() < 1e-12), "{:?}", scene.space);
     let (model, six) = start(&scene);
-    assert_eq!((six.len(), model.bonds().unwrap().count()), (900, 6 * 48));
+    assert_eq!((six.len(), model.particles().bonds.as_ref().unwrap().count()), (900, 6 * 48));
     let seen = CouplingsReference::new(model, six).observe().unwrap();
     // Positions are rounded to 2⁻³² of an edge, which changes no energy by more than a part in 10⁷.
     let ratio = seen.potential_energy / energy;

@@ -79,7 +79,8 @@ fn compare(directory: &Path, file: &str) {
     }
     if linked {
         let pairs = |kind: u32| {
-            let all = model.bonds().unwrap().iter().filter(|bond| bond.kind == kind).map(|bond| bond.ends);
+            let all =
+                model.particles().bonds.as_ref().unwrap().iter().filter(|bond| bond.kind == kind).map(|bond| bond.ends);
             let mut pairs: Vec<[u32; 2]> = all.map(|[a, b]| [a.min(b), a.max(b)]).collect();
             pairs.sort_unstable();
             pairs
@@ -89,7 +90,8 @@ fn compare(directory: &Path, file: &str) {
                 numbers::<2>(&said["bonds"][kind as usize]).iter().map(|ends| ends.map(|end| end as u32)).collect();
             assert_eq!(pairs(kind), expected, "{file}");
         }
-        let mut angles: Vec<[u32; 3]> = model.angles().unwrap().iter().map(|angle| angle.ends).collect();
+        let mut angles: Vec<[u32; 3]> =
+            model.particles().angles.as_ref().unwrap().iter().map(|angle| angle.ends).collect();
         angles.sort_unstable();
         let expected: Vec<[u32; 3]> =
             numbers::<3>(&said["angles"]).iter().map(|ends| ends.map(|end| end as u32)).collect();

@@ -1,6 +1,6 @@
 //! The particles of an earlier run, from its last checkpoint.
 
-use crate::families::{Angles, Bonds, Model};
+use crate::families::{Angles, Bonds, Family, Model};
 use crate::scene::{FileStart, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
@@ -56,7 +56,7 @@ fn damaged(problem: &str) -> Mistake {
 /// The particles of a state of a scene.
 fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
     let model = Model::new(scene);
-    if model.particles().is_none() || model.chains().is_some() {
+    if !matches!(model.family, Family::Particles(_)) || model.particles().chains.is_some() {
         let found = "found a run whose particles have more than a species, a position and a momentum";
         return Err(Mistake::new("", found, "a run of particles with forces between them"));
     }
@@ -78,10 +78,10 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
         positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
         velocities: (0..state.len()).map(velocity).collect(),
         images: state.images.clone(),
-        bonds: by_kind("bond", model.bonds().into_iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind))),
+        bonds: by_kind("bond", model.particles().bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind))),
         angles: by_kind(
             "angle",
-            model.angles().into_iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)),
+            model.particles().angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)),
         ),
         unused: if remembers { vec!["what its baths remember".to_owned()] } else { Vec::new() },
         ..ParticleFile::default()
