@@ -30,9 +30,9 @@ impl Builder<'_> {
         for bonded in bonded::all(&scales).into_iter().chain(excluded) {
             self.plan.constants.extend(bonded.constants.iter().copied());
             let kicks = bonded::kicks(self.model.units.dimension);
-            kernels.kicks.push(self.bonded_kernel(bonded.name, &bonded, bonded.choices.clone().and(&kicks)));
+            kernels.kicks.push(self.bonded_kernel(bonded.name, &bonded, &bonded.choices.clone().and(&kicks)));
             let mut report = |name, observed: &Observed, kicks: &Choices| {
-                let kernel = self.bonded_kernel(name, &bonded, observed.choices.clone().and(kicks));
+                let kernel = self.bonded_kernel(name, &bonded, &observed.choices.clone().and(kicks));
                 let own = [(Constant::Quantities, observables as f64), (Constant::FirstGroup, f64::from(*rows))];
                 self.plan.kernels[kernel].constants.extend(own.into_iter().chain(scales.once(observed.scales)));
                 *rows += self.plan.kernels[kernel].workgroups;
@@ -55,8 +55,8 @@ impl Builder<'_> {
         kernels
     }
 
-    fn bonded_kernel(&mut self, name: &'static str, bonded: &Bonded, choices: Choices) -> usize {
-        let choices = self.choices().with(couplings::Places::Sorted).and(&choices);
+    fn bonded_kernel(&mut self, name: &'static str, bonded: &Bonded, choices: &Choices) -> usize {
+        let choices = self.choices().with(couplings::Places::Sorted).and(choices);
         self.kernel(name, bonded.entry, choices, bonded.count)
     }
 }
