@@ -5,7 +5,7 @@
 
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
-use mesoscope::families::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
+use mesoscope::families::reference::{Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::gpu::{Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::plan::{Options, Plan, Storage};
@@ -128,9 +128,10 @@ impl Kind {
     /// depths are formed on a mesh, and where friction is solved for to a tolerance.
     fn units(self) -> i64 {
         match self {
-            GrootWarren | Memory | Oscillators | ColouredNoise | HarmonicChain => 100,
+            GrootWarren | Memory | Oscillators | HarmonicChain => 100,
             ShallowWater => 5000,
-            Splitting | Chains | Voronoi | VoronoiEnergy => 1000,
+            // Noise without strength leaves pairs, whose steps are split.
+            Splitting | Chains | ColouredNoise | Voronoi | VoronoiEnergy => 1000,
         }
     }
 
@@ -138,8 +139,7 @@ impl Kind {
         let (model, state) = (model.clone(), state.clone());
         match self {
             Splitting | GrootWarren => Box::new(Reference::new(model, state)),
-            Chains => reference_of_particles(model, state),
-            Memory | Oscillators | ColouredNoise | HarmonicChain => Box::new(CouplingsReference::new(model, state)),
+            Memory | Chains | Oscillators | ColouredNoise | HarmonicChain => reference_of_particles(model, state),
             ShallowWater => Box::new(ShallowWaterReference::new(model, state).unwrap()),
             Voronoi | VoronoiEnergy => Box::new(VoronoiReference::new(model, state).unwrap()),
         }
