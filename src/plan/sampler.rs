@@ -32,7 +32,7 @@ pub struct Sampler {
     pub first: u64,
     /// Steps between two samples.
     pub every: u64,
-    /// Kernels in order, as indices into [`Plan::kernels`].
+    /// Kernels in order, as indices into [`Plan::kernels`](super::Plan::kernels).
     pub kernels: Vec<usize>,
     /// The buffer that receives the rows.
     pub samples: Array,

@@ -156,6 +156,7 @@ fn bonds_beside_pairs_agree_with_the_reference() {
     let fene = json!({"type": "fene", "stiffness": 30, "extent": 1.5});
     for integrator in [
         json!({"type": "splitting"}),
+        json!({"type": "splitting", "relaxation": "two-stages"}),
         json!({"type": "groot-warren", "lambda": 0.65}),
         json!({"type": "groot-warren", "lambda": 0.5}),
         json!({"type": "cotter-reich"}),

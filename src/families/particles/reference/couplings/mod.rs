@@ -33,7 +33,7 @@ use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::State;
 
 /// A model of couplings and baths and its state, stepped on the CPU: the reference of every scene whose model
-/// [is coupled](Model::is_coupled).
+/// [is coupled](crate::families::Particles::are_coupled).
 ///
 /// With the integrator `groot-warren` baths without memory see velocities, as they do in
 /// [`Reference`](super::Reference); with every other one they see the discrete gradient of `cotter-reich`. Baths with
