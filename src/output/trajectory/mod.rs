@@ -221,7 +221,7 @@ impl TrajectoryWriter {
 
 /// The id of the run that wrote a trajectory of this name; none for another name, or where it cannot be read.
 pub(super) fn id_of(name: &str, path: &Path) -> Option<Id> {
-    let all = [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz].map(format_of);
+    let all = TrajectoryFormat::ALL.map(format_of);
     (all.iter().find(|format| format.file == name)?.id_of)(path)
 }
 
