@@ -16,8 +16,8 @@ fn repulsion_impulse(c: Coefficients, w: f32) -> f32 { return 0.0; }
 fn repulsion_of(c: Coefficients, contact: Contact) -> Repulsion { return Repulsion(0.0, 0.0, 0.0); }
 
 // Slot pairs/friction: the frictional impulse, `root` being the root of the weight. Variants velocity, discrete_gradient: the
-// plan follows the integrator. The variant relaxation provides `friction_rate` and `relaxation_impulse` for split steps
-// instead.
+// plan follows the integrator. The variants relaxation and stages provide `relaxation_impulse` for split steps instead, from the
+// rates of pairs/rates.
 fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }
 
 // Slot pairs/random: the random impulse. The plan chooses `thermal` if there are friction and a temperature.

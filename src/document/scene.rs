@@ -157,7 +157,7 @@ pub struct Noise {
     /// The counter-based generator.
     #[serde(default)]
     pub generator: Generator,
-    /// The distribution of the noise on a pair without memory; all other noise is Gaussian.
+    /// The distribution of the noise on a pair without memory whose velocity relaxes in one stage; all other noise is Gaussian.
     #[serde(default)]
     pub distribution: Distribution,
 }

@@ -34,7 +34,7 @@ pub struct Model {
     pub seed: u64,
     /// Random number generator.
     pub generator: Generator,
-    /// Distribution of the pair noise.
+    /// Distribution of the pair noise; where pairs relax in two stages it is Gaussian.
     pub distribution: Distribution,
     /// Integrator.
     pub integrator: Integrator,
@@ -77,7 +77,7 @@ impl Model {
         let family = Family::of(scene, &mut species);
         let momentum = family.physics().momentum_unit(scene, &species);
         let expected_velocity = speeds::expected(scene, &species, family.physics());
-        Self {
+        let mut model = Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
             species,
             temperature: scene.temperature,
@@ -88,7 +88,12 @@ impl Model {
             integrator: scene.integrator.clone(),
             expected_velocity,
             family,
+        };
+        // Uniform numbers leave pairs that relax wholly in a step too few fast ones: few neighbours end up cold.
+        if model.particles().relaxes_in_two_stages(&model) {
+            model.distribution = Distribution::Gaussian;
         }
+        model
     }
 
     /// Whether any force derives from a potential.

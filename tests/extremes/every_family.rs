@@ -652,20 +652,44 @@ fn laws_are_exact_after_a_thousand_steps() {
     settle(&problems);
 }
 
-#[test]
-#[ignore = "minutes"]
-fn laws_are_exact_after_a_million_steps() {
-    let mut problems = Problems::new();
-    for kind in EVERY {
-        laws_are_exact(&mut problems, kind, 1_000_000);
+/// One test for each kind, so that they run side by side.
+mod laws_are_exact_after_a_million_steps {
+    use super::{Kind, Problems, laws_are_exact, settle};
+
+    macro_rules! of_kinds {
+        ($($name:ident: $kind:ident),*) => {
+            $(
+                #[test]
+                #[ignore = "minutes"]
+                fn $name() {
+                    let mut problems = Problems::new();
+                    laws_are_exact(&mut problems, Kind::$kind, 1_000_000);
+                    settle(&problems);
+                }
+            )*
+        };
     }
-    settle(&problems);
+
+    of_kinds!(
+        splitting: Splitting,
+        groot_warren: GrootWarren,
+        memory: Memory,
+        chains: Chains,
+        oscillators: Oscillators,
+        coloured_noise: ColouredNoise,
+        harmonic_chain: HarmonicChain,
+        shallow_water: ShallowWater,
+        voronoi: Voronoi,
+        voronoi_energy: VoronoiEnergy
+    );
 }
 
 /// After so many steps of a few particles what is conserved is the same integer, and temperatures are those of the scene.
 fn laws_are_exact(problems: &mut Problems, kind: Kind, steps: u64) {
     let few = match kind {
-        Splitting | GrootWarren | Memory | Chains => strings(&["particles.0.count=24", "space.box=[2,2,2]"]),
+        Splitting | GrootWarren | Memory => strings(&["particles.0.count=24", "space.box=[2,2,2]"]),
+        // Weaker springs reach half of this box, where they turn over and heat.
+        Chains => strings(&["particles.0.count=24", "space.box=[2,2,2]", "interactions.1.potential.stiffness=40"]),
         Oscillators | ColouredNoise => strings(&["particles.0.count=64"]),
         HarmonicChain => vec![],
         ShallowWater => strings(&["particles.0.count=256", "interactions.0.mesh=[8,8]"]),

@@ -215,38 +215,40 @@ fn constant_of(engine: &Engine<'_>, kernel: &str, name: Constant) -> f64 {
 #[test]
 fn reported_forces_are_changes_of_momenta() {
     let species = r#"particles=[{"species":"A","count":200},{"species":"B","count":175,"mass":2.5}]"#;
-    // Every integrator in either space and with either list of species.
+    let chains = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":4,"spacing":0.8}},{"species":"B","count":175,"mass":2.5}]"#,
+        r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"angles","stiffness":3},
+            {"type":"bonds","potential":{"type":"harmonic","stiffness":40,"length":0.8},"exclude_repulsion":true}]"#,
+    ];
+    // Every integrator in either space and with either list of species, and with bonds.
     for (row, space) in ["space.box=[5,5,5]", "space.box=[11,12]"].into_iter().enumerate() {
         for (column, integrator) in INTEGRATORS.iter().enumerate() {
             let particles = ["title=test", species][(row + column) % 2];
-            let scene = fluid(&[
-                integrator,
-                space,
-                particles,
-                "time.steps=100",
-                r#"output.histograms=[{"quantity":"acceleration","every":1000}]"#,
-            ]);
-            let (model, state) = start(&scene);
-            let mut engine = engine(&scene, &state, Options::default());
-            engine.advance(30, 30).unwrap();
-            let before = engine.state().unwrap();
-            let reported = engine.reported().unwrap();
-            let forces: Vec<i32> =
-                engine.words(Array::ReportedForces).unwrap().into_iter().map(|word| word as i32).collect();
-            let mut strongest = 0;
-            for id in 0..before.len() {
-                for axis in 0..3 {
-                    let change = reported.momenta[id][axis] - before.momenta[id][axis];
-                    let force = forces[4 * id + axis];
-                    // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
-                    let tolerance = if integrator.contains("splitting") { 2 } else { 0 };
-                    assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
-                    strongest = strongest.max(force.abs());
+            let asked = ["time.steps=100", r#"output.histograms=[{"quantity":"acceleration","every":1000}]"#];
+            for more in [&[particles][..], &chains] {
+                let scene = fluid(&[&[*integrator, space], more, &asked].concat());
+                let (model, state) = start(&scene);
+                let mut engine = engine(&scene, &state, Options::default());
+                engine.advance(30, 30).unwrap();
+                let before = engine.state().unwrap();
+                let reported = engine.reported().unwrap();
+                let forces: Vec<i32> =
+                    engine.words(Array::ReportedForces).unwrap().into_iter().map(|word| word as i32).collect();
+                let mut strongest = 0;
+                for id in 0..before.len() {
+                    for axis in 0..3 {
+                        let change = reported.momenta[id][axis] - before.momenta[id][axis];
+                        let force = forces[4 * id + axis];
+                        // Another kernel adds up the impulses of a split step: its rounding may differ in a unit.
+                        let tolerance = if integrator.contains("splitting") { 2 } else { 0 };
+                        assert!((change - force).abs() <= tolerance, "{integrator} {space}: {change} and {force}");
+                        strongest = strongest.max(force.abs());
+                    }
                 }
+                assert!(strongest > 1 << 20, "{strongest}");
+                let time = model.time_step * if integrator.contains("splitting") { 1.0 } else { 0.5 };
+                assert_eq!(engine.plan().force_unit, model.units.momentum / time);
             }
-            assert!(strongest > 1 << 20, "{strongest}");
-            let time = model.time_step * if integrator.contains("splitting") { 1.0 } else { 0.5 };
-            assert_eq!(engine.plan().force_unit, model.units.momentum / time);
         }
     }
 }

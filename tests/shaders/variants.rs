@@ -219,6 +219,7 @@ fn bond_plans() -> Vec<(String, Plan)> {
     for bonds in [
         &bonds[0],
         &bonds[1],
+        r#"{"type":"bonds","exclude_repulsion":true}"#,
         &format!(r#"{{"type":"bonds",{fene},"exclude_repulsion":true}},{{"type":"angles","stiffness":2}}"#),
     ] {
         for other in ["", r#",{"type":"dpd","repulsion":25,"friction":4.5}"#] {
@@ -226,10 +227,9 @@ fn bond_plans() -> Vec<(String, Plan)> {
                 let particles = format!(r#"particles=[{{"species":"A","count":60,"chain":{{"beads":3}}}}{species}]"#);
                 let interactions = format!("interactions=[{bonds}{other}]");
                 for space in ["space.box=[19,17]", "space.box=[9,10,11]"] {
-                    for integrator in ["splitting", "groot-warren"] {
-                        let integrator = format!(r#"integrator={{"type":"{integrator}"}}"#);
+                    for integrator in INTEGRATORS {
                         let output = r#"output={"chain_sizes":{"every":1},"autocorrelations":[{"quantity":"force","every":2,"window":4},{"quantity":"velocity","every":2,"window":4}]}"#;
-                        let changes = [&particles, &interactions, space, &integrator, output, "time.steps=8"];
+                        let changes = [&particles, &interactions, space, integrator, output, "time.steps=8"];
                         plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                     }
                 }

@@ -37,6 +37,14 @@ pub struct DpdInteraction {
     pub skin: f64,
 }
 
+impl DpdInteraction {
+    /// Whether the bath of any pair has a memory.
+    pub(crate) fn remembers(&self) -> bool {
+        let own = self.pairs.iter().filter_map(|pair| pair.friction);
+        matches!(self.bath, Bath::Memory { .. }) && own.chain([self.friction]).any(|friction| self.bath.acts(friction))
+    }
+}
+
 /// Coefficients of one pair of species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

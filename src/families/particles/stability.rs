@@ -26,7 +26,7 @@ const MOST_RELAXATION: f64 = 250.0;
 const NEIGHBOURS: f64 = 3.0;
 
 /// The same in two stages, which are stable at any friction: half of what the sums of rates of a particle hold.
-const MOST_IN_STAGES: f64 = 20.0;
+pub(super) const MOST_IN_STAGES: f64 = 20.0;
 
 /// Bonds that an estimate looks at: the largest eigenvalue of a part is not above that of the whole.
 const MOST_BONDS: usize = 10_000;
@@ -78,13 +78,16 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
 pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Problems) {
     let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (rate, index) = model.largest_friction_rate(force);
-    let most = match (model.particles().splits(model), model.particles().relaxes_in_two_stages(model)) {
+    let particles = model.particles();
+    let staged = particles.relaxes_in_two_stages(model);
+    let most = match (particles.splits(model), staged) {
         (_, true) => MOST_IN_STAGES,
         (true, _) => MOST_RELAXATION,
         _ => LIMIT,
     };
     let step = scene.time.step;
-    let sparse = model.particles().splits(model) && model.mean_neighbours(force) < NEIGHBOURS;
+    // A pair alone relaxes exactly in one stage only.
+    let sparse = particles.splits(model) && !staged && model.mean_neighbours(force) < NEIGHBOURS;
     if rate * step < most || sparse {
         return;
     }
@@ -96,11 +99,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
     let accepted = format!(
         "at most {}, beyond which {}, and {:.2e} for reliable results; or less friction",
         two_digits(most / rate),
-        if model.particles().relaxes_in_two_stages(model) {
-            "rates do not fit their sums"
-        } else {
-            "no such step is stable"
-        },
+        if staged { "rates do not fit their sums" } else { "no such step is stable" },
         model.friction_limit() / rate
     );
     problems.push(Problem::new("time.step", found, accepted));

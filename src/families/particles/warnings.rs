@@ -152,7 +152,7 @@ fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &
     let limit = model.friction_limit();
     if rate * step > limit {
         let staged = model.particles().relaxes_in_two_stages(model);
-        let splits_once = model.particles().splits(model) && !staged;
+        let more_stages = model.particles().splits(model) && !staged && rate * step < stability::MOST_IN_STAGES;
         warn(
             warnings,
             "time.step",
@@ -164,7 +164,7 @@ fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &
                 brief(rate * step),
                 if staged { "diffusion is reliable" } else { "temperatures are reliable" },
                 limit / rate,
-                if splits_once { ", and at any with `integrator.relaxation=two-stages`" } else { "" }
+                if more_stages { ", and here too with `integrator.relaxation=two-stages`" } else { "" }
             ),
         );
     }

@@ -83,6 +83,7 @@ pub fn features() -> Vec<Feature> {
                 "demands",
                 "forces",
                 "neighbours",
+                "probes",
                 "ranks",
                 "sorted",
                 "workgroups_done",
@@ -266,7 +267,8 @@ pub fn features() -> Vec<Feature> {
                 "file couplings/slots",
             ]),
             more: &["bonds", "report_bonds", "square_forces", "take_stock", "forces", "kicks", "slots"],
-            instead: &[],
+            // Beside a table of species the prefilter reads positions then.
+            instead: &["probes"],
             always: true,
         },
         Feature {
@@ -275,7 +277,7 @@ pub fn features() -> Vec<Feature> {
             with: |scene| set(scene, "bonds", "potential", json!({"type": "harmonic", "stiffness": 2})),
             without: |scene| set(scene, "bonds", "potential", Value::Null),
             own: Some(&["file bonds/potential"]),
-            more: &["square_forces", "forces"],
+            more: &["bonds", "report_bonds", "square_forces", "forces"],
             instead: &[],
             always: true,
         },
@@ -381,7 +383,8 @@ pub fn features() -> Vec<Feature> {
             without: nothing,
             own: Some(&["array coefficients", "file space/coefficients/table", "constant SPECIES"]),
             more: &["coefficients"],
-            instead: &[],
+            // Beside bonds the prefilter reads positions then.
+            instead: &["probes"],
             always: false,
         },
         Feature {

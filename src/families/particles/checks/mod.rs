@@ -52,7 +52,7 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
 /// families it has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
-        Interaction::Dpd(dpd) => matches!(dpd.bath, Bath::Memory { .. }),
+        Interaction::Dpd(dpd) => dpd.remembers(),
         Interaction::Bonds(bonds) => bonds.has_bath(),
         Interaction::Angles(_) => false,
         other => acts(other),
@@ -76,6 +76,11 @@ pub(super) fn acts(interaction: &Interaction) -> bool {
         Interaction::Angles(angles) => angles.stiffness != 0.0,
         _ => true,
     }
+}
+
+/// Interactions that do anything, with their places.
+fn acting(scene: &Scene) -> impl Iterator<Item = (usize, &Interaction)> {
+    scene.interactions.iter().enumerate().filter(|(_, interaction)| acts(interaction))
 }
 
 /// Everything that acts on single particles is there at most once.
@@ -183,9 +188,9 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
 
 /// What makes a scene a coupled one, for messages.
 fn reason(scene: &Scene) -> String {
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in acting(scene) {
         let what = match interaction {
-            Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
+            Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::ColouredNoise(_) => "a coloured noise",
             Interaction::Tether(_) => "tethers",
@@ -202,9 +207,9 @@ fn reason(scene: &Scene) -> String {
 }
 
 fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in acting(scene) {
         let found = match interaction {
-            Interaction::Dpd(dpd) if matches!(dpd.bath, Bath::Memory { .. }) => "a bath with memory",
+            Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
             Interaction::Langevin(_) => "a bath on every particle",
             Interaction::Bonds(bonds) if bonds.has_bath() => "a bath on every bond",
             Interaction::HarmonicChain(_) => "chains with baths on their springs",

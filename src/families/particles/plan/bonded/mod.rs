@@ -6,7 +6,7 @@ mod exclusions;
 
 use super::species::Species;
 use crate::document::BondPotential;
-use crate::families::Model;
+use crate::families::{BondKind, Bonds, Model};
 use crate::plan::{Plan, Quanta};
 use crate::shaders::{Choices, Constant, Entry, couplings};
 
@@ -78,9 +78,15 @@ impl Scales<'_> {
     }
 }
 
+/// The bonds of a model, if any has a potential or a bath: others only exclude repulsion.
+fn pulling(model: &Model) -> Option<&Bonds> {
+    let pulls = |kind: &BondKind| kind.potential.is_some() || kind.bath.is_some();
+    model.particles().bonds.as_ref().filter(|bonds| bonds.kinds.iter().any(pulls))
+}
+
 /// Bonds and angles of a model.
 pub(super) fn all(scales: &Scales<'_>) -> Vec<Bonded> {
-    let bonds = scales.model.particles().bonds.as_ref().map(|bonds| bonds::bonded(scales, bonds));
+    let bonds = pulling(scales.model).map(|bonds| bonds::bonded(scales, bonds));
     let angles = scales.model.particles().angles.as_ref().map(|angles| angles::bonded(scales, angles));
     bonds.into_iter().chain(angles).collect()
 }
@@ -95,7 +101,7 @@ pub(super) fn excluded(scales: &Scales<'_>, plan: &mut Plan) -> Option<Bonded> {
 
 /// Adds the tables of bonds and angles.
 pub(super) fn add_tables(scales: &Scales<'_>, plan: &mut Plan) {
-    if let Some(bonds) = scales.model.particles().bonds.as_ref() {
+    if let Some(bonds) = pulling(scales.model) {
         bonds::add_table(scales, bonds, plan);
     }
     if let Some(angles) = scales.model.particles().angles.as_ref() {

@@ -210,6 +210,7 @@ impl Builder<'_> {
             .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
+            .with_if(self.keeps_probes(), grid::Probes::Kept)
             .with_if(self.is_bonded(), couplings::Gathered::Kept)
             .with_if(self.is_bonded(), couplings::Slots::Kept)
     }
@@ -255,6 +256,13 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
+    /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside the
+    /// impulses of bonds and a table of species it would be one buffer too many.
+    fn keeps_probes(&self) -> bool {
+        let crowded = self.is_bonded() && self.species.have_table();
+        self.traversal != Traversal::Alone && !self.texels && !crowded
+    }
+
     /// Whether friction has two stages.
     fn relaxes_in_two_stages(&self) -> bool {
         self.model.particles().relaxes_in_two_stages(self.model)
@@ -264,10 +272,8 @@ impl Builder<'_> {
     fn law(&self) -> Choices {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
-        // With the impulses of bonds and a table of species, words for the prefilter are one buffer too many.
-        let positions = self.texels || (self.is_bonded() && self.species.have_table());
         let choices = law(force)
-            .with(if positions { pairs::PrefilterSource::Positions } else { pairs::PrefilterSource::Words })
+            .with(if self.keeps_probes() { pairs::PrefilterSource::Words } else { pairs::PrefilterSource::Positions })
             .with_any(frictional.then_some(match self.model.integrator {
                 Integrator::Splitting { .. } if self.relaxes_in_two_stages() => pairs::Friction::Stages,
                 Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
@@ -499,7 +505,9 @@ impl Builder<'_> {
             if self.relaxes_in_two_stages() {
                 self.plan.add_buffer(Array::Staged, PARTICLE * count);
             }
-            self.plan.add_buffer(Array::Probes, 4 * count);
+            if self.keeps_probes() {
+                self.plan.add_buffer(Array::Probes, 4 * count);
+            }
         }
         self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
         self.plan.add_buffer(Array::Counts, 4 * cells);
