@@ -71,7 +71,7 @@ impl fmt::Display for Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
-            SceneError::Read { .. } => Self::input_output(error.to_string()),
+            SceneError::Read { .. } | SceneError::StateChanged { .. } => Self::input_output(error.to_string()),
             SceneError::NotFound { .. } => {
                 Self::usage(format!("{error}\nhint: `mesoscope scenes` says what each is for"))
             }
@@ -139,7 +139,7 @@ impl From<StudyError> for Failure {
 fn exit_code(error: &RunError) -> u8 {
     match error {
         RunError::Unstable { .. } | RunError::GaveUp { .. } => 4,
-        RunError::Scene(SceneError::Read { .. }) => 5,
+        RunError::Scene(SceneError::Read { .. } | SceneError::StateChanged { .. }) => 5,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,

@@ -108,6 +108,18 @@ pub enum SceneError {
         /// What the operating system said.
         source: std::io::Error,
     },
+    /// The file of a state is not the one that other scenes of the same study started from.
+    #[error(
+        "`{}` is not what it was when the first scenes were read from it: {}; restore it, or begin again with --force",
+        printable::path(path),
+        printable::name(reason)
+    )]
+    StateChanged {
+        /// The file.
+        path: PathBuf,
+        /// What is different, in words.
+        reason: String,
+    },
     /// The text is not JSON.
     #[error("{}:{line}:{column}: {}", printable::name(.name), printable::name(.message))]
     Syntax {

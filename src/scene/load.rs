@@ -13,8 +13,8 @@ use crate::families::{self, StepCheck};
 use super::path::related;
 use super::shape::Substitute;
 use super::{
-    FileStart, KeptStart, Problem, Problems, Scene, SceneError, Warning, builtin, nearest, overrides, semantics, shape,
-    shorten, start, text,
+    FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, Warning, builtin, nearest, overrides,
+    semantics, shape, shorten, start, text,
 };
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
@@ -153,15 +153,23 @@ pub fn parse_for(
     overrides: &[String],
     steps: Option<u64>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    parse_checked(name, text, overrides, steps, StepCheck::Refuse, Source::File)
+    parse_with(&StateFiles::default(), name, text, overrides, steps, StepCheck::Refuse)
 }
 
-/// Like [`parse`], but a time step that no scheme is stable with is accepted: to see what becomes of it.
+/// Like [`parse_for`], with the files that other scenes of the same text were read with; [`StepCheck::Allow`] accepts a time step that
+/// no scheme is stable with, to see what becomes of it.
 ///
 /// # Errors
-/// As [`parse`], for all other mistakes.
-pub(crate) fn parse_any_step(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow, Source::File)?.0)
+/// As [`parse`], and [`SceneError::StateChanged`] if one of the files is not what it was.
+pub(crate) fn parse_with(
+    files: &StateFiles,
+    name: &str,
+    text: &str,
+    overrides: &[String],
+    steps: Option<u64>,
+    step: StepCheck,
+) -> Result<(Scene, Vec<Warning>), SceneError> {
+    parse_checked(name, text, overrides, steps, step, Source::File(files))
 }
 
 /// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known.
@@ -179,9 +187,9 @@ pub(crate) fn parse_kept(
 
 /// Where what a scene keeps of the file of its state comes from.
 #[derive(Debug, Clone)]
-enum Source {
-    /// The file, which is looked for beside a scene of that name.
-    File,
+enum Source<'a> {
+    /// The file, which is one of these or is looked for beside a scene of that name.
+    File(&'a StateFiles),
     /// The run that has read it.
     Kept(Option<Arc<FileStart>>),
 }
@@ -192,13 +200,15 @@ fn parse_checked(
     overrides: &[String],
     steps: Option<u64>,
     step: StepCheck,
-    source: Source,
+    source: Source<'_>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
     let mut reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
     let mut unreadable = Problems::default();
     if let Ok(scene) = &mut reading.scene {
         match source {
-            Source::File => unreadable = start::read(scene, &reading.masses, name, &mut reading.notices),
+            Source::File(files) => {
+                unreadable = start::read(scene, &reading.masses, (name, files), &mut reading.notices)?;
+            }
             Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
         }
     }
@@ -279,15 +289,20 @@ impl Reading {
 ///
 /// # Errors
 /// As [`parse`].
-pub(crate) fn with_overrides(name: &str, text: &str, overrides: &[String]) -> Result<String, SceneError> {
-    parse(name, text, overrides)?;
+pub(crate) fn with_overrides(
+    files: &StateFiles,
+    name: &str,
+    text: &str,
+    overrides: &[String],
+) -> Result<String, SceneError> {
+    parse_with(files, name, text, overrides, None, StepCheck::Refuse)?;
     let (mut document, mut problems) = text::parse(name, text)?;
     problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
     if !problems.is_empty() {
         return Err(invalid(name, problems));
     }
     if let Some(file) = document.pointer_mut("/state/file")
-        && let Some(path) = file.as_str().map(|file| start::path(name, file))
+        && let Some(path) = file.as_str().map(|file| files.path(name, file))
     {
         *file = std::path::absolute(&path).unwrap_or(path).display().to_string().into();
     }

@@ -13,11 +13,13 @@ mod semantics;
 mod shape;
 mod shorten;
 mod start;
+mod state_files;
 mod text;
 
 pub use crate::document::*;
 pub use builtin::{Builtin, builtin};
-pub(crate) use load::{checked, parse_any_step, parse_kept, with_overrides};
+pub(crate) use load::{checked, parse_kept, parse_with, with_overrides};
 pub use load::{load, load_for, parse, parse_for, read, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
+pub(crate) use state_files::StateFiles;

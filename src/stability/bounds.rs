@@ -3,7 +3,6 @@
 use super::range::Spacing;
 use super::request::Request;
 use crate::families::{self, Beyond};
-use crate::scene;
 use serde::{Deserialize, Serialize};
 
 /// Halvings of the distance to a bound.
@@ -51,9 +50,7 @@ pub(super) fn bounds(request: &Request, row: usize) -> Vec<Bound> {
 
 /// What laws say of one scene; nothing where it is none.
 fn limits(request: &Request, row: usize, value: f64) -> Vec<families::Limit> {
-    let arguments = &request.arguments;
-    let scene = scene::parse_any_step(&arguments.scene, &arguments.text, &request.overrides(row, value));
-    scene.map(|scene| families::limits(&scene)).unwrap_or_default()
+    request.varied(row, value).map(|scene| families::limits(&scene)).unwrap_or_default()
 }
 
 fn crossing_between(mut low: f64, mut high: f64, spacing: Spacing, is_before: &dyn Fn(f64) -> bool) -> f64 {

@@ -2,9 +2,10 @@
 
 use super::range::{Range, Spacing, number_of};
 use crate::families::Model;
+use crate::families::StepCheck;
 use crate::output::Id;
 use crate::run;
-use crate::scene::{self, Scene, SceneError, nearest};
+use crate::scene::{self, Scene, SceneError, StateFiles, nearest};
 use crate::study::{LENGTHS, Setting, ShortKeys, StudyError};
 use crate::tradeoff::{ENERGY_DRIFT, References, Stretch};
 use serde::{Deserialize, Serialize};
@@ -54,6 +55,16 @@ pub(super) struct Arguments {
     pub measures: Vec<String>,
     /// How often the distance of neighbours in a row is halved at an edge.
     pub bisections: u32,
+    /// The files that runs start from.
+    #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
+    pub state_files: StateFiles,
+}
+
+impl Arguments {
+    /// The scene with these overrides and any time step.
+    fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
+        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Allow)?.0)
+    }
 }
 
 /// A key whose numbers increase along rows.
@@ -75,6 +86,7 @@ impl Request {
     pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StudyError> {
         let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
+            state_files: StateFiles::of(&scene),
             scene,
             text,
             set: set.to_vec(),
@@ -86,7 +98,7 @@ impl Request {
         })
     }
 
-    pub(super) fn new(arguments: Arguments) -> Result<Self, StudyError> {
+    pub(super) fn new(mut arguments: Arguments) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
         let mut ranges = Vec::new();
         for argument in &arguments.vary {
@@ -105,7 +117,8 @@ impl Request {
         if arguments.vary.len() > 2 {
             mistakes.push(format!("{} keys are varied; accepted: one for a row, two for a map", arguments.vary.len()));
         }
-        let base = scene::parse_any_step(&arguments.scene, &arguments.text, &arguments.set)?;
+        let base = arguments.scene(&arguments.set)?;
+        arguments.state_files.note(&base);
         if ranges.is_empty() && mistakes.is_empty() {
             let ([low, high], points) = USUAL;
             let step = base.time.step;
@@ -124,15 +137,25 @@ impl Request {
             return Err(StudyError::mistake(mistake));
         };
         let along = Along { key: along.key, values, spacing: along.spacing };
-        let request = Self { arguments, base, along, rows: ranges.pop() };
+        let mut request = Self { arguments, base, along, rows: ranges.pop() };
+        let starts_vary = request.row_key().into_iter().chain([request.along.key.as_str()]).any(is_of_state);
         // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
-        let mut first = None;
-        let all = (0..request.row_count()).flat_map(|row| request.along.values.iter().map(move |value| (row, *value)));
-        for (row, value) in all {
+        let (mut first, mut is_one) = (None, false);
+        for (row, value) in request.places() {
             match request.scene(row, value) {
-                Ok(_) => return Ok(request),
+                Ok(scene) => {
+                    request.arguments.state_files.note(&scene);
+                    is_one = true;
+                }
+                Err(error @ SceneError::StateChanged { .. }) => return Err(error.into()),
                 Err(error) => first = first.or(Some(error)),
             }
+            if is_one && !starts_vary {
+                break;
+            }
+        }
+        if is_one {
+            return Ok(request);
         }
         Err(first.map_or_else(|| StudyError::Arguments { mistakes: Vec::new() }, StudyError::Scene))
     }
@@ -216,6 +239,11 @@ impl Request {
         self.row_count() * self.along.values.len()
     }
 
+    /// The rows and values of the grid.
+    fn places(&self) -> Vec<(usize, f64)> {
+        (0..self.row_count()).flat_map(|row| self.along.values.iter().map(move |value| (row, *value))).collect()
+    }
+
     pub(super) fn row_count(&self) -> usize {
         self.rows.as_ref().map_or(1, |rows| rows.values.len())
     }
@@ -248,16 +276,20 @@ impl Request {
     }
 
     /// The overrides of a scene of the map.
-    pub(super) fn overrides(&self, row: usize, value: f64) -> Vec<String> {
+    fn overrides(&self, row: usize, value: f64) -> Vec<String> {
         let along = Setting { key: self.along.key.clone(), value: number_of(value) };
         let settings = self.setting(row).into_iter().chain([along]);
         self.arguments.set.iter().cloned().chain(settings.map(|setting| setting.argument())).collect()
     }
 
+    /// A scene of the map, with the length that the base has.
+    pub(super) fn varied(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
+        self.arguments.scene(&self.overrides(row, value))
+    }
+
     /// A scene of the map, over the common stretch of time.
     pub(super) fn scene(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
-        let Arguments { scene, text, .. } = &self.arguments;
-        let mut found = scene::parse_any_step(scene, text, &self.overrides(row, value))?;
+        let mut found = self.varied(row, value)?;
         let stretch = Stretch::of(&self.base);
         let step = found.time.step;
         // However long the steps, there are enough of them to see what becomes of the scene.
@@ -272,10 +304,14 @@ impl Request {
 
     /// What tells this map from others: its scenes, and what is right.
     pub(super) fn id(&self) -> Id {
-        let all = (0..self.row_count()).flat_map(|row| self.along.values.iter().map(move |value| (row, *value)));
-        let scenes = all.filter_map(|(row, value)| self.scene(row, value).ok());
+        let scenes = self.places().into_iter().filter_map(|(row, value)| self.scene(row, value).ok());
         Id::of_study(scenes.map(|scene| Id::of_run(&scene)), &self.arguments)
     }
+}
+
+/// Whether a key says what file particles start from, or how.
+fn is_of_state(key: &str) -> bool {
+    key == "state" || key.starts_with("state.")
 }
 
 #[cfg(test)]

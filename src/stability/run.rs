@@ -7,7 +7,7 @@ use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
 use crate::output::{RunDirectory, write_atomically};
 use crate::run::{self, RunError};
-use crate::scene::{Output, Scene};
+use crate::scene::{Output, Scene, SceneError};
 use crate::study::{self, Observer, StudyError, StudyEvent, StudyRun, at_once};
 use std::fmt;
 use std::time::Instant;
@@ -125,6 +125,8 @@ impl StudyRun<StabilitySummary> {
         let work = |(row, value): &Place, report: &dyn Fn(Result<Option<Cell>, RunError>)| {
             report(match request.scene(*row, *value) {
                 Ok(scene) => evaluate(*value, &scene, &comparison, adapter, &interrupt),
+                // That says nothing about the scene.
+                Err(error @ SceneError::StateChanged { .. }) => Err(error.into()),
                 Err(error) => Ok(Some(Cell::refused(*value, error.to_string()))),
             });
         };

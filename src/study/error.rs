@@ -119,7 +119,10 @@ impl StudyError {
     }
 
     /// A variant of this name that makes no scene.
-    pub(crate) fn of_variant(name: &str, source: &SceneError) -> Self {
+    pub(crate) fn of_variant(name: &str, source: SceneError) -> Self {
+        if matches!(source, SceneError::StateChanged { .. }) {
+            return Self::Scene(source);
+        }
         Self::Variants { mistakes: vec![Mistake { variants: vec![name.to_owned()], message: source.to_string() }] }
     }
 }

@@ -3,7 +3,8 @@
 use super::error::{Mistake, StudyError};
 use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
-use crate::scene::{self, Scene, SceneError, Warning};
+use crate::families::StepCheck;
+use crate::scene::{self, Scene, SceneError, StateFiles, Warning};
 use serde_json::Value;
 
 /// More variants than this are taken for a slip.
@@ -26,6 +27,8 @@ pub struct Sweep {
     pub(crate) steps: Option<u64>,
     pub(crate) vary: Vec<Variation>,
     pub(crate) also: Vec<Vec<Setting>>,
+    /// Files that variants start from.
+    pub(crate) files: StateFiles,
     variants: Vec<Variant>,
 }
 
@@ -74,16 +77,17 @@ impl Sweep {
         also: &[String],
     ) -> Result<Self, StudyError> {
         let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
-        Self::of_text(&name, &text, (set, steps), vary, also)
+        Self::of_text(&name, &text, (set, steps), vary, also, StateFiles::of(&name))
     }
 
-    /// Varies a scene that was read already; `name` is what messages call it.
+    /// Varies a scene that was read already; `name` is what messages call it, `files` are those that its scenes start from.
     pub(crate) fn of_text(
         name: &str,
         text: &str,
         (set, steps): (&[String], Option<u64>),
         vary: &[String],
         also: &[String],
+        mut files: StateFiles,
     ) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
         let mut read = Vec::new();
@@ -125,8 +129,8 @@ impl Sweep {
             // The reader of scenes says what is wrong in better words.
             return Err(scene::parse(name, text, set).err().map_or_else(unreadable, StudyError::Scene));
         };
-        let variants = expand(name, text, (set, steps), &read, &further)?;
-        Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, variants })
+        let variants = expand(name, text, (set, steps), &read, &further, &mut files)?;
+        Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, files, variants })
     }
 
     /// The sweep of a summary.
@@ -136,9 +140,10 @@ impl Sweep {
         (set, steps): (Vec<String>, Option<u64>),
         vary: Vec<Variation>,
         also: Vec<Vec<Setting>>,
+        mut files: StateFiles,
     ) -> Result<Self, StudyError> {
-        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also)?;
-        Ok(Self { scene, base, set, steps, vary, also, variants })
+        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also, &mut files)?;
+        Ok(Self { scene, base, set, steps, vary, also, files, variants })
     }
 
     /// The variants, in order.
@@ -191,6 +196,7 @@ fn expand(
     (set, steps): (&[String], Option<u64>),
     vary: &[Variation],
     also: &[Vec<Setting>],
+    files: &mut StateFiles,
 ) -> Result<Vec<Variant>, StudyError> {
     let counts: Vec<usize> = vary.iter().map(|variation| variation.values.len()).collect();
     let combined = combinations(&counts).into_iter().map(|places| {
@@ -209,8 +215,10 @@ fn expand(
     for ((settings, places), variant) in all.into_iter().zip(names) {
         let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
         let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
-        match scene::parse_for(name, text, &overrides, steps.filter(|_| !sets_steps)) {
+        let steps = steps.filter(|_| !sets_steps);
+        match scene::parse_with(files, name, text, &overrides, steps, StepCheck::Refuse) {
             Ok((scene, notices)) => {
+                files.note(&scene);
                 // Values of one key differ, but a further variant may be one of the combinations.
                 let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
                 if let Some(twin) = twin {
@@ -221,7 +229,9 @@ fn expand(
                 let label = short.label(&settings);
                 variants.push(Variant { name: variant, label, settings, scene, notices, places });
             }
-            Err(error @ SceneError::Read { .. }) => return Err(StudyError::Scene(error)),
+            Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => {
+                return Err(StudyError::Scene(error));
+            }
             Err(error) => {
                 let message = error.to_string();
                 match mistakes.iter_mut().find(|known| known.message == message) {
@@ -282,7 +292,8 @@ mod tests {
         let found = sweep(&["temperature=0.1,.30000000000000004", "space.box=[6,6,6],[7,7,7]"], &[]).unwrap();
         let text = serde_json::to_string(&(&found.base, &found.vary, &found.also)).unwrap();
         let (base, vary, also) = serde_json::from_str(&text).unwrap();
-        let again = Sweep::again(found.scene.clone(), base, (found.set.clone(), None), vary, also).unwrap();
+        let files = found.files.clone();
+        let again = Sweep::again(found.scene.clone(), base, (found.set.clone(), None), vary, also, files).unwrap();
         assert_eq!(again, found);
     }
 

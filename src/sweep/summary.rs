@@ -6,6 +6,7 @@ use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory, Summary, files as run_files, of_one_run};
+use crate::scene::StateFiles;
 use crate::study::{self, Kind, Record, Setting, StudyError, Sweep, Variant, Variation};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -39,6 +40,9 @@ pub struct SweepSummary {
     /// Means over the seed, where it is among the keys and several are finished.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub averages: Vec<SeedAverage>,
+    /// The files that variants start from.
+    #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
+    pub(super) state_files: StateFiles,
     /// The scene as it was written, before all of this.
     pub base: Value,
 }
@@ -89,13 +93,15 @@ impl Record for SweepSummary {
             plots: Look::default(),
             variants,
             averages: Vec::new(),
+            state_files: sweep.files.clone(),
             base: sweep.base.clone(),
         }
     }
 
     fn request(&self) -> Result<Sweep, StudyError> {
         let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
-        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone())
+        let files = self.state_files.clone();
+        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone(), files)
     }
 
     fn misfits(&self, sweep: &Sweep) -> Vec<&'static str> {

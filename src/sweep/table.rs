@@ -109,6 +109,7 @@ mod tests {
     use super::super::variant::{VariantState, VariantSummary};
     use super::*;
     use crate::output::Id;
+    use crate::scene::StateFiles;
     use serde_json::{Map, Value, json};
 
     fn variant(name: &str, setting: Option<Value>, means: Value, results: Value) -> VariantSummary {
@@ -138,6 +139,7 @@ mod tests {
             plots: Look::default(),
             variants: vec![first, further, failed],
             averages: Vec::new(),
+            state_files: StateFiles::default(),
             base: Value::Object(Map::new()),
         };
         let expected = "variant,a.b,state,steps,particles,wall_seconds,particle_steps_per_second,temperature,\

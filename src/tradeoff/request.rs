@@ -5,8 +5,9 @@ use super::reference::References;
 use super::target::Target;
 use super::{fields, measures};
 use crate::families::Model;
+use crate::families::StepCheck;
 use crate::run;
-use crate::scene::{self, AnalysisId, Scene, nearest};
+use crate::scene::{self, AnalysisId, Scene, SceneError, StateFiles, nearest};
 use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings};
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +47,16 @@ pub(super) struct Arguments {
     pub targets: Vec<Target>,
     /// Measures to assess; all usual ones if empty.
     pub measures: Vec<String>,
+    /// The files that runs start from.
+    #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
+    pub state_files: StateFiles,
+}
+
+impl Arguments {
+    /// The scene with these overrides.
+    fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
+        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Refuse)?.0)
+    }
 }
 
 impl Request {
@@ -56,6 +67,7 @@ impl Request {
     pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, StudyError> {
         let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
+            state_files: StateFiles::of(&scene),
             scene,
             text,
             set: set.to_vec(),
@@ -70,7 +82,7 @@ impl Request {
     }
 
     /// The request of a summary, or of a command line.
-    pub(super) fn new(arguments: Arguments) -> Result<Self, StudyError> {
+    pub(super) fn new(mut arguments: Arguments) -> Result<Self, StudyError> {
         let Arguments { scene, text, set, vary, also, .. } = &arguments;
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
         let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
@@ -85,13 +97,16 @@ impl Request {
         if !mistakes.is_empty() {
             return Err(StudyError::Arguments { mistakes });
         }
-        let sweep = Sweep::of_text(scene, text, (set, None), vary, also)?;
+        let files = arguments.state_files.clone();
+        let sweep = Sweep::of_text(scene, text, (set, None), vary, also, files)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
                 "`{FINER}` is the name of the run that references are taken from"
             )));
         }
-        let base = scene::parse(scene, text, set)?;
+        arguments.state_files = sweep.files.clone();
+        let base = arguments.scene(&arguments.set)?;
+        arguments.state_files.note(&base);
         Ok(Self { arguments, sweep, base })
     }
 
@@ -152,7 +167,8 @@ impl Request {
             }
         }
         self.arguments.finer = Some(argument.to_owned());
-        self.finer_scenes()?;
+        let [finer, _] = self.finer_scenes()?;
+        self.arguments.state_files.note(&finer);
         Ok(self)
     }
 
@@ -165,8 +181,7 @@ impl Request {
         let sets_step = asked.iter().any(|setting| setting.key == "time.step");
         let scene = |name: &str, step: f64| {
             let set: Vec<String> = set.iter().cloned().chain([format!("time.step={step}")]).collect();
-            scene::parse(&self.arguments.scene, &self.arguments.text, &set)
-                .map_err(|source| StudyError::of_variant(name, &source))
+            self.arguments.scene(&set).map_err(|source| StudyError::of_variant(name, source))
         };
         let own = asked.iter().find(|_| sets_step).and_then(|_| {
             asked.iter().find(|setting| setting.key == "time.step").and_then(|setting| setting.value.as_f64())

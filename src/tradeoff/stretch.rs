@@ -44,7 +44,7 @@ impl Stretch {
     /// # Errors
     /// [`StudyError::Variants`] where that is no scene: a window of an analysis that does not fit, say.
     pub(super) fn applied(&self, name: &str, variant: &Scene) -> Result<Scene, StudyError> {
-        let wrong = |source: SceneError| StudyError::of_variant(name, &source);
+        let wrong = |source: SceneError| StudyError::of_variant(name, source);
         let mismatch = |error: serde_json::Error| {
             wrong(SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })
         };

@@ -189,7 +189,8 @@ impl TradeoffSummary {
     pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
         let overrides = self.arguments.set.iter().cloned().chain(choice.settings.iter().map(Setting::argument));
-        let text = scene::with_overrides(&self.arguments.scene, &self.arguments.text, &overrides.collect::<Vec<_>>())?;
+        let Arguments { scene, text, state_files, .. } = &self.arguments;
+        let text = scene::with_overrides(state_files, scene, text, &overrides.collect::<Vec<_>>())?;
         Ok(Some(text))
     }
 

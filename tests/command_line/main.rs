@@ -15,6 +15,7 @@ mod schema;
 mod shallow_water;
 mod stability;
 mod states;
+mod studies;
 mod sweep;
 mod terminal;
 mod tradeoff;

@@ -4,8 +4,8 @@ mod checkpoint;
 mod places;
 
 use super::{
-    FileStart, Interaction, KeptStart, Placement, Problem, Problems, Scene, SpeciesNames, StateFile, StateVelocities,
-    Velocities, Warning, nearest,
+    FileStart, Interaction, KeptStart, Placement, Problem, Problems, Scene, SceneError, SpeciesNames, StateFile,
+    StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
 use crate::state_file::{self, Links, Mistake, ParticleFile, StateFileError};
 use std::path::{Path, PathBuf};
@@ -20,27 +20,40 @@ const MOST_PARTICLES: u64 = u32::MAX as u64;
 /// Species are numbered by eight bits.
 const MOST_SPECIES: usize = 256;
 
-/// Reads the file of a scene's state, if it has one, which lies beside a scene of that name; `masses` says which groups give
-/// theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
-pub(super) fn read(scene: &mut Scene, masses: &[bool], name: &str, notices: &mut Vec<Warning>) -> Problems {
+/// Reads the file of a scene's state, if it has one, which lies beside a scene of that name or where `files` says; `masses` says which
+/// groups give theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
+///
+/// # Errors
+/// [`SceneError::StateChanged`] if the file is not what it was.
+pub(super) fn read(
+    scene: &mut Scene,
+    masses: &[bool],
+    (name, files): (&str, &StateFiles),
+    notices: &mut Vec<Warning>,
+) -> Result<Problems, SceneError> {
     let mut problems = Problems::default();
-    let Some(state) = scene.state.clone() else { return problems };
+    let Some(state) = scene.state.clone() else { return Ok(problems) };
     check_scene(scene, &mut problems);
     if !problems.is_empty() {
-        return problems;
+        return Ok(problems);
     }
-    let path = path(name, &state.file);
+    let path = files.path(name, &state.file);
     let file = match particles(&path, state.frame) {
         Ok(file) => file,
+        Err(error) if files.known(&state).is_some() => {
+            let found = error.mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
+            return Err(SceneError::StateChanged { path, reason: found });
+        }
         Err(error) => {
             refuse(&state, error.mistakes, &mut problems);
-            return problems;
+            return Ok(problems);
         }
     };
+    files.check(&path, &state, &places::checksum(&file))?;
     let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: "state.file".to_owned(), message }));
-    reader.problems
+    Ok(reader.problems)
 }
 
 /// Where the file of a scene of that name is.
