@@ -22,11 +22,12 @@ pub struct StudyArguments {
     pub set: Vec<String>,
 
     /// Runs at once [default: 2 on a software adapter where a step is short, as of fewer than 18,000 particles of a DPD fluid
-    /// or 280,000 of shallow water, which is 1.1 to 1.5 times as fast; otherwise 1]. Results do not depend on it
+    /// or 280,000 of shallow water, which is 1.1 to 1.5 times as fast; otherwise 1]. Results do not depend on it, but
+    /// runs in a `tradeoff --budget` are as long as the time allows
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 
-    /// Directory for all results [default: the names of scene and command, `dpd-fluid-sweep`, in the working directory]
+    /// Directory for all results [default: the names of scene and command, joined by a hyphen, in the working directory]
     #[arg(long, value_name = "DIR", conflicts_with = "resume")]
     out: Option<PathBuf>,
 

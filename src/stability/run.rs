@@ -61,7 +61,10 @@ impl StudyRun<StabilitySummary> {
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
-        let jobs = self.jobs_for(&self.request.base, self.request.cell_count(), &gpu);
+        let scenes: Vec<Scene> =
+            waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value).ok()).collect();
+        let largest = study::largest(scenes.iter()).unwrap_or(&self.request.base);
+        let jobs = self.jobs_for(largest, self.request.cell_count(), &gpu);
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         while !waiting.is_empty() {
             self.run_all(&waiting, jobs, adapter, observer)?;

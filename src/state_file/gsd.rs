@@ -126,7 +126,8 @@ impl Gsd {
             if location == 0 {
                 break;
             }
-            if location >= length || frame >= entries || frame + 1 < frames {
+            // A chunk without rows may begin where the file ends.
+            if location > length || frame >= entries || frame + 1 < frames {
                 let found = "it is damaged: its index makes no sense";
                 return Err(Mistake::new("", found, "a whole GSD file").into());
             }

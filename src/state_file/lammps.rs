@@ -96,7 +96,9 @@ struct Header {
 /// Names of types: labels, where the file has them.
 #[derive(Debug, Default)]
 struct Types {
+    /// Places by label, and labels by place.
     labels: HashMap<String, u32>,
+    labelled: HashMap<u32, String>,
     count: u32,
 }
 
@@ -110,13 +112,9 @@ impl Types {
     }
 
     fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = (1..=self.count).map(|number| number.to_string()).collect();
-        for (label, place) in &self.labels {
-            if let Some(name) = names.get_mut(*place as usize) {
-                name.clone_from(label);
-            }
-        }
-        names
+        (0..self.count)
+            .map(|place| self.labelled.get(&place).cloned().unwrap_or_else(|| (place + 1).to_string()))
+            .collect()
     }
 }
 
@@ -397,8 +395,10 @@ impl Reader {
                 let [number, label] = words else { return Err("a number of a type and its label".to_owned()) };
                 let place = number.parse().ok().and_then(|number: u32| number.checked_sub(1));
                 let place = place.filter(|place| *place < types.count).ok_or("a number of a type")?;
-                if types.labels.insert((*label).to_owned(), place).is_some() {
-                    return Err("every label once".to_owned());
+                if types.labels.insert((*label).to_owned(), place).is_some()
+                    || types.labelled.insert(place, (*label).to_owned()).is_some()
+                {
+                    return Err("every label and every type once".to_owned());
                 }
             }
         }

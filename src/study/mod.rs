@@ -28,7 +28,7 @@ pub(crate) use members::Member;
 pub(crate) use naming::{ShortKeys, readable};
 pub use record::Record;
 pub(crate) use record::{load, reopen};
-pub(crate) use run::draw;
 pub use run::{Observer, StudyEvent, StudyRun};
+pub(crate) use run::{draw, largest};
 pub(crate) use variation::settings;
 pub use variation::{Setting, Variation};

@@ -202,6 +202,11 @@ impl<R: Record> StudyRun<R> {
     }
 }
 
+/// The scene of the most particles.
+pub(crate) fn largest<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Option<&'a Scene> {
+    scenes.max_by_key(|scene| Model::new(scene).particle_count())
+}
+
 /// Draws charts into the directory of a study of this id, and names their files; `proceed` says before each whether to.
 pub(crate) fn draw(
     place: &RunDirectory,

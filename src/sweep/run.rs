@@ -3,10 +3,9 @@
 use super::look::Look;
 use super::summary::SweepSummary;
 use super::{files, plots, table};
-use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
-use crate::study::{Member, Observer, StudyError, StudyEvent, StudyRun};
+use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyRun};
 
 /// A sweep to be executed.
 pub type SweepRun = StudyRun<SweepSummary>;
@@ -66,7 +65,7 @@ impl StudyRun<SweepSummary> {
     /// Opens an adapter with the capacity for the largest of these variants, and says how many are to run at once.
     fn open_adapter(&self, adapter: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, usize), StudyError> {
         let scenes = waiting.iter().map(|number| &self.request.variants()[*number].scene);
-        let Some(scene) = scenes.max_by_key(|scene| Model::new(scene).particle_count()) else {
+        let Some(scene) = study::largest(scenes) else {
             // Nothing to run: plots take little room.
             return Ok((Gpu::open(adapter, Requirements::default())?, 1));
         };

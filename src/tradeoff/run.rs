@@ -89,18 +89,16 @@ impl StudyRun<TradeoffSummary> {
         // Every run opens the adapter for itself, this is to know it.
         let gpu = Gpu::open(adapter, Requirements::default())?;
         let count = count(&runs);
-        let jobs = self.jobs_for(&self.request.base, count, &gpu);
+        let largest = study::largest(runs[..count].iter().map(|(_, scene)| scene)).unwrap_or(&self.request.base);
+        let jobs = self.jobs_for(largest, count, &gpu);
         // Steps follow from the stretch, which may be shorter now; all else stays.
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
         observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs, seconds: Some(seconds) });
         loop {
-            let start = Instant::now();
-            let advanced = self.advance(&runs, jobs, adapter, observer);
-            self.summary.spent += start.elapsed().as_secs_f64();
+            self.advance(&runs, jobs, adapter, observer)?;
             self.save()?;
-            advanced?;
             self.summary.assess(&self.request)?;
             let spent = self.summary.spent;
             let extension = if self.summary.is_long_enough {
@@ -208,11 +206,19 @@ impl StudyRun<TradeoffSummary> {
                 members.push(Member { name: name.clone(), id: Id::of_run(&scene), scene, notices: Vec::new() });
             }
         }
-        self.simulate(&members, jobs, adapter, observer, &mut |study, place, ended, observer| {
+        let (start, before) = (Instant::now(), self.summary.spent);
+        let simulated = self.simulate(&members, jobs, adapter, observer, &mut |study, place, ended, observer| {
+            // With every result, so that a budget holds after the process was killed.
+            study.summary.spent = before + start.elapsed().as_secs_f64();
             let entry = study.take_up(own[place], &members[place], ended)?;
             observer(StudyEvent::Ended { run: &members[place].name, ended: entry });
             Ok(study.save()?)
-        })?;
+        });
+        self.summary.spent = before + start.elapsed().as_secs_f64();
+        if simulated.is_err() {
+            self.save()?;
+        }
+        simulated?;
         for index in choices..runs.len() {
             if let Some(twin) = twin_of(index) {
                 *self.entry(index) = self.summary.choices[twin].clone();

@@ -228,6 +228,11 @@ fn species_that_the_scene_lacks() {
            group: `A`, `B`",
         ],
     );
+    refused(
+        &replaced(LAMMPS, "2 B\n\nBond", "1 B\n\nBond"),
+        &[],
+        &["state.file: `init`, line 17: found `1 B`; accepted: every label and every type once"],
+    );
     let unlabelled = LAMMPS.replace("Atom Type Labels\n\n1 A\n2 B\n\n", "").replace(" A ", " 1 ").replace(" B ", " 2 ");
     assert!(Place::of("init", &unlabelled).load("init", &[]).is_ok());
     refused(
@@ -496,11 +501,16 @@ fn what_does_not_go_with_a_file() {
     let types = json!([{"type": "bonds", "types": ["x"], "pairs": [[0, 1]]}]);
     assert_eq!(place.problems("init", &[("/interactions", types.clone())]).len(), 1, "of types and pairs");
     let chains = json!([{"species": "A", "chain": {"beads": 2}}, {"species": "B"}]);
-    let found = place.problems("init", &[("/particles", chains)]);
+    let found = place.problems("init", &[("/particles", chains.clone())]);
     assert!(
         found[0]
             .starts_with("particles[0].chain: found, and particle 1 of `init` is not where its group would have it"),
         "{found:?}"
+    );
+    assert_eq!(
+        place.problems("init", &[("/particles", chains), ("/state/replicate", json!([2, 1, 1]))]).last().unwrap(),
+        "state.replicate: found, beside particles[0].chain, whose beads follow each other in one box only; accepted: bonds of the \
+         file in place of chains; or one copy"
     );
 }
 
@@ -520,6 +530,27 @@ fn gsd(path: &Path, image: i64, bond: u32, tilt: f32) {
     file.write_arrays("bonds/group", [[0_u32, bond]]).unwrap();
     file.end_frame().unwrap();
     file.sync_all().unwrap();
+}
+
+/// An array without rows lies where the file ends.
+#[test]
+fn empty_arrays_of_gsd() {
+    let place = Place::of("other", "");
+    let path = place.path().join("init.gsd");
+    let mut file = GsdFile::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, 0.0, 0.0, 0.0]).unwrap();
+    file.write_scalars("particles/N", [2_u32]).unwrap();
+    file.write_arrays("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
+    file.write_scalars("particles/typeid", [0_u32, 1]).unwrap();
+    file.write_arrays("particles/position", [[0.0_f64, 0.0, 0.0], [1.0, 1.0, 1.0]]).unwrap();
+    file.write_scalars("bonds/N", [0_u32]).unwrap();
+    file.write_arrays("bonds/group", Vec::<[u32; 2]>::new()).unwrap();
+    file.end_frame().unwrap();
+    file.sync_all().unwrap();
+    drop(file);
+    let unbonded = [("/state/velocities", json!("thermal")), ("/interactions", json!([]))];
+    let loaded = place.load("init.gsd", &unbonded);
+    assert!(loaded.is_ok(), "{loaded:?}");
 }
 
 #[test]

@@ -332,21 +332,23 @@ impl Reader<'_> {
         }
     }
 
-    /// Chains are particles with consecutive numbers: with those, the file has to have the groups one after the other.
+    /// Chains are particles with consecutive numbers: with those, the file has to have the groups one after the other. Within one
+    /// copy of the box such a chain would be bonded across the copy where the file bonds it across the boundary.
     fn check_order(&mut self, scene: &Scene, start: &FileStart) {
         let Some(chained) = scene.particles.iter().position(|group| group.chain.is_some()) else { return };
+        if start.copies != [1; 3] {
+            let found =
+                format!("found, beside particles[{chained}].chain, whose beads follow each other in one box only");
+            self.push("state.replicate", found, "bonds of the file in place of chains; or one copy");
+            return;
+        }
         let names = SpeciesNames::of(scene);
         let groups = scene.particles.iter().flat_map(|group| {
             let place = names.place(&group.species).unwrap_or(0);
             std::iter::repeat_n(place, usize::try_from(group.count.unwrap_or(0)).unwrap_or(usize::MAX))
         });
-        let copied = start.copies != [1; 3];
-        let first_astray = if copied && names.count() > 1 {
-            Some(0)
-        } else {
-            groups.zip(&start.species).position(|(place, species)| place != usize::from(*species))
-        };
-        if let Some(particle) = first_astray {
+        let astray = groups.zip(&start.species).position(|(place, species)| place != usize::from(*species));
+        if let Some(particle) = astray {
             let found = format!(
                 "found, and particle {} of `{}` is not where its group would have it",
                 self.file.number(particle),
