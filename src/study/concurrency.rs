@@ -48,7 +48,8 @@ pub(crate) fn at_once<T: Sync, M: Send>(
     mut receive: impl FnMut(usize, M) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
     let next = AtomicUsize::new(0);
-    let (sender, receiver) = mpsc::channel();
+    // Without a queue no thread is more than one item ahead of what was received and saved.
+    let (sender, receiver) = mpsc::sync_channel(0);
     let mut result = Ok(());
     thread::scope(|scope| {
         for _ in 0..jobs.min(items.len()) {
