@@ -105,6 +105,8 @@ pub struct State {
     pub holds: Vec<Hold>,
     /// Where each particle is tied to, in scenes with tethers.
     pub tethers: Vec<[u32; 3]>,
+    /// What body forces have given so far, one element in scenes with any; else empty.
+    pub account: Vec<Account>,
     /// How often each particle has gone round the box along every axis, where a trajectory is written; else empty. The way
     /// since the start is the difference of positions and so many boxes.
     pub images: Vec<[i32; 3]>,
@@ -135,13 +137,15 @@ pub enum StateArray {
     Holds,
     /// [`State::tethers`].
     Tethers,
+    /// [`State::account`].
+    Account,
     /// [`State::images`].
     Images,
 }
 
 impl StateArray {
     /// All of them, in the order of a checkpoint.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Predicted,
         Self::Masses,
         Self::Energies,
@@ -153,6 +157,7 @@ impl StateArray {
         Self::BondBaths,
         Self::Holds,
         Self::Tethers,
+        Self::Account,
         Self::Images,
     ];
 
@@ -171,6 +176,7 @@ impl StateArray {
             Self::BondBaths => "bond_baths",
             Self::Holds => "holds",
             Self::Tethers => "tethers",
+            Self::Account => "account",
             Self::Images => "images",
         }
     }
@@ -183,13 +189,14 @@ impl StateArray {
             Self::Predicted | Self::Anchors | Self::PositionBaths | Self::Tethers | Self::Images => 3,
             Self::PairBaths => size_of::<PairBath>() / 4,
             Self::Holds => size_of::<Hold>() / 4,
+            Self::Account => size_of::<Account>() / 4,
         }
     }
 
     /// Whether it has an element for every particle, if any.
     #[must_use]
     pub const fn is_of_particles(self) -> bool {
-        !matches!(self, Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths)
+        !matches!(self, Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths | Self::Account)
     }
 }
 
@@ -241,6 +248,46 @@ pub struct Hold {
     pub jump: u32,
 }
 
+/// What body forces have given to all particles together, up to the momenta of a state.
+///
+/// ```
+/// use mesoscope::state::Account;
+///
+/// let account = Account::new([3, -1, 0], i64::MIN);
+/// assert_eq!((account.momentum(), account.work()), ([3, -1, 0], i64::MIN));
+/// ```
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Account {
+    /// Low and high words of three sums of momentum and one of work.
+    words: [[u32; 2]; 4],
+}
+
+impl Account {
+    /// Momentum in units of the state, and work in the unit of energy of a report.
+    #[must_use]
+    pub fn new([x, y, z]: [i64; 3], work: i64) -> Self {
+        Self { words: [x, y, z, work].map(|sum| [sum as u32, (sum >> 32) as u32]) }
+    }
+
+    fn sum(&self, index: usize) -> i64 {
+        let [low, high] = self.words[index];
+        (u64::from(high) << 32 | u64::from(low)).cast_signed()
+    }
+
+    /// Momentum, up to p(n-½) in the state of a step n.
+    #[must_use]
+    pub fn momentum(&self) -> [i64; 3] {
+        std::array::from_fn(|axis| self.sum(axis))
+    }
+
+    /// Work, up to the report point of the step before.
+    #[must_use]
+    pub fn work(&self) -> i64 {
+        self.sum(3)
+    }
+}
+
 impl State {
     /// The words of an array.
     #[must_use]
@@ -257,6 +304,7 @@ impl State {
             StateArray::BondBaths => &self.bond_baths,
             StateArray::Holds => bytemuck::cast_slice(&self.holds),
             StateArray::Tethers => bytemuck::cast_slice(&self.tethers),
+            StateArray::Account => bytemuck::cast_slice(&self.account),
             StateArray::Images => bytemuck::cast_slice(&self.images),
         }
     }
@@ -303,6 +351,7 @@ impl State {
             StateArray::BondBaths => self.bond_baths = words.to_vec(),
             StateArray::Holds => self.holds = elements(array, words)?,
             StateArray::Tethers => self.tethers = elements(array, words)?,
+            StateArray::Account => self.account = elements(array, words)?,
             StateArray::Images => self.images = elements(array, words)?,
         }
         Ok(())
@@ -331,6 +380,21 @@ impl State {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
+    }
+
+    /// Total momentum less what body forces have put in, in integer units.
+    ///
+    /// ```
+    /// use mesoscope::state::{Account, State};
+    ///
+    /// let account = vec![Account::new([7, 0, -1], 0)];
+    /// let state = State { momenta: vec![[5, 1, 0], [3, 0, 0]], account, ..State::default() };
+    /// assert_eq!(state.exchanged_momentum(), [1, 1, 1]);
+    /// ```
+    #[must_use]
+    pub fn exchanged_momentum(&self) -> [i64; 3] {
+        let (total, put_in) = (self.total_momentum(), self.account.first().copied().unwrap_or_default().momentum());
+        std::array::from_fn(|axis| total[axis] - put_in[axis])
     }
 
     /// Total momentum in integer units.

@@ -11,6 +11,11 @@ fn add_kick(slot: u32, kick: Steps) {}
 fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
 fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 
+// Slot external/profile: the impulse of half a step that body forces give a particle, in integer momentum units. Variants uniform,
+// opposed, sinusoidal, with external/body_force; the plan follows the scene.
+// Default: off, no body force.
+fn external_kick(me: Particle) -> Steps { return Steps(0); }
+
 // Slot couplings/places: the particle in a slot, for couplings that name particles.
 // Default: as it is stored. The plan of pairs, which sorts particles in every step, chooses `sorted`.
 fn particle_in(slot: u32) -> Particle { return stored_particle(slot); }

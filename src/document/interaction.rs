@@ -1,8 +1,8 @@
 //! Interactions: the tagged union of a scene, which names the families.
 
 use super::{
-    AnglesInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction, HarmonicChainInteraction,
-    LangevinInteraction, ShallowWaterInteraction, TetherInteraction, VoronoiInteraction,
+    AnglesInteraction, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
+    HarmonicChainInteraction, LangevinInteraction, ShallowWaterInteraction, TetherInteraction, VoronoiInteraction,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,6 +19,8 @@ pub enum Interaction {
     ColouredNoise(ColouredNoiseInteraction),
     /// A spring from every particle to where it started: V = K(r - r₀)²/2.
     Tether(TetherInteraction),
+    /// A force on every particle from outside, uniform or varying along an axis, which drives a flow.
+    BodyForce(BodyForceInteraction),
     /// Bonds along chains, or between listed particles: a potential, and friction and noise along the bond.
     Bonds(BondsInteraction),
     /// Stiffness of chains: V = k(1 + cos θ) for each angle θ between bonds, least where the chain is straight.
@@ -57,6 +59,7 @@ impl Interaction {
             Self::Bonds(bonds) => bonds.bath.temperature(scene),
             Self::ColouredNoise(_)
             | Self::Tether(_)
+            | Self::BodyForce(_)
             | Self::Angles(_)
             | Self::HarmonicChain(_)
             | Self::ShallowWater(_) => scene,

@@ -60,3 +60,16 @@ const CENTRE_OF_MASS: [Column; 3] = [
 pub(crate) fn motion(dimension: usize) -> impl Iterator<Item = Column> {
     MOMENTUM.into_iter().take(dimension).chain(CENTRE_OF_MASS.into_iter().take(dimension))
 }
+
+/// Momentum that body forces have put in.
+const MOMENTUM_PUT_IN: [Column; 3] = [
+    column("body_force_momentum_x", |row, _| row.put_in.momentum[0]),
+    column("body_force_momentum_y", |row, _| row.put_in.momentum[1]),
+    column("body_force_momentum_z", |row, _| row.put_in.momentum[2]),
+];
+
+/// Momentum and work that body forces have put in.
+pub(crate) fn put_in(dimension: usize) -> impl Iterator<Item = Column> {
+    let work = column("body_force_work", |row, _| row.put_in.work);
+    MOMENTUM_PUT_IN.into_iter().take(dimension).chain([work])
+}

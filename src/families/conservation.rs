@@ -11,6 +11,8 @@ pub enum KeptQuantity {
     MeshMass,
     /// Of all particles.
     Momentum,
+    /// Of all particles, less what body forces have put in.
+    MomentumButForForces,
     /// Kinetic and internal energy together.
     Energy,
 }
@@ -23,6 +25,7 @@ impl KeptQuantity {
             Self::Mass => "mass",
             Self::MeshMass => "mass on the mesh",
             Self::Momentum => "total momentum",
+            Self::MomentumButForForces => "total momentum less what body forces have put in",
             Self::Energy => "total energy",
         }
     }
@@ -39,8 +42,25 @@ pub struct KeptSum {
     pub place: usize,
     /// Value of one unit.
     pub unit: f64,
+    /// The place of the sum of what is put in from outside, which does not count.
+    pub put_in: Option<usize>,
     /// In a state.
     pub total: i64,
+}
+
+impl KeptSum {
+    /// The same of a component of momentum, but for what body forces have put in: the place of that sum.
+    pub(super) fn but_for(self, place: usize) -> Self {
+        Self { quantity: KeptQuantity::MomentumButForForces, put_in: Some(place), ..self }
+    }
+
+    /// What is kept, among the sums of a report.
+    #[must_use]
+    pub fn of(&self, sums: &[i64]) -> Option<i64> {
+        let found = sums.get(self.place)?;
+        let put_in = self.put_in.map_or(Some(0), |place| sums.get(place).copied())?;
+        Some(found.wrapping_sub(put_in))
+    }
 }
 
 /// The components of the total momentum, of which the first has a place.
@@ -51,6 +71,7 @@ pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64)
         direction,
         place: first + axis,
         unit,
+        put_in: None,
         total,
     };
     directions.take(dimension).map(component).collect()
@@ -59,7 +80,7 @@ pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64)
 /// The sum of all masses.
 pub(super) fn mass(state: &State, quantity: KeptQuantity, place: usize, unit: f64) -> KeptSum {
     let total = state.masses.iter().map(|mass| i64::from(*mass)).sum();
-    KeptSum { quantity, direction: "", place, unit, total }
+    KeptSum { quantity, direction: "", place, unit, put_in: None, total }
 }
 
 /// Why the energy of forces is not kept exactly.

@@ -35,12 +35,12 @@ pub use field::{Field, FieldError};
 pub use instability::Instability;
 pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
-pub use observables::{CellObservables, Observables};
+pub use observables::{CellObservables, Observables, PutIn};
 pub use particles::Particles;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT};
 pub use particles::model::{
-    Angle, Angles, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, HarmonicChain, Jump, Likeness,
-    PairForce, PositionBath, SpringChain, Strand,
+    Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
+    HarmonicChain, Jump, Likeness, PairForce, PositionBath, SpringChain, Strand,
 };
 pub use pictures::PictureKind;
 pub use registry::Family;

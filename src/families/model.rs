@@ -124,6 +124,12 @@ impl Model {
     /// themselves do not.
     #[must_use]
     pub fn conserves_momentum(&self) -> bool {
+        self.exchanges_momentum() && self.particles().body_forces.is_none()
+    }
+
+    /// Whether particles get momentum from each other and from body forces only, so that the total is what those have put in.
+    #[must_use]
+    pub(crate) fn exchanges_momentum(&self) -> bool {
         self.particles().coloured_noise.is_none() && self.measures_about_centre_of_mass()
     }
 

@@ -54,8 +54,19 @@ pub struct Observables {
     pub bath_energy: f64,
     /// Mean square of the bath variables.
     pub bath_square: f64,
+    /// What body forces have put in since the start.
+    pub put_in: PutIn,
     /// What is measured of Voronoi cells, in Voronoi DPD.
     pub cells: Option<CellObservables>,
+}
+
+/// What body forces have put in since the start of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PutIn {
+    /// Momentum, the sum of the impulses on all particles.
+    pub momentum: [f64; 3],
+    /// Work: force times displacement over all drifts so far.
+    pub work: f64,
 }
 
 /// What is measured of Voronoi cells.
@@ -101,6 +112,7 @@ impl Observables {
             about_centre_of_mass: model.measures_about_centre_of_mass(),
             bath_energy: 0.0,
             bath_square: 0.0,
+            put_in: PutIn::default(),
             cells: None,
         }
     }
@@ -187,6 +199,7 @@ mod tests {
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        put_in: PutIn { momentum: [0.0; 3], work: 0.0 },
         cells: None,
     };
 

@@ -67,7 +67,7 @@ impl KeptSums {
     /// Compares a sample of the observables with the start.
     pub(super) fn compare(&mut self, sample: &Sample) {
         for sum in &mut self.sums {
-            let Some(found) = sample.sums.get(sum.sum.place) else { continue };
+            let Some(found) = sum.sum.of(&sample.sums) else { continue };
             let difference = found.wrapping_sub(sum.sum.total);
             if difference == 0 {
                 continue;

@@ -47,6 +47,7 @@ pub fn builtin() -> &'static [Builtin] {
         "harmonic-chain",
         "voronoi-dpd",
         "voronoi-energy",
-        "voronoi-shear"
+        "voronoi-shear",
+        "poiseuille"
     ]
 }

@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 11] = [
+const CASES: [Case; 12] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -77,6 +77,13 @@ const CASES: [Case; 11] = [
             r#"integrator={"type":"cotter-reich"}"#,
             r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":5}}]"#,
         ],
+        twice: true,
+    },
+    Case {
+        name: "pairs and a body force",
+        scene: FLUID,
+        changes: &[r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+                {"type":"body-force","profile":"sinusoidal","force":[1,0.5,0],"axis":"y"}]"#],
         twice: true,
     },
     Case { name: "bonds and angles", scene: CHAINS, changes: &[], twice: false },
@@ -221,8 +228,9 @@ pub(crate) fn distance_from_reference(gpu: &Gpu, scene: &Scene) -> Result<f64, S
 /// What may never change in a scene, by name.
 fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     let mut sums = Vec::new();
-    if model.conserves_momentum() {
-        sums.push(("momentum", state.total_momentum()));
+    if model.exchanges_momentum() {
+        let name = if model.conserves_momentum() { "momentum" } else { "momentum less what body forces put in" };
+        sums.push((name, state.exchanged_momentum()));
     }
     for (name, quantity) in [("mass", Quantity::Masses), ("energy", Quantity::Energies)] {
         let units = quantity.of(state);
@@ -311,6 +319,7 @@ mod tests {
             let names: Vec<&str> = constants(&model, &start).iter().map(|(name, _)| *name).collect();
             let expected: &[&str] = match case.name {
                 "coloured noise, Langevin bath and tethers" => &[],
+                "pairs and a body force" => &["momentum less what body forces put in"],
                 "Voronoi cells" => &["momentum", "mass"],
                 "Voronoi cells with energy" => &["momentum", "mass", "energy"],
                 name if name.starts_with("shallow water") => &["mass"],

@@ -5,6 +5,7 @@
 mod support;
 
 mod any_compiler;
+mod body_forces;
 mod couplings;
 mod particles;
 mod paths;

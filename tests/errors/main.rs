@@ -4,6 +4,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod body_forces;
 mod cost;
 mod couplings;
 mod damage;

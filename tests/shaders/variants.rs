@@ -54,7 +54,16 @@ fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] 
 pub fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
     PLANS.get_or_init(|| {
-        let kinds = [fluid_plans, long_range_plans, water_plans, coupled_plans, noise_plans, bond_plans, voronoi_plans];
+        let kinds = [
+            fluid_plans,
+            long_range_plans,
+            driven_plans,
+            water_plans,
+            coupled_plans,
+            noise_plans,
+            bond_plans,
+            voronoi_plans,
+        ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
             kinds.into_iter().flat_map(|plans| plans.join().unwrap()).collect()
@@ -119,6 +128,39 @@ fn long_range_plans() -> Vec<(String, Plan)> {
                 let scene = fluid(&[SAMPLERS, &[space, integrator]].concat());
                 let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
                 plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+/// The same with body forces of every profile, of pairs, with bonds among them, and of listed pairs.
+fn driven_plans() -> Vec<(String, Plan)> {
+    let particles = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}}]"#,
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let mut plans = Vec::new();
+    for particles in particles {
+        for (space, force) in [("space.box=[9,7]", "[1,2]"), ("space.box=[9,7,8]", "[1,2,-3]")] {
+            for profile in
+                [r#""uniform""#, r#""opposed","axis":"y""#, r#""sinusoidal","axis":"x","waves":2,"species":["A"]"#]
+            {
+                for bonds in ["", r#",{"type":"bonds","potential":{"type":"harmonic","stiffness":9}}"#] {
+                    for integrator in INTEGRATORS {
+                        let interactions = format!(
+                            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},
+                                {{"type":"body-force","force":{force},"profile":{profile}}}{bonds}]"#
+                        );
+                        let changes = [&[particles, interactions.as_str(), space, integrator], SAMPLERS].concat();
+                        for listed in
+                            [false, true].into_iter().filter(|listed| !listed || !integrator.contains("splitting"))
+                        {
+                            let options = Options { listed, ..Options::default() };
+                            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                        }
+                    }
+                }
             }
         }
     }
@@ -783,7 +825,9 @@ fn host_structs_lie_as_in_the_shaders() {
             if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
                 // Coupled scenes add a row for the species by themselves.
-                let entries = 2 * if plan.layout.of::<CoupledLayout>().is_some() { 3 } else { 2 };
+                let pairs = 2 * if plan.layout.of::<CoupledLayout>().is_some() { 3 } else { 2 };
+                // Body forces have one an axis and a species.
+                let entries = pairs + if plan.has_buffer(Array::Account) { 2 * 3 } else { 0 };
                 match texels(Array::Coefficients) {
                     None => assert_eq!(bytes(Array::Coefficients), Some(16 * entries)),
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),

@@ -46,11 +46,11 @@ pub fn predictions_agree(found: &State, expected: &State) {
     assert!(differing * 20 <= found.len(), "{differing} of {} shifts differ", found.len());
 }
 
-/// Total momentum, mass and energy in integer units, of which the last two are zero where particles have none of their own.
+/// Total momentum but for what body forces put in, mass and energy in integer units, of which the last two are zero where particles have none of their own.
 pub fn totals(state: &State) -> ([i64; 3], i64, i64) {
     let masses = state.masses.iter().map(|units| i64::from(*units)).sum();
     let energies = state.energies.iter().map(|units| i64::from(*units)).sum();
-    (state.total_momentum(), masses, energies)
+    (state.exchanged_momentum(), masses, energies)
 }
 
 /// Observables of a fluid on the device are those of the reference of the very same state: momentum to the bit, the others as

@@ -22,7 +22,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let bonded = gathered_kick(index);
-    let kick = sums.kick + bonded;
+    let kick = sums.kick + bonded + external_kick(me);
     let momentum = steps_of(me.momentum) + clock_closing() * kick;
     observe_motion(species_of(me), momentum, sums.pairs.virial);
     observe_configuration(sums.pairs, bonded);

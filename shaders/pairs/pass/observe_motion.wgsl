@@ -27,7 +27,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let momentum = steps_of(me.momentum) + sums.impulse;
     observe_motion(species_of(me), momentum, sums.virial);
     store_momentum(me.position.w, momentum_word(momentum, species_of(me)));
-    add_reported_force(momentum_word(2 * gathered_kick(index), 0));
+    add_reported_force(momentum_word(2 * (gathered_kick(index) + external_kick(me)), 0));
     store_force(me.position.w);
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, 5u); }

@@ -18,7 +18,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let relaxed = steps_of(me.momentum) + clock_closing() * sums.impulse;
-    let kick = sums.kick + take_gathered_kick(index);
+    let kick = sums.kick + take_gathered_kick(index) + external_kick(me);
     store_advanced(row, index, me, relaxed + kick, kick, sums.strain);
 }
 fn pass_finish(group: u32, lane: u32) {

@@ -18,3 +18,16 @@ override POSITION_ENERGY: f32;   // energy per square of a bath, over its quantu
 fn position_response(species: i32) -> f32 { return POSITION_RESPONSE; }
 fn position_deviation(species: i32) -> f32 { return POSITION_NOISE; }
 fn position_energy(species: i32) -> f32 { return POSITION_ENERGY; }
+
+// The body force on the species: impulse of half a step, in whole units of momentum and in 2^-32 of one.
+override BODY_X: i32;
+override BODY_Y: i32;
+override BODY_Z: i32;
+override BODY_REST_X: u32;
+override BODY_REST_Y: u32;
+override BODY_REST_Z: u32;
+
+fn external_impulse_of(species: i32) -> Impulse {
+    return Impulse(steps_of(vec4<i32>(BODY_X, BODY_Y, BODY_Z, 0)),
+        fraction_of(vec4<u32>(BODY_REST_X, BODY_REST_Y, BODY_REST_Z, 0u)));
+}

@@ -15,6 +15,9 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     if model.particles().coloured_noise.is_some() {
         ways.push("put in by the coloured noise");
     }
+    if model.particles().body_forces.is_some() {
+        ways.push("put in by body forces, whose work is `body_force_work` in the table of energies");
+    }
     if thermal {
         ways.push("exchanged with the heat bath");
     }
@@ -33,16 +36,16 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 
 /// Whether neither a bath nor a noise exchanges energy with the particles.
 pub(super) fn is_conservative(model: &Model) -> bool {
-    let noise = model.particles().coloured_noise.is_some();
-    !noise && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
+    let driven = model.particles().coloured_noise.is_some() || model.particles().body_forces.is_some();
+    !driven && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
 }
 
 /// Whether baths alone, at the temperature of the model, exchange energy with the particles.
 pub(super) fn has_thermostat(model: &Model) -> bool {
-    let noise = model.particles().coloured_noise.is_some();
+    let driven = model.particles().coloured_noise.is_some() || model.particles().body_forces.is_some();
     let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
     let any = acting.peek().is_some();
-    !noise && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)
+    !driven && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)
 }
 
 /// The steps of all baths of particles, pairs and bonds, with their temperatures.
@@ -73,6 +76,9 @@ pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
         ),
         Some(_) => reasons
             .push("the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders"),
+    }
+    if model.particles().body_forces.is_some() {
+        reasons.push("body forces put it in, as much as `body_force_momentum` in the table of energies says");
     }
     if model.particles().position_bath.is_some() {
         reasons.push("friction and noise act on every particle by itself");

@@ -18,8 +18,8 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model, Observables,
-    PairForce, Physics, PositionBath, Species, units,
+    Angles, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model,
+    Observables, PairForce, Physics, PositionBath, Species, units,
 };
 use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -38,6 +38,8 @@ pub struct Particles {
     pub coloured_noise: Option<ColouredNoise>,
     /// Spring constant that ties every particle to where it started.
     pub tether: Option<f64>,
+    /// Forces on particles from outside.
+    pub body_forces: Option<BodyForces>,
     /// Groups of chains.
     pub chain_groups: Vec<ChainGroup>,
     /// Bonds, if there are any.
@@ -57,6 +59,7 @@ pub(super) static NONE: Particles = Particles {
     position_bath: None,
     coloured_noise: None,
     tether: None,
+    body_forces: None,
     chain_groups: Vec::new(),
     bonds: None,
     angles: None,
@@ -90,7 +93,7 @@ impl Particles {
     pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
         let (mut pair_force, mut position_bath, mut coloured_noise, mut tether) = (None, None, None, None);
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
-        let mut chains = None;
+        let (mut body_forces, mut chains) = (None, None);
         for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
             match interaction {
                 Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, species, scene.temperature)),
@@ -99,6 +102,9 @@ impl Particles {
                 }
                 Interaction::ColouredNoise(noise) => coloured_noise = Some(ColouredNoise::new(noise)),
                 Interaction::Tether(spring) => tether = Some(spring.stiffness),
+                Interaction::BodyForce(interaction) => {
+                    body_forces.get_or_insert_with(|| BodyForces::new(interaction, species)).add(interaction, species);
+                }
                 Interaction::Bonds(interaction) => bonds.add(interaction, scene, |name| index_of(species, name)),
                 Interaction::Angles(interaction) => angles.add(interaction, scene, |name| index_of(species, name)),
                 Interaction::HarmonicChain(interaction) => {
@@ -120,6 +126,7 @@ impl Particles {
             position_bath,
             coloured_noise,
             tether,
+            body_forces,
             chain_groups: topology::chain_groups(scene, |name| index_of(species, name)),
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
@@ -177,7 +184,7 @@ impl Physics for Particles {
     }
 
     fn reaches_equilibrium(&self) -> bool {
-        self.chains.is_none()
+        self.chains.is_none() && self.body_forces.is_none()
     }
 
     fn is_conservative(&self, model: &Model) -> bool {
@@ -220,6 +227,9 @@ impl Physics for Particles {
         if !self.are_coupled {
             stability::check_friction(scene, model, problems);
         }
+        if let Some(forces) = &self.body_forces {
+            checks::body_force::check_impulses(scene, model, forces, problems);
+        }
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
@@ -245,10 +255,13 @@ impl Physics for Particles {
     }
 
     fn kept(&self, model: &Model, state: &State) -> Vec<KeptSum> {
-        if model.conserves_momentum() {
-            super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum)
-        } else {
-            Vec::new()
+        if !model.exchanges_momentum() {
+            return Vec::new();
+        }
+        let momentum = super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum);
+        match observables::put_in_place(model) {
+            Some(first) => momentum.into_iter().enumerate().map(|(axis, sum)| sum.but_for(first + axis)).collect(),
+            None => momentum,
         }
     }
 

@@ -1,16 +1,21 @@
 //! From the integer sums of a report to observables of particles.
 
-use crate::families::{Column, Model, Observables, Particles, column};
+use super::plan::external;
+use crate::families::{Column, Model, Observables, Particles, PutIn, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
 pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
     let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
     let quanta = plan.quanta;
-    // Energy, square and number of the baths come last, where there are any that remember; in steps that relax in two stages the
-    // virial of the first.
+    // Energy, square and number of the baths follow, where there are any that remember; in steps that relax in two stages the
+    // virial of the first; then what body forces have put in.
     let staged = model.particles().relaxes_in_two_stages(model);
-    let remembering = !staged && sums.len() > 9;
+    let remembering = !staged && sums.len() as u64 - external::sums(model).min(sums.len() as u64) > 9;
+    let put_in = put_in_place(model).map_or_else(PutIn::default, |first| PutIn {
+        momentum: [0, 1, 2].map(|axis| sum(first + axis) * model.units.momentum),
+        work: sum(first + 3) * quanta.energy,
+    });
     Observables {
         step,
         particles: plan.particles,
@@ -28,8 +33,16 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
         bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        put_in,
         cells: None,
     }
+}
+
+/// The place of the first sum of what body forces have put in, if there are any.
+pub(super) fn put_in_place(model: &Model) -> Option<usize> {
+    let particles = model.particles();
+    let before = 9 + usize::from(particles.relaxes_in_two_stages(model)) + if model.has_memory() { 3 } else { 0 };
+    particles.body_forces.as_ref().map(|_| before)
 }
 
 /// The columns of the table of energies.
@@ -54,5 +67,8 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
         columns.extend(potential.then_some(column::CONSERVATIVE_PRESSURE));
     }
     columns.extend(column::motion(model.units.dimension));
+    if particles.body_forces.is_some() {
+        columns.extend(column::put_in(model.units.dimension));
+    }
     columns
 }

@@ -4,7 +4,7 @@ use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
 use crate::noise::{self, stream};
-use crate::state::State;
+use crate::state::{Account, State};
 use std::collections::HashSet;
 
 /// Gives particles at their places what they start with.
@@ -12,7 +12,7 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
     if let Some(chains) = &particles.chains {
         return chains.fill(state, &model.units, model.seed);
     }
-    if model.conserves_momentum() {
+    if model.exchanges_momentum() {
         let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
         bring_to_rest(state, thermal, model.units.dimension, |id| masses[id]);
     }
@@ -23,6 +23,9 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
     }
     if particles.tether.is_some() {
         state.tethers.clone_from(&state.positions);
+    }
+    if particles.body_forces.is_some() {
+        state.account = vec![Account::default()];
     }
 }
 

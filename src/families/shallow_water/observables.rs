@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of shallow water.
 
-use crate::families::{Column, Model, Observables, ShallowWater, column};
+use crate::families::{Column, Model, Observables, PutIn, ShallowWater, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
@@ -26,6 +26,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, w
         potential_energy: sum(3) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
+        put_in: PutIn::default(),
         cells: None,
         about_centre_of_mass: false,
         gradient_squared: 0.0,

@@ -2,7 +2,7 @@
 
 use crate::document::Integrator;
 use crate::families::column::column;
-use crate::families::{CellObservables, Column, Model, Observables, Voronoi, column};
+use crate::families::{CellObservables, Column, Model, Observables, PutIn, Voronoi, column};
 use crate::plan::Plan;
 
 /// The residual of the solver of the friction is counted in these.
@@ -41,6 +41,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, c
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        put_in: PutIn::default(),
         cells: Some(CellObservables {
             volume: sum(4) * quanta.length_squared,
             // Every face has two sides.

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::scenes::{
-    Change, add, at_rest, bathed, bonded, heat, interaction, leapfrog, leave_out, no_analyses, no_tracers, remove, set,
-    set_last_group, set_scene, split_group, tracers, write,
+    Change, add, at_rest, bathed, bonded, has_particles, heat, interaction, leapfrog, leave_out, no_analyses,
+    no_tracers, remove, set, set_last_group, set_scene, split_group, tracers, write,
 };
 
 /// Something that a scene may have or not.
@@ -247,6 +247,21 @@ pub fn features() -> Vec<Feature> {
             without: |scene| remove(scene, "tether"),
             own: Some(&["tether", "TETHER"]),
             more: &["report_tethers", "square_forces", "tethers", "forces"],
+            instead: &[],
+            always: true,
+        },
+        Feature {
+            name: "body force",
+            ground: nothing,
+            with: |scene| {
+                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() {
+                    let force = vec![1; scene["space"]["box"].as_array().unwrap().len()];
+                    add(scene, json!({"type": "body-force", "profile": "sinusoidal", "force": force, "axis": "x"}));
+                }
+            },
+            without: |scene| remove(scene, "body-force"),
+            own: Some(&["external", "account", "BODY", "FORCE_AXIS", "WAVES"]),
+            more: &["book_external", "push_external", "report_external", "account"],
             instead: &[],
             always: true,
         },

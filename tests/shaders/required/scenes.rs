@@ -235,6 +235,14 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
             |scene| remove(scene, "tether"),
         ),
         (
+            "no body force",
+            |scene| {
+                let force = vec![0; scene["space"]["box"].as_array().unwrap().len()];
+                replace(scene, json!({"type": "body-force", "force": force}));
+            },
+            |scene| remove(scene, "body-force"),
+        ),
+        (
             "no stiffness of angles",
             |scene| replace(scene, json!({"type": "angles", "stiffness": 0})),
             |scene| remove(scene, "angles"),

@@ -1,5 +1,6 @@
 //! Checks of scenes with bonds, angles, baths, coloured noise, tethers and fixed particles that a schema cannot express.
 
+pub(super) mod body_force;
 pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
 
@@ -28,6 +29,7 @@ pub(crate) fn check_interaction(
         }
         Interaction::Langevin(langevin) => check_langevin(names, langevin, path, problems),
         Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
+        Interaction::BodyForce(force) => body_force::check(scene, names, force, path, problems),
         Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
         _ => {}
     }
@@ -36,6 +38,7 @@ pub(crate) fn check_interaction(
 /// Checks what interactions and particles have to have in common.
 pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     check_numbers(scene, problems);
+    body_force::check_together(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
     if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
@@ -54,7 +57,7 @@ pub(crate) fn is_coupled(scene: &Scene) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
         Interaction::Bonds(bonds) => bonds.has_bath(),
-        Interaction::Angles(_) => false,
+        Interaction::Angles(_) | Interaction::BodyForce(_) => false,
         other => acts(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
@@ -73,6 +76,7 @@ pub(super) fn acts(interaction: &Interaction) -> bool {
         }
         Interaction::ColouredNoise(noise) => noise.strength > 0.0,
         Interaction::Tether(spring) => spring.stiffness > 0.0,
+        Interaction::BodyForce(force) => force.force.iter().any(|component| *component != 0.0),
         Interaction::Angles(angles) => angles.stiffness != 0.0,
         _ => true,
     }

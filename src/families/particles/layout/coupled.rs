@@ -47,7 +47,7 @@ impl StateLayout for CoupledLayout {
             (Array::Tethers, self.tethers),
         ];
         let asked = optional.into_iter().filter(|(_, asked)| *asked).map(|(name, _)| name);
-        std::iter::once(Array::Particles).chain(asked).collect()
+        self.particles.buffers().into_iter().chain(asked).collect()
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -80,7 +80,7 @@ impl StateLayout for CoupledLayout {
         let mut state = self.particles.unpack(step, contents, count)?;
         let particles = content(contents, 0).chunks_exact(WORDS);
         let numbers: Vec<u32> = particles.take(count).map(|particle| particle[3]).collect();
-        let mut rest = contents.iter().copied().skip(1);
+        let mut rest = contents.iter().copied().skip(self.particles.buffer_count());
         let mut next = || rest.next().unwrap_or_default();
         if let Some(list) = self.list {
             let (anchors, neighbours) = (next(), next());

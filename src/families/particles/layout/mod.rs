@@ -9,7 +9,7 @@ pub use list::ListLayout;
 use crate::plan::{Length, Misfit, Places, StateLayout, content};
 use crate::prediction;
 use crate::shaders::Array;
-use crate::state::{State, StateArray};
+use crate::state::{Account, State, StateArray};
 
 /// Bytes of a particle.
 pub(super) const PARTICLE: u64 = 32;
@@ -18,18 +18,44 @@ pub(super) const PARTICLE: u64 = 32;
 const WORDS: usize = PARTICLE as usize / 4;
 
 /// One array `particles` of position and id, momentum and species, with what a predicted
-/// momentum adds.
+/// momentum adds; and the account of body forces, where there are any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParticleLayout {
     /// Number of dimensions.
     pub dimension: usize,
     /// Whether particles carry predicted momenta.
     pub predicted: bool,
+    /// Rows of the account of body forces; none without any.
+    pub account: usize,
+}
+
+impl ParticleLayout {
+    /// Number of its buffers.
+    fn buffer_count(&self) -> usize {
+        1 + usize::from(self.account > 0)
+    }
+}
+
+/// Words of a row of the account: see `shaders/external/body_force.wgsl`.
+const ACCOUNT: usize = 16;
+
+/// The sums of all rows of an account, with the opening half of the last step.
+fn total_account(rows: &[u32]) -> Account {
+    let mut sums = [0_i64; 4];
+    for row in rows.chunks_exact(ACCOUNT) {
+        let word = |index: usize| (u64::from(row[2 * index + 1]) << 32 | u64::from(row[2 * index])).cast_signed();
+        for (index, sum) in sums.iter_mut().enumerate() {
+            let opening = if index < 3 { word(4 + index) } else { 0 };
+            *sum = sum.wrapping_add(word(index)).wrapping_add(opening);
+        }
+    }
+    let [x, y, z, work] = sums;
+    Account::new([x, y, z], work)
 }
 
 impl StateLayout for ParticleLayout {
     fn buffers(&self) -> Vec<Array> {
-        vec![Array::Particles]
+        std::iter::once(Array::Particles).chain((self.account > 0).then_some(Array::Account)).collect()
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -49,7 +75,17 @@ impl StateLayout for ParticleLayout {
             };
             words.push(state.species[id] | (prediction << 8));
         }
-        Ok(vec![words])
+        let mut contents = vec![words];
+        if self.account > 0 {
+            // All in the first row, of which the second half is empty as all others are.
+            let mut account = state.words(StateArray::Account).to_vec();
+            if account.len() != StateArray::Account.width() {
+                return Err("the account of body forces is".into());
+            }
+            account.resize(ACCOUNT * self.account, 0);
+            contents.push(account);
+        }
+        Ok(contents)
     }
 
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
@@ -72,10 +108,16 @@ impl StateLayout for ParticleLayout {
                 state.predicted[id] = prediction::shifted(state.momenta[id], shift);
             }
         }
+        if self.account > 0 {
+            state.account = vec![total_account(content(contents, 1))];
+        }
         Ok(state)
     }
 
     fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
-        vec![(StateArray::Predicted, Length::AfterFirstStep(if self.predicted { count } else { 0 }))]
+        vec![
+            (StateArray::Predicted, Length::AfterFirstStep(if self.predicted { count } else { 0 })),
+            (StateArray::Account, Length::Exactly(usize::from(self.account > 0))),
+        ]
     }
 }

@@ -1,6 +1,7 @@
 //! The physics of particles in numbers: pair coefficients, bonds, angles, baths of coordinates, chains.
 
 mod angles;
+mod body_force;
 mod bonds;
 mod chain_trio;
 mod coloured_noise;
@@ -14,6 +15,7 @@ mod time_scales;
 pub(crate) mod topology;
 
 pub use angles::{Angle, Angles};
+pub use body_force::{BodyForces, FixedImpulse};
 pub use bonds::{Bond, BondKind, Bonds};
 pub use chain_trio::{ChainTrios, Likeness, Strand};
 pub use coloured_noise::{ColouredNoise, Jump};

@@ -2,6 +2,7 @@
 
 mod bonded;
 pub(crate) mod couplings;
+pub(crate) mod external;
 mod law;
 pub(crate) mod pair;
 pub(crate) mod quanta;

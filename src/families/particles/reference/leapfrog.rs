@@ -23,6 +23,7 @@
 //! over the last drift, in place of its derivative along the velocities, √ω e·(vᵢ - vⱼ). The drift is computed again
 //! from the momenta that made it; at step 0 it is taken to have been made by the initial momenta.
 
+use super::body_force;
 use super::motion::Motion;
 use super::pairs::{self, Forces, Pair};
 use super::{Reference, Report};
@@ -41,6 +42,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
         .pair_force
         .as_ref()
         .map_or(0.0, |force| half_kicks(model, force, state, &motion, found, &[], &mut kick));
+    body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
     // The momenta of step 0 are those of the report point already.
     if state.step > 0 {

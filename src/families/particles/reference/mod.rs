@@ -1,5 +1,6 @@
 //! Pairs without memory, with bonds and angles where steps are split, and all couplings and baths, in float64.
 
+mod body_force;
 mod couplings;
 mod end_of_step;
 mod leapfrog;
@@ -85,7 +86,10 @@ impl Reference {
     pub fn step(&mut self) -> Result<(), Unstable> {
         let Report { momenta, kick, .. } = self.report(&self.pairs())?;
         let parts = self.parts_of_drift();
-        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &kick, parts)
+        let account = body_force::account(&self.model, &self.state, &self.masses);
+        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &kick, parts)?;
+        self.state.account = account;
+        Ok(())
     }
 
     /// Measures at the report point of the current step, without changing the state: the motion at r(n), p(n), and the

@@ -1,5 +1,6 @@
 //! Sums over particles and pairs at the report point.
 
+use super::body_force;
 use super::couplings::observables::of_configuration;
 use super::pairs::find_pairs;
 use super::{Reference, Report};
@@ -20,6 +21,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         mass: masses.iter().sum(),
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
+        put_in: body_force::put_in(model, state, masses),
         ..Observables::zero(model, state)
     }
 }

@@ -1,6 +1,6 @@
 //! The splitting A(½) B(½) O B(½) A(½), with friction and noise applied at the half-drifted positions.
 //!
-//! A drifts, B kicks by the conservative forces of pairs, bonds and angles, O relaxes the relative velocities of all pairs along their lines of
+//! A drifts, B kicks by the conservative forces of pairs, bonds and angles and by body forces, O relaxes the relative velocities of all pairs along their lines of
 //! centres. Its report point is in the middle, just after O, where B and O see the same pairs; what the state keeps is
 //! cut just before the closing B: two half drifts make one.
 //!
@@ -12,6 +12,7 @@
 //! ```
 //! The initial momenta are those of the report point of step 0, so that closing kick and O are left out there.
 
+use super::body_force;
 use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
 use super::pairs::{self, Forces, Pair, dot};
@@ -65,6 +66,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
         let force = Forces::between(model, &state.species, pair).potential.force();
         total_virial += pairs::push_apart(model, pair, force, &mut kick);
     }
+    body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
     if state.step > 0 {
         add(&mut momenta, &kick);

@@ -13,6 +13,7 @@ mod reported;
 mod tethers;
 
 use super::bonded::{self, Scales};
+use super::external;
 use super::quanta;
 use super::species::Species;
 use super::{
@@ -48,6 +49,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
     builder.bonded();
     builder.tethers();
     builder.coloured_noise();
+    builder.body_forces();
     builder.motion();
     builder.observables();
     PhysicsPlan {
@@ -66,7 +68,11 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         capacity: list::capacity(model, force, options) as usize,
         memory: force.remembers(),
     });
-    let particles = ParticleLayout { dimension: model.units.dimension, predicted };
+    let particles = ParticleLayout {
+        dimension: model.units.dimension,
+        predicted,
+        account: external::rows(model, options.workgroup()) as usize,
+    };
     let layout = CoupledLayout {
         particles,
         list,
@@ -82,7 +88,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     };
     let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
     // What is reported has no predicted momentum.
-    let reported = Layout::new(ParticleLayout { predicted: false, ..particles });
+    let reported = Layout::new(ParticleLayout { predicted: false, account: 0, ..particles });
     Plan { reported: Some((Array::Reported, reported)), ..plan }
 }
 
@@ -217,8 +223,21 @@ impl Builder<'_> {
         }
     }
 
+    /// Body forces.
+    fn body_forces(&mut self) {
+        if external::profile(self.model).is_none() {
+            return;
+        }
+        let groups = self.groups(self.particles);
+        let push = self.kernel("push_external", Entry::PushExternal, &Choices::new(), groups);
+        self.plan.advance.push(push);
+        self.plan.report.push(push);
+        let (choices, workgroup, first) = (self.choices(), self.options.workgroup(), self.report_groups);
+        self.report_groups += external::add_account(self.model, &choices, workgroup, first, &mut self.plan);
+    }
+
     fn quantities(&self) -> u64 {
-        OBSERVABLES + if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES }
+        OBSERVABLES + if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES } + external::sums(self.model)
     }
 
     /// Workgroups with a lane for each of some things.
@@ -241,6 +260,7 @@ impl Builder<'_> {
             .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))
+            .with_any(external::profile(self.model))
     }
 
     /// The vector space.
@@ -285,8 +305,12 @@ impl Builder<'_> {
         self.plan.add_buffer(Array::Kicks, 16 * self.particles);
         self.plan.add_buffer(Array::Reported, PARTICLE * self.particles);
         if self.species.have_table() {
-            let bytes = bytemuck::cast_slice(&self.coefficient_table()).to_vec();
-            self.plan.add_table(Array::Coefficients, bytes);
+            let mut table = self.coefficient_table();
+            external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
+            table.extend(external::entries(self.model));
+            self.plan.add_table(Array::Coefficients, bytemuck::cast_slice(&table).to_vec());
+        } else {
+            external::add_constants(self.model, None, &mut self.plan);
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod bonded;
 
+use super::external;
 use super::law::law;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
@@ -54,7 +55,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
             && grid.count() <= SCAN_AT_END_CELLS
             && !needs_levels(grid.count(), options),
         scan: Vec::new(),
-        plan: empty_plan(model, &grid),
+        plan: empty_plan(model, &grid, options),
     };
     builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
     builder.constants();
@@ -72,9 +73,10 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
     }
 }
 
-fn empty_plan(model: &Model, grid: &Grid) -> Plan {
+fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
-    let layout = ParticleLayout { dimension: model.units.dimension, predicted };
+    let account = external::rows(model, options.workgroup()) as usize;
+    let layout = ParticleLayout { dimension: model.units.dimension, predicted, account };
     model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
 }
 
@@ -213,6 +215,7 @@ impl Builder<'_> {
             .with_if(self.keeps_probes(), grid::Probes::Kept)
             .with_if(self.is_bonded(), couplings::Gathered::Kept)
             .with_if(self.is_bonded(), couplings::Slots::Kept)
+            .with_any(external::profile(self.model))
     }
 
     fn ordering(&mut self) {
@@ -336,7 +339,17 @@ impl Builder<'_> {
         } else {
             self.leapfrog_step(&forces)
         };
-        self.plan.sample_observables(self.measured.every, self.observables(), u64::from(rows));
+        let choices = self.choices();
+        let account =
+            external::add_account(self.model, &choices, self.workgroup_size(), u64::from(rows), &mut self.plan);
+        if self.splits() && account > 0 {
+            self.plan.kernels[self.plan.before_report[0]].constants.push((Constant::Halves, 2.0));
+        }
+        let observables = self.observables();
+        if account > 0 {
+            self.plan.constants.push((Constant::Quantities, observables as f64));
+        }
+        self.plan.sample_observables(self.measured.every, observables, u64::from(rows) + account);
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
@@ -350,7 +363,7 @@ impl Builder<'_> {
 
     /// Number of the sums of a report.
     fn observables(&self) -> u64 {
-        OBSERVABLES + u64::from(self.relaxes_in_two_stages())
+        OBSERVABLES + u64::from(self.relaxes_in_two_stages()) + external::sums(self.model)
     }
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
@@ -525,8 +538,12 @@ impl Builder<'_> {
                     table.push((1.0 / self.model.species[b].mass) as f32);
                 }
             }
+            external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
+            table.extend(external::entries(self.model));
             let bytes = bytemuck::cast_slice(&table).to_vec();
             self.plan.add_table(Array::Coefficients, bytes);
+        } else {
+            external::add_constants(self.model, None, &mut self.plan);
         }
     }
 

@@ -26,8 +26,8 @@ mod tethers;
 
 use crate::families::Model;
 use crate::families::Observables;
-use crate::families::particles::reference::end_of_step;
 use crate::families::particles::reference::motion::Motion;
+use crate::families::particles::reference::{body_force, end_of_step};
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::State;
@@ -96,7 +96,9 @@ impl CouplingsReference {
     /// left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
         let Evaluation { momenta, opening, baths, .. } = self.evaluate()?;
+        let account = body_force::account(&self.model, &self.state, &self.masses);
         end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &opening, 1)?;
+        self.state.account = account;
         self.state.pair_baths = baths.pair_baths;
         self.state.anchors = baths.anchors;
         self.state.position_baths = baths.position_baths;
@@ -150,6 +152,7 @@ impl CouplingsReference {
         if let Some(stiffness) = model.particles().tether {
             tethers::kick(model, stiffness, state, &mut kick);
         }
+        body_force::kick(model, state, &mut kick);
 
         let mut momenta = widen(&state.momenta);
         let mut opening = kick.clone();

@@ -1,0 +1,114 @@
+// Body forces: the same for all particles of a species at one place. Everything that gives a particle its impulse is done in
+// integers, so that every kernel finds the same impulse on any compiler.
+//
+// Slot external/profile, see couplings/kicks: `external_kick_at` is the impulse of half a step for a particle of a species at a place
+// in a step.
+
+override FORCE_AXIS: u32; // along which the force varies
+
+// An impulse in units of momentum: whole ones, and 2^-32 of one beyond.
+struct Impulse { whole: Steps, rest: Fraction }
+
+// The whole units of a step, so distributed over the steps that n of them add up to n times the impulse, less than a unit off.
+fn impulse_in_step(impulse: Impulse, step: u32) -> Steps {
+    let before = impulse.rest * step;
+    return impulse.whole + select(Steps(0), Steps(1), before > ~impulse.rest);
+}
+
+// The high word of a product.
+fn high_of_product(a: u32, b: u32) -> u32 {
+    let low = (a & 0xffffu) * (b & 0xffffu);
+    let first = (a >> 16u) * (b & 0xffffu) + (low >> 16u);
+    let second = (a & 0xffffu) * (b >> 16u) + (first & 0xffffu);
+    return (a >> 16u) * (b >> 16u) + (first >> 16u) + (second >> 16u);
+}
+
+// The sine of half a turn at most, in 2^-32, from an angle in 2^-32 of a turn: its series, off by less than 2e-9.
+fn sine_of_half_turn(angle: u32) -> u32 {
+    let part = min(min(angle, 0x80000000u - angle), 0x3fffffffu) << 2u; // of a quarter of a turn
+    let square = high_of_product(part, part);
+    var series = 15457u - high_of_product(square, 244u);
+    series = 689090u - high_of_product(square, series);
+    series = 20107981u - high_of_product(square, series);
+    series = 342277223u - high_of_product(square, series);
+    series = 2774394673u - high_of_product(square, series);
+    let slope = 3373259426u - (high_of_product(square, series) >> 1u); // in 2^-31
+    return min(high_of_product(part, slope), 0x7fffffffu) << 1u;
+}
+
+// A part of an impulse, in 2^-32.
+fn part_of_impulse(impulse: Impulse, part: u32) -> Impulse {
+    var scaled = impulse;
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        let whole = impulse.whole[axis];
+        let low = bitcast<u32>(whole) * part;
+        let rest = low + high_of_product(impulse.rest[axis], part);
+        let high = high_of_product(bitcast<u32>(whole), part) - select(0u, part, whole < 0);
+        scaled.whole[axis] = bitcast<i32>(high + select(0u, 1u, rest < low));
+        scaled.rest[axis] = rest;
+    }
+    return scaled;
+}
+
+// Sums of a row of the account: three of momentum and one of work, all given up to the report point of this step; then what the impulses
+// of this step add, of which the opening half counts in the next.
+const ACCOUNT: u32 = 8u;
+
+// Books what body forces give in a step, before anything else changes the particles. A workgroup has a row of `account`, in the place of
+// `partial_sums`; its lanes share every GROUPS-th stretch of stored particles.
+@compute @workgroup_size(WORKGROUP)
+fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let step = clock_step().x;
+    var given: array<vec2<u32>, 4>;
+    for (var slot = group * WORKGROUP + lane; slot < PARTICLES; slot += GROUPS * WORKGROUP) {
+        let me = stored_particle(slot);
+        let species = species_of(me);
+        let fraction = fraction_of(me.position);
+        let kick = external_kick_at(fraction, species, step);
+        let word = momentum_word(kick, 0);
+        given[0] = sum64_add(given[0], sum64_of_i32(word.x));
+        given[1] = sum64_add(given[1], sum64_of_i32(word.y));
+        given[2] = sum64_add(given[2], sum64_of_i32(word.z));
+        // The drift that has ended here began with an impulse in its first place and ends with one in its last.
+        let before = fraction - unsigned(drift_steps(me.momentum));
+        let both = kick + external_kick_at(before, species, step - 1u);
+        let work = dot(Vector(both), Vector(steps_of(me.momentum))) * (2.0 * kinetic_of(species));
+        given[3] = sum64_add(given[3], sum64_of_signed(work));
+    }
+    let row = group * ACCOUNT;
+    var kept: array<vec2<u32>, 4>;
+    if (lane == 0u) {
+        for (var quantity = 0u; quantity < 3u; quantity++) {
+            kept[quantity] = sum64_add(partial_sums[row + quantity], partial_sums[row + 4u + quantity]);
+        }
+        kept[3] = partial_sums[row + 3u];
+    }
+    for (var quantity = 0u; quantity < 4u; quantity++) { reduce_quantity(group, lane, 4u + quantity, given[quantity]); }
+    if (lane == 0u) {
+        let closes = clock_closing() == 1;
+        for (var quantity = 0u; quantity < 4u; quantity++) {
+            let now = select(Sum64(0u), partial_sums[row + 4u + quantity], closes);
+            partial_sums[row + quantity] = sum64_add(kept[quantity], now);
+        }
+    }
+}
+
+// Tells a report what has been booked. One invocation a row of `account`; writes the last quantities of a row of `partial_sums`.
+@compute @workgroup_size(WORKGROUP)
+fn report_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (group >= GROUPS) { return; }
+    for (var quantity = 0u; quantity < 4u; quantity++) {
+        let place = (FIRST_GROUP + group) * QUANTITIES + QUANTITIES - 4u + quantity;
+        partial_sums[place] = account[group * ACCOUNT + quantity];
+    }
+}
+
+// Adds the impulses of body forces to those of other couplings, where all are added up before particles move. One invocation a stored
+// particle; adds to `kicks`.
+@compute @workgroup_size(WORKGROUP)
+fn push_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot < PARTICLES) { add_kick(slot, external_kick(stored_particle(slot))); }
+}

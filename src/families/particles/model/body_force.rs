@@ -1,0 +1,89 @@
+//! Body forces in numbers.
+
+use crate::document::{BodyForceInteraction, ForceProfile};
+use crate::families::{Model, Species};
+
+/// The body forces of a scene, of one profile.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyForces {
+    /// How they vary in space.
+    pub profile: ForceProfile,
+    /// The axis along which they vary.
+    pub axis: usize,
+    /// Waves in the box, of a sine.
+    pub waves: u32,
+    /// The force on a particle of each species.
+    pub forces: Vec<[f64; 3]>,
+}
+
+/// An impulse of half a step in units of momentum: [`Self::FRACTIONS`] of one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FixedImpulse(pub i64);
+
+impl FixedImpulse {
+    /// Parts of a unit that are kept.
+    pub const FRACTIONS: f64 = 4_294_967_296.0;
+
+    /// Whole units and the rest, which is not negative.
+    #[must_use]
+    pub fn parts(self) -> (i32, u32) {
+        ((self.0 >> 32) as i32, self.0 as u32)
+    }
+
+    /// Whole units of a step: n steps add up to n times the impulse, less than a unit off.
+    #[must_use]
+    pub fn in_step(self, step: u64) -> i64 {
+        let until = |steps: u64| (i128::from(self.0) * i128::from(steps)) >> 32;
+        (until(step + 1) - until(step)) as i64
+    }
+}
+
+impl BodyForces {
+    /// Forces on species of which nobody has named any yet.
+    pub(crate) fn new(interaction: &BodyForceInteraction, species: &[Species]) -> Self {
+        Self {
+            profile: interaction.profile,
+            axis: interaction.axis.map_or(0, |axis| axis as usize),
+            waves: interaction.waves.unwrap_or(1),
+            forces: vec![[0.0; 3]; species.len()],
+        }
+    }
+
+    /// Adds those of an interaction. What is held takes up no momentum.
+    pub(crate) fn add(&mut self, interaction: &BodyForceInteraction, species: &[Species]) {
+        for (species, sum) in species.iter().zip(&mut self.forces) {
+            let named = interaction.species.as_ref().is_none_or(|names| names.contains(&species.name));
+            if named && !species.fixed {
+                for (sum, component) in sum.iter_mut().zip(&interaction.force) {
+                    *sum += component;
+                }
+            }
+        }
+    }
+
+    /// The impulse of half a step on a particle of a species where the force is as large as it gets.
+    #[must_use]
+    pub fn impulse(&self, model: &Model, species: usize) -> [FixedImpulse; 3] {
+        let units = 0.5 * model.time_step / model.units.momentum * FixedImpulse::FRACTIONS;
+        self.forces[species].map(|force| FixedImpulse((force * units).round() as i64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_units_of_steps_add_up_to_the_impulse() {
+        for fixed in [1_i64, -1, 3 << 30, -(3 << 30), (5 << 32) + 7, -(5 << 32) - 12_345_678_901] {
+            let mut sum = 0;
+            for step in 0..1000 {
+                sum += i128::from(FixedImpulse(fixed).in_step(step));
+                let exact = i128::from(fixed) * i128::from(step + 1);
+                assert!((0..1_i128 << 32).contains(&(exact - (sum << 32))), "{fixed} {step}");
+            }
+        }
+        assert_eq!(FixedImpulse(-1).parts(), (-1, u32::MAX));
+        assert_eq!(FixedImpulse((2 << 32) + 5).parts(), (2, 5));
+    }
+}

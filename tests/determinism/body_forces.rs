@@ -1,0 +1,60 @@
+//! Body forces and the account of what they give: the same bytes whatever changes that is not physics.
+
+use mesoscope::plan::{Options, Traversal};
+use mesoscope::scene::Scene;
+use rand::SeedableRng as _;
+
+use crate::support::bytes::{self, harvest, same};
+use crate::support::{INTEGRATORS, MIXTURE, engine, fluid, start};
+
+const STEPS: u64 = 24;
+
+const FORCES: [&str; 2] = [
+    r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","profile":"opposed","axis":"y","force":[1,0.3,0.2],"species":["A"]}]"#,
+    r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","profile":"sinusoidal","axis":"x","waves":2,"force":[0.1,1,0]}]"#,
+];
+
+fn scenes() -> Vec<(Scene, Options)> {
+    let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", MIXTURE];
+    let listed = Options { listed: true, ..Options::default() };
+    let mut scenes = Vec::new();
+    for (number, integrator) in INTEGRATORS.iter().enumerate() {
+        scenes.push((fluid(&[&base[..], &[integrator, FORCES[number % 2]]].concat()), Options::default()));
+    }
+    scenes.push((fluid(&[&base[..], &[INTEGRATORS[3], FORCES[1]]].concat()), listed));
+    scenes
+}
+
+#[test]
+fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
+    let mut random = rand::rngs::StdRng::seed_from_u64(3);
+    for (scene, options) in scenes() {
+        let plain = bytes::run(&scene, options, STEPS, 8);
+        assert_ne!(plain.state.account[0].momentum(), [0; 3]);
+        for changed in [
+            Options { workgroup_size: Some(32), serial_memory: Some(false), ..options },
+            Options { traversal: Some(Traversal::Rows), ..options },
+        ] {
+            assert!(same(&plain, &bytes::run(&scene, changed, STEPS, 5)), "{changed:?}");
+        }
+        assert!(same(&plain, &bytes::shuffled(&scene, options, STEPS, 8, &mut random)), "storage order");
+    }
+}
+
+#[test]
+fn a_resumed_run_goes_on_with_the_same_bytes() {
+    for (scene, options) in scenes() {
+        let plain = bytes::run(&scene, options, STEPS, 8);
+        for interruption in [0, 1, STEPS - 5] {
+            let (_, state) = start(&scene);
+            let mut first = engine(&scene, &state, options);
+            first.advance(interruption, 8).unwrap();
+            let kept = first.state().unwrap();
+            let mut samples = first.finish().unwrap();
+            samples.retain(|sample| sample.step < interruption);
+            let mut second = engine(&scene, &kept, options);
+            second.advance(STEPS - interruption, 8).unwrap();
+            assert!(same(&plain, &harvest(second, samples)), "interrupted at {interruption}");
+        }
+    }
+}
