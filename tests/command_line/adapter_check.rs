@@ -21,6 +21,7 @@ fn an_adapter_is_checked_and_described() {
     }
     assert!(of("contraction").contains("mirrored expressions"), "{said}");
     assert!(of("pairs, splitting").contains("total momentum constant to the last bit"), "{said}");
+    assert!(of("pairs and a body force").contains("momentum less what body forces put in"), "{said}");
     assert!(
         of("Voronoi cells with energy").contains("total momentum, mass, energy constant to the last bit"),
         "{said}"
@@ -29,7 +30,7 @@ fn an_adapter_is_checked_and_described() {
         assert!(of(family).starts_with("ok ") && of(family).contains("of its change at most"), "{said}");
     }
     assert!(of("speed of `dpd-fluid`").contains("million particle-steps a second with 24000 particles"), "{said}");
-    assert!(said.trim_end().ends_with("22 checks passed, 0 failed"), "{said}");
+    assert!(said.trim_end().ends_with("23 checks passed, 0 failed"), "{said}");
 }
 
 #[test]
