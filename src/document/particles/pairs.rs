@@ -41,7 +41,8 @@ impl DpdInteraction {
     /// Whether the bath of any pair has a memory.
     pub(crate) fn remembers(&self) -> bool {
         let own = self.pairs.iter().filter_map(|pair| pair.friction);
-        matches!(self.bath, Bath::Memory { .. }) && own.chain([self.friction]).any(|friction| friction != 0.0)
+        matches!(self.bath, Bath::Memory { .. })
+            && own.chain([self.friction]).any(|friction| friction != 0.0 || self.bath.acts(friction))
     }
 }
 
