@@ -65,6 +65,9 @@ impl Units {
     }
 }
 
+/// The most particles of a state: they are numbered by 32-bit words.
+pub(crate) const MOST_PARTICLES: u64 = u32::MAX as u64;
+
 /// Positions, momenta and species of all particles, ordered by id, at one step.
 ///
 /// `positions` are fractions of the box in units of 2⁻³²; `momenta` are in units of [`Units::momentum`]. In two

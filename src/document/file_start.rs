@@ -1,6 +1,6 @@
 //! What a scene keeps of the file that its particles start from.
 
-use super::Scene;
+use super::{Scene, number_of_copies};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -33,6 +33,8 @@ pub struct FilePlaces {
     pub velocities: Vec<[f64; 3]>,
     /// How often each particle has gone round the box; empty where the file does not say or copies leave it no meaning.
     pub images: Vec<[i32; 3]>,
+    /// The points that particles are tied to, as fractions of the same box; empty where the file does not say.
+    pub tethers: Vec<[u32; 3]>,
 }
 
 /// Bonds or angles of one type in a file.
@@ -56,7 +58,7 @@ impl<const LENGTH: usize> FileLinks<LENGTH> {
     /// Number of links in all copies.
     #[must_use]
     pub fn count(&self) -> u64 {
-        self.members.len() as u64 * number(self.copies)
+        self.members.len() as u64 * number_of_copies(self.copies)
     }
 
     /// The particles of one of them, copy by copy.
@@ -75,11 +77,6 @@ impl<const LENGTH: usize> FileLinks<LENGTH> {
             ((i + x * (j + y * k)) * u64::from(self.particles) + u64::from(members[at])) as u32
         })
     }
-}
-
-/// The number of copies.
-fn number(copies: [u32; 3]) -> u64 {
-    copies.iter().fold(1, |product: u64, copies| product.saturating_mul((*copies).into()))
 }
 
 /// The part of a start that is text in a checkpoint; the arrays follow it.
@@ -103,7 +100,7 @@ impl FileStart {
     /// Number of particles in all copies.
     #[must_use]
     pub fn particles(&self) -> u64 {
-        (self.species.len() as u64).saturating_mul(number(self.copies))
+        (self.species.len() as u64).saturating_mul(number_of_copies(self.copies))
     }
 
     /// The species of a particle.

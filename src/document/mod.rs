@@ -38,5 +38,6 @@ pub use quantities::*;
 pub use scene::{Distribution, Noise, Scene, Space, Time};
 pub use shallow_water::*;
 pub(crate) use species_names::SpeciesNames;
+pub(crate) use state::number_of_copies;
 pub use state::{StateFile, StateVelocities};
 pub use voronoi::*;

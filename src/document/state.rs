@@ -54,3 +54,8 @@ impl StateFile {
         std::array::from_fn(|axis| self.replicate.get(axis).copied().unwrap_or(1).max(1))
     }
 }
+
+/// The number of copies in all.
+pub(crate) fn number_of_copies(copies: [u32; 3]) -> u64 {
+    copies.iter().fold(1, |product: u64, copies| product.saturating_mul((*copies).into()))
+}

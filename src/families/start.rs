@@ -85,6 +85,15 @@ fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> S
             .positions
             .extend(places.positions.iter().map(|[a, b, c]| [part(*a, i, x), part(*b, j, y), part(*c, k, z)]));
         state.species.extend_from_slice(&species);
+        state.tethers.extend(places.tethers.iter().zip(&places.positions).map(|(tether, position)| {
+            // The point may lie beyond an end of the copy.
+            let crossed = crossings(*position, *tether);
+            std::array::from_fn(|axis| {
+                let (copy, copies) = ([i, j, k][axis], start.copies[axis]);
+                let copy = (copy as i64 + i64::from(crossed[axis])).rem_euclid(copies.into()) as u64;
+                part(tether[axis], copy, copies.into())
+            })
+        }));
     }
     let key = noise::step_key(model.seed, stream::VELOCITY, 0);
     let momentum = |id: usize| {

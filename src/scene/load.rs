@@ -206,8 +206,12 @@ fn parse_checked(
     let mut unreadable = Problems::default();
     if let Ok(scene) = &mut reading.scene {
         match source {
+            // Numbers that stand in for refused ones are not compared with a file.
+            Source::File(_) if reading.problems.iter().any(|known| says_where_a_file_is(&known.path)) => {}
             Source::File(files) => {
                 unreadable = start::read(scene, &reading.masses, (name, files), &mut reading.notices)?;
+                let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
+                unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
             }
             Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
         }
@@ -239,6 +243,11 @@ fn parse_checked(
         problems.append(misfits);
     }
     Err(invalid(name, problems))
+}
+
+/// Whether a mistake in this place concerns which file is read, or the box that the file is compared with.
+fn says_where_a_file_is(path: &str) -> bool {
+    ["state", "space"].iter().any(|key| related(key, path))
 }
 
 /// The schema, which is derived once.

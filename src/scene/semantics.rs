@@ -7,17 +7,15 @@ use super::{
     Velocities,
 };
 use crate::families;
+use crate::state::MOST_PARTICLES;
 
 /// Bytes of device memory that a fluid without lists and analyses needs for each particle, as an upper bound.
 pub const BYTES_PER_PARTICLE: u64 = 100;
 
-/// Particles are numbered by 32-bit words.
-const MOST_PARTICLES: u64 = u32::MAX as u64;
-
 /// The number of a species has eight bits of a particle.
 const MOST_SPECIES: usize = 256;
 
-/// Bonds and angles are numbered by 32-bit words too.
+/// Bonds and angles are numbered by 32-bit words.
 const MOST_RUNS: u64 = u32::MAX as u64;
 
 /// All problems of a scene that satisfies the schema, by arithmetic: no time and no memory that grow with what it asks for.

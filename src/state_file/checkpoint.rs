@@ -1,6 +1,7 @@
 //! The bytes of a checkpoint, before anything is made of them: everything is checked, and nothing is allocated that is not in the
 //! file. `output::checkpoint` says how it is laid out, and writes it.
 
+use super::open_regular_file;
 use crate::state::{State, StateArray};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -64,16 +65,6 @@ impl Fnv {
 
 /// Bytes read at once.
 pub(crate) const BUFFER: usize = 1 << 16;
-
-/// Opens a file that ends.
-pub(crate) fn open_regular_file(path: &Path) -> io::Result<File> {
-    let file = File::open(path)?;
-    // A device may never end.
-    if !file.metadata()?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
-    }
-    Ok(file)
-}
 
 /// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read.
 pub(crate) fn read<E: From<ContentError>>(

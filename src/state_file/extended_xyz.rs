@@ -7,7 +7,8 @@
 
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{MOST_PARTICLES, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, triclinic};
+use super::{Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, shortened, triclinic};
+use crate::state::MOST_PARTICLES;
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
 
@@ -94,19 +95,12 @@ fn count_of(lines: &mut Lines, length: u64) -> Result<Option<u64>, Mistakes> {
     }
 }
 
-fn shortened(text: &str) -> String {
-    let mut short: String = text.chars().take(40).collect();
-    if short.len() < text.len() {
-        short.push('…');
-    }
-    short
-}
-
 /// What the line of keys says.
 struct Header {
     lengths: Option<[f64; 3]>,
     origin: [f64; 3],
     dimension: Option<usize>,
+    open_axes: [bool; 3],
     columns: Columns,
 }
 
@@ -161,19 +155,37 @@ impl Header {
             lengths = Some(edges);
         }
         let origin = numbers("Origin", 3)?.map_or([0.0; 3], |origin| [origin[0], origin[1], origin[2]]);
-        let periodic = value("pbc").map(|text| {
-            let letters = text.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
-            letters.map(|word| ["T", "True", "true", "1"].contains(&word)).collect::<Vec<bool>>()
+        let mut periodic = None;
+        if let Some(text) = value("pbc") {
+            let wrong = || {
+                let found = format!("found pbc=\"{}\"", shortened(text));
+                Mistake::new(place, found, "`T` or `F` for each of three axes")
+            };
+            periodic = Some(truths(text).ok_or_else(wrong)?);
+        }
+        let dimension = periodic.map(|periodic| match periodic {
+            [true, false, false] => 1,
+            [true, true, false] => 2,
+            _ => 3,
         });
-        let dimension = match periodic.as_deref() {
-            Some([true, false, false]) => Some(1),
-            Some([true, true, false]) => Some(2),
-            Some(_) => Some(3),
-            None => None,
-        };
+        // Without a box of its own a file leaves it to the scene.
+        let open_axes = periodic.filter(|_| lengths.is_some()).map_or([false; 3], |periodic| periodic.map(|is| !is));
         let columns = Columns::of(value("Properties").unwrap_or("species:S:1:pos:R:3"), place)?;
-        Ok(Self { lengths, origin, dimension, columns })
+        Ok(Self { lengths, origin, dimension, open_axes, columns })
     }
+}
+
+/// Three values that are true or false.
+fn truths(text: &str) -> Option<[bool; 3]> {
+    let words = text.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+    let truths: Option<Vec<bool>> = words
+        .map(|word| match word.to_ascii_lowercase().as_str() {
+            "t" | "true" | "1" => Some(true),
+            "f" | "false" | "0" => Some(false),
+            _ => None,
+        })
+        .collect();
+    truths?.try_into().ok()
 }
 
 /// Keys and values of a comment line; values may stand in quotes or braces.
@@ -272,6 +284,7 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
         dimension: header.dimension,
         origin: header.origin,
         lengths: header.lengths,
+        open_axes: header.open_axes,
         unused: columns.unused.clone(),
         ..ParticleFile::default()
     };

@@ -5,9 +5,8 @@
 //! meanwhile, is refused, and of a long trajectory nothing but two frames is read. A frame takes what it lacks from the first
 //! one, and that from the defaults of the schema.
 
-use super::{
-    Links, MOST_PARTICLES, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, triclinic,
-};
+use super::{Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, triclinic};
+use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -339,8 +338,8 @@ impl Gsd {
             bonds,
             angles,
             unused: self.unused(),
-            numbers: Vec::new(),
             species,
+            ..ParticleFile::default()
         })
     }
 

@@ -5,7 +5,8 @@
 
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{FORMATS, Links, MOST_PARTICLES, Mistake, Mistakes, ParticleFile, box_mistake, triclinic};
+use super::{FORMATS, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic};
+use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
 
@@ -61,23 +62,25 @@ const SKIPPED: [&str; 22] = [
 /// The most types that a file may announce.
 const MOST_TYPES: u64 = 1 << 20;
 
+/// Bounds of the box, axis by axis.
+const BOUNDS: [&str; 3] = ["xlo xhi", "ylo yhi", "zlo zhi"];
+
+/// Whether it is such a file: a number of atoms and bounds of a box follow the title, which may be a number.
 pub(super) fn is_one(start: &[u8]) -> bool {
     let text = String::from_utf8_lossy(start);
-    text.lines().skip(1).any(|line| {
-        let mut words = uncommented(line).split_ascii_whitespace();
-        words.next().is_some_and(|word| word.parse::<u64>().is_ok())
-            && words.next() == Some("atoms")
-            && words.next().is_none()
-    })
+    let has = |count: usize, names: &[&str]| {
+        text.lines().skip(1).any(|line| {
+            let words: Vec<&str> = uncommented(line).split_ascii_whitespace().collect();
+            let Some((numbers, name)) = words.split_at_checked(count) else { return false };
+            numbers.iter().all(|word| word.parse::<f64>().is_ok()) && names.contains(&name.join(" ").as_str())
+        })
+    };
+    has(1, &["atoms"]) && (has(2, &BOUNDS) || has(3, &["avec"]))
 }
 
 /// A line without its comment.
 fn uncommented(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim()
-}
-
-fn shortened(text: &str) -> String {
-    text.chars().take(60).collect()
 }
 
 /// What the header announces.
@@ -190,7 +193,7 @@ impl Reader {
                 break;
             }
         }
-        for (axis, name) in ["xlo xhi", "ylo yhi", "zlo zhi"].into_iter().enumerate() {
+        for (axis, name) in BOUNDS.into_iter().enumerate() {
             match self.header.bounds[axis] {
                 None => {
                     self.mistakes.push(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box"));
@@ -214,7 +217,7 @@ impl Reader {
         let first_word = words.iter().position(|word| word.parse::<f64>().is_err()).unwrap_or(words.len());
         let (numbers, name) = (&words[..first_word], words[first_word..].join(" "));
         let numbers: Vec<f64> = numbers.iter().filter_map(|word| word.parse().ok()).collect();
-        let axis = ["xlo xhi", "ylo yhi", "zlo zhi"].iter().position(|bounds| *bounds == name);
+        let axis = BOUNDS.iter().position(|bounds| *bounds == name);
         if let (Some(axis), [low, high]) = (axis, numbers.as_slice()) {
             self.header.bounds[axis] = Some([*low, *high]);
             return;
@@ -335,6 +338,14 @@ impl Reader {
                 return Ok(());
             };
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
+            if section == Section::Atoms && style.is_none() && [6, 8, 9].contains(&words.len()) {
+                let accepted = format!(
+                    "the style of the atoms in that line, such as `Atoms # molecular`: {} columns are those of several styles",
+                    words.len()
+                );
+                self.refuse("found `Atoms` without a style".to_owned(), accepted);
+                return Err(std::mem::take(&mut self.mistakes));
+            }
             let accepted = self.read_line(section, style, &words);
             if let Err(accepted) = accepted {
                 self.refuse(format!("found `{}`", shortened(&text)), accepted);
@@ -362,6 +373,9 @@ impl Reader {
                 let mass = mass.parse::<f64>().ok().filter(|mass| mass.is_finite() && *mass > 0.0);
                 let place = self.kinds[0].place(kind).ok_or_else(|| self.accepted_type(0))?;
                 self.masses.resize(self.kinds[0].count as usize, None);
+                if let Some(known) = self.masses[place as usize] {
+                    return Err(format!("every type once: type {} has the mass {known}", place + 1));
+                }
                 self.masses[place as usize] = Some(mass.ok_or("a mass greater than zero")?);
             }
             Section::Atoms => return self.read_atom(style, words),
@@ -416,7 +430,7 @@ impl Reader {
             "an id, a type and a position (style `atomic`), or a molecule before the type (styles `bond`, `angle` and \
                         `molecular`), and three images or none"
                 .to_owned();
-        // A line of the second kind has one column more, with images or without.
+        // A line of the second kind has one column more, with images or without; without a style it has five, which are of the first.
         let shift = match words.len() {
             5 | 8 => 0,
             6 | 9 => 1,
@@ -442,6 +456,34 @@ impl Reader {
         Ok(())
     }
 
+    /// Velocities of the atoms with these ids, and what keeps them from being used.
+    fn velocities(&self, ids: &[u64]) -> (Vec<[f64; 3]>, Vec<Mistake>) {
+        if self.velocities.is_empty() {
+            return (Vec::new(), Vec::new());
+        }
+        let mut velocities = vec![None; ids.len()];
+        let (mut strange, mut again, mut missing) = (Tally::default(), Tally::default(), Tally::default());
+        for (id, velocity) in &self.velocities {
+            match ids.binary_search(id).map(|place| &mut velocities[place]) {
+                Ok(known @ None) => *known = Some(*velocity),
+                Ok(Some(_)) => again.add(|| id.to_string()),
+                Err(_) => strange.add(|| id.to_string()),
+            }
+        }
+        for (id, _) in ids.iter().zip(&velocities).filter(|(_, velocity)| velocity.is_none()) {
+            missing.add(|| id.to_string());
+        }
+        let accepted =
+            "one line for every atom of the section `Atoms`; or `velocities` that are \"thermal\" or \"rest\"";
+        let found = [
+            strange.phrase("atom").map(|atoms| format!("found velocities of {atoms}, not in `Atoms`")),
+            again.phrase("atom").map(|atoms| format!("found more than one velocity of {atoms}")),
+            missing.phrase("atom").map(|atoms| format!("found no velocity of {atoms}")),
+        ];
+        let mistakes = found.into_iter().flatten().map(|found| Mistake::new("", found, accepted)).collect();
+        (velocities.into_iter().map(Option::unwrap_or_default).collect(), mistakes)
+    }
+
     fn finish(mut self) -> Result<ParticleFile, Mistakes> {
         // What a line that is refused should have said is missing elsewhere.
         if !self.mistakes.is_empty() {
@@ -461,21 +503,7 @@ impl Reader {
         }
         let numbers: Vec<u64> = self.atoms.iter().map(|atom| atom.id).collect();
         let place = |id: u64| numbers.binary_search(&id).ok();
-        let mut velocities = Vec::new();
-        if !self.velocities.is_empty() {
-            let mut missing = Tally::default();
-            velocities = vec![[f64::NAN; 3]; numbers.len()];
-            for (id, velocity) in &self.velocities {
-                match place(*id) {
-                    Some(place) => velocities[place] = *velocity,
-                    None => missing.add(|| id.to_string()),
-                }
-            }
-            if let Some(atoms) = missing.phrase("atom") {
-                let found = format!("found velocities of {atoms}");
-                self.mistakes.push(Mistake::new("", found, "velocities of atoms that are in the section `Atoms`"));
-            }
-        }
+        let (velocities, velocity_mistakes) = self.velocities(&numbers);
         let bonds = links(&self.kinds[1], &self.bonds, "bond", &place, &mut self.mistakes);
         let angles = links(&self.kinds[2], &self.angles, "angle", &place, &mut self.mistakes);
         let with_images = self.atoms.iter().filter(|atom| atom.image.is_some()).count();
@@ -496,11 +524,11 @@ impl Reader {
             labelled: !self.kinds[0].labels.is_empty(),
             types: self.atoms.iter().map(|atom| atom.kind).collect(),
             masses: self.masses,
-            dimension: None,
             origin: bounds.map(|[low, _]| low),
             lengths: Some(bounds.map(|[low, high]| high - low)),
             positions: self.atoms.iter().map(|atom| atom.position).collect(),
             velocities,
+            velocity_mistakes,
             images: if with_images > 0 {
                 self.atoms.iter().filter_map(|atom| atom.image).collect()
             } else {
@@ -510,6 +538,7 @@ impl Reader {
             angles,
             unused: self.header.unused,
             numbers,
+            ..ParticleFile::default()
         })
     }
 }

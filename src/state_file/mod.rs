@@ -51,12 +51,18 @@ pub struct ParticleFile {
     pub origin: [f64; 3],
     /// Edge lengths of the box, if the file has one.
     pub lengths: Option<[f64; 3]>,
+    /// Axes along which the file says that its box is not periodic.
+    pub open_axes: [bool; 3],
     /// Positions.
     pub positions: Vec<[f64; 3]>,
     /// Velocities; empty where the file has none.
     pub velocities: Vec<[f64; 3]>,
+    /// What keeps the velocities from being used, where they are.
+    pub velocity_mistakes: Vec<Mistake>,
     /// How often each particle has gone round the box; empty where the file does not say.
     pub images: Vec<[i32; 3]>,
+    /// The points that particles are tied to; empty where the file has none.
+    pub tethers: Vec<[f64; 3]>,
     /// Bonds, type by type.
     pub bonds: Vec<Links<2>>,
     /// Angles, type by type, with the vertex in the middle.
@@ -166,8 +172,8 @@ fn unreadable(error: &io::Error) -> Mistake {
 const FORMATS: &str =
     "a file in GSD, extended XYZ or the data format of LAMMPS, or the directory of a run with a checkpoint";
 
-/// The most particles in a file: they are numbered by 32-bit words.
-const MOST_PARTICLES: u64 = u32::MAX as u64;
+/// Names of axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Reads the particles of a frame, from 0, or from the end where it is negative. The format is recognised by the content.
 ///
@@ -178,28 +184,40 @@ pub fn read(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
     read_any(path, frame).map_err(error)
 }
 
-fn read_any(path: &Path, frame: i64) -> Result<ParticleFile, Mistakes> {
-    let mut file = File::open(path)?;
-    let data = file.metadata()?;
-    if !data.is_file() {
-        // A device may never end.
-        return Err(Mistake::new("", "it is not a regular file", FORMATS).into());
+/// Opens a file that ends: a device may not, and a pipe is not even opened before somebody writes to it.
+pub(crate) fn open_regular_file(path: &Path) -> io::Result<File> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file"));
     }
+    File::open(path)
+}
+
+fn read_any(path: &Path, frame: i64) -> Result<ParticleFile, Mistakes> {
+    let mut file = open_regular_file(path)?;
     let mut start = Vec::new();
     file.by_ref().take(START).read_to_end(&mut start)?;
     file.seek(SeekFrom::Start(0))?;
-    let length = data.len();
+    let length = file.metadata()?.len();
     if gsd::is_one(&start) {
         gsd::read(file, length, frame)
-    } else if extended_xyz::is_one(&start) {
-        extended_xyz::read(file, length, frame)
     } else if lammps::is_one(&start) {
         only_frame(frame)?;
         lammps::read(file, length)
+    } else if extended_xyz::is_one(&start) {
+        extended_xyz::read(file, length, frame)
     } else {
         let found = if start.is_empty() { "it is empty" } else { "it is in none of the formats that can be read" };
         Err(Mistake::new("", found, FORMATS).into())
     }
+}
+
+/// The beginning of a text, for a message.
+fn shortened(text: &str) -> String {
+    let mut short: String = text.chars().take(60).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
 }
 
 /// Bytes that tell the formats apart: comments may stand before a header of LAMMPS.
@@ -249,13 +267,21 @@ impl ParticleFile {
         self.numbers.get(particle).copied().unwrap_or(particle as u64)
     }
 
-    /// What is wrong with the particles in a box of so many dimensions: axes beyond are not looked at.
+    /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at.
     #[must_use]
     pub fn mistakes(&self, dimension: usize, lengths: [f64; 3]) -> Vec<Mistake> {
         let mut mistakes = Mistakes::default();
         let mut nowhere = Tally::default();
         let mut outside = Tally::default();
-        let mut endless = Tally::default();
+        let open: Vec<&str> = (0..dimension).filter(|axis| self.open_axes[*axis]).map(|axis| AXES[axis]).collect();
+        if let [all @ .., last] = open.as_slice() {
+            let axes = if all.is_empty() { (*last).to_owned() } else { format!("{} and {last}", all.join(", ")) };
+            mistakes.push(Mistake::new(
+                "",
+                format!("found a box that is not periodic along {axes}"),
+                "a box that is periodic along every axis of the scene, as all are here: `pbc=\"T T T\"`",
+            ));
+        }
         for (particle, position) in self.positions.iter().enumerate() {
             let place = &position[..dimension];
             if place.iter().any(|value| !value.is_finite()) {
@@ -263,11 +289,6 @@ impl ParticleFile {
             } else if (0..dimension).any(|axis| !is_inside(position[axis] - self.origin[axis], lengths[axis])) {
                 let shown = place.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
                 outside.add(|| format!("{} at ({shown})", self.number(particle)));
-            }
-        }
-        for (particle, velocity) in self.velocities.iter().enumerate() {
-            if velocity[..dimension].iter().any(|value| !value.is_finite()) {
-                endless.add(|| self.number(particle).to_string());
             }
         }
         if let Some(particles) = nowhere.phrase("particle") {
@@ -287,16 +308,26 @@ impl ParticleFile {
             );
             mistakes.push(Mistake::new("", format!("found {particles} outside the box"), accepted));
         }
-        if let Some(particles) = endless.phrase("particle") {
-            mistakes.push(Mistake::new(
-                "",
-                format!("found {particles} with velocities that are no finite numbers"),
-                "finite numbers",
-            ));
-        }
         self.check_links(&self.bonds, "bond", &mut mistakes);
         self.check_links(&self.angles, "angle", &mut mistakes);
         mistakes.into_list()
+    }
+
+    /// What is wrong with the velocities in so many dimensions, which matters where they are used.
+    #[must_use]
+    pub fn mistakes_of_velocities(&self, dimension: usize) -> Vec<Mistake> {
+        let mut mistakes = self.velocity_mistakes.clone();
+        let mut endless = Tally::default();
+        for (particle, velocity) in self.velocities.iter().enumerate() {
+            if velocity[..dimension].iter().any(|value| !value.is_finite()) {
+                endless.add(|| self.number(particle).to_string());
+            }
+        }
+        if let Some(particles) = endless.phrase("particle") {
+            let found = format!("found {particles} with velocities that are no finite numbers");
+            mistakes.push(Mistake::new("", found, "finite numbers"));
+        }
+        mistakes
     }
 
     /// Bonds and angles join particles that are there, all different, and each set of them once.
@@ -337,8 +368,8 @@ impl ParticleFile {
     }
 }
 
-/// Part of an edge by which a position may lie beyond it: files in single precision round.
-const ROUNDING: f64 = 1e-6;
+/// What lengths and masses may differ by, as parts of themselves: files in single precision round.
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// Whether a place lies on an edge of a box from 0 to `length`.
 fn is_inside(place: f64, length: f64) -> bool {
@@ -429,12 +460,14 @@ mod tests {
             [
                 "found particle 2 with positions that are no finite numbers",
                 "found particle 3 at (4.1, 0) outside the box",
-                "found particle 1 with velocities that are no finite numbers",
                 "found bond 3-4 of type `b`, to particles that are not there",
                 "found bond 2-2 of type `b`, of a particle with itself",
                 "found bond 0-1 of type `b`, more than once",
             ]
         );
+        let found = file.mistakes_of_velocities(2);
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].found, "found particle 1 with velocities that are no finite numbers");
         // The third axis counts in three dimensions.
         file.positions.truncate(2);
         assert_eq!(

@@ -368,6 +368,71 @@ fn velocities_are_drawn_where_that_is_asked_for() {
     assert_eq!(other.total_momentum(), [0; 3]);
 }
 
+/// Particles of a run stay tied to where they were tied, in every copy to the point that is near, whatever becomes of velocities. What
+/// a new run has no use for, or begins anew, is said.
+#[test]
+fn tethers_of_a_run_go_on() {
+    let place = tempfile::tempdir().unwrap();
+    let text = json!({
+        "title": "tethered",
+        "space": {"box": [4.1, 5.3, 6.7]},
+        "time": {"step": 0.01, "steps": 10},
+        "temperature": 1,
+        "particles": [{"species": "A", "count": 60}],
+        "interactions": [
+            {"type": "tether", "stiffness": 3},
+            {"type": "langevin", "friction": 1, "bath": {"type": "memory", "rate": 2}},
+            {"type": "coloured-noise", "strength": 1, "time": 0.05},
+        ],
+    });
+    let written = scene::parse("tethered", &text.to_string(), &[]).unwrap();
+    let (model, mut state) = start(&written);
+    // Up to an eighth of an edge away from where they started, some of them across the boundary.
+    for (id, position) in state.positions.iter_mut().enumerate() {
+        *position = position.map(|part| part.wrapping_add((id as u32 % 17) << 26).wrapping_sub(1 << 29));
+    }
+    let across = state.positions.iter().zip(&state.tethers);
+    let across = across.filter(|(position, tether)| mesoscope::state::crossings(**position, **tether) != [0; 3]);
+    assert!(across.count() > 3, "tethers cross the boundary");
+    fs::create_dir(place.path().join("run")).unwrap();
+    let path = place.path().join("run").join(files::CHECKPOINT);
+    checkpoint::save(&path, Id::of_run(&written), &written, &state, &[], &[]).unwrap();
+    let potential = |model, state| CouplingsReference::new(model, state).observe().unwrap().potential_energy;
+    let alone = potential(model, state.clone());
+    let asked = |state: Value, interactions: &Value| {
+        let mut asked = with_state(&text, state);
+        asked["interactions"] = interactions.clone();
+        load(place.path(), &asked)
+    };
+    let interactions = &text["interactions"];
+    for velocities in ["file", "thermal", "rest"] {
+        let (scene, notices) = asked(json!({"file": "run", "velocities": velocities}), interactions);
+        let found = start(&scene).1;
+        assert!(found.tethers == state.tethers && found.positions == state.positions, "{velocities}");
+        let said = notices[0].message.as_str();
+        assert!(said.starts_with("not used of `run`: what its baths remember; its coloured noise"), "{said}");
+        assert!(!said.contains("tied"), "{said}");
+    }
+    // Positions are rounded to 2⁻³² of an edge, which changes no energy by more than a part in 10⁷.
+    let (scene, _) = asked(json!({"file": "run", "replicate": [2, 1, 3]}), interactions);
+    let (model, six) = start(&scene);
+    let ratio = potential(model, six) / alone;
+    assert!((ratio / 6.0 - 1.0).abs() < 1e-7, "{ratio}");
+    // Without tethers the points are of no use; a run without them ties particles to where they are.
+    let fluid = json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]);
+    let (scene, notices) = asked(json!({"file": "run"}), &fluid);
+    assert_eq!(start(&scene).1.tethers, <[[u32; 3]; 0]>::default());
+    assert!(notices[0].message.ends_with("; the points that its particles are tied to"), "{notices:?}");
+    let free = scene.clone();
+    fs::create_dir(place.path().join("free")).unwrap();
+    let path = place.path().join("free").join(files::CHECKPOINT);
+    checkpoint::save(&path, Id::of_run(&free), &free, &start(&free).1, &[], &[]).unwrap();
+    let (scene, notices) = asked(json!({"file": "free"}), interactions);
+    let tied = start(&scene).1;
+    assert!(tied.tethers == tied.positions && tied.positions == state.positions);
+    assert_eq!(notices, []);
+}
+
 /// A run in two parts, the file gone in between, leaves the bytes of one that was not interrupted.
 #[test]
 fn a_run_goes_on_without_its_file() {
@@ -438,4 +503,8 @@ fn fewer_dimensions() {
     fs::write(place.path().join("a.xyz"), text.replace("velo:R:3", "velo:R:3 pbc=\"T T F\"")).unwrap();
     asked.as_object_mut().unwrap().remove("space");
     assert_eq!(load(place.path(), &asked).0.space.lengths, [4.0, 5.0]);
+    // Along z the box has an end, which a scene cannot have.
+    asked["space"] = json!({"box": [4, 5, 6]});
+    let told = scene::load(write(place.path(), &asked).as_str(), &[]).unwrap_err().to_string();
+    assert!(told.contains("state.file: `a.xyz`: found a box that is not periodic along z; accepted: "), "{told}");
 }

@@ -175,6 +175,35 @@ fn files_that_are_none() {
     );
 }
 
+/// A pipe would be waited for.
+#[cfg(unix)]
+#[test]
+fn pipes_are_not_opened() {
+    let place = Place::of("other", "");
+    fs::create_dir(place.path().join("run")).unwrap();
+    for name in ["pipe", "run/checkpoint.bin"] {
+        let made = std::process::Command::new("mkfifo").arg(place.path().join(name)).status().unwrap();
+        assert!(made.success(), "{made}");
+    }
+    let (sender, receiver) = std::sync::mpsc::channel();
+    std::thread::spawn(move || ["pipe", "run"].map(|name| sender.send(place.problems(name, &[]))));
+    for name in ["pipe", "run"] {
+        let found = receiver.recv_timeout(PATIENCE).unwrap();
+        assert!(found[0].starts_with(&format!("state.file: `{name}`: it cannot be read (")), "{found:?}");
+        assert!(found[0].contains("it is not a regular file"), "{found:?}");
+    }
+}
+
+/// The title of a LAMMPS file may be a number, and the second line of an XYZ file anything.
+#[test]
+fn formats_that_look_alike() {
+    assert!(Place::of("init", replaced(LAMMPS, "a chain", "2024")).load("init", &[]).is_ok());
+    let plain = "4 \n4 atoms\nA 1 1 1\nB 2 2 2\nA 3 3 3\nB 3 3 1\n";
+    let changes = [("/space", json!({"box": [4, 4, 4]})), ("/state/velocities", json!("thermal"))];
+    let loaded = Place::of("init", plain).load("init", &changes);
+    assert!(loaded.is_ok(), "{loaded:?}");
+}
+
 #[test]
 fn files_that_end_too_early() {
     let lines = |text: &str, count: usize| text.lines().take(count).fold(String::new(), |all, line| all + line + "\n");
@@ -297,7 +326,6 @@ fn ids_and_numbers() {
         &[],
         &[
             "state.file: `init`: found atom 3 more than once; accepted: an id of its own for every atom",
-            "state.file: `init`: found velocities of atom 1; accepted: velocities of atoms that are in the section `Atoms`",
             "state.file: `init`: found bond 1-2 of atoms that are not there; accepted: ids of the section `Atoms`",
             "state.file: `init`: found angle 1-2-3 of atoms that are not there; accepted: ids of the section `Atoms`",
         ],
@@ -354,6 +382,128 @@ fn ids_and_numbers() {
            zero: give particles of another mass another species",
         ],
     );
+}
+
+/// A mass of a type twice leaves another type without one.
+#[test]
+fn masses_of_lammps() {
+    refused(
+        &replaced(LAMMPS, "2 2\n", "A 2\n"),
+        &[],
+        &["state.file: `init`, line 26: found `A 2`; accepted: every type once: type 1 has the mass 1.5"],
+    );
+    let said = |content: &str, groups: Value| {
+        let place = Place::of("init", content);
+        let scene = place.path().join("scene.json");
+        fs::write(&scene, text("init", &[("/particles", groups)])).unwrap();
+        let (_, notices) = scene::load_for(scene.to_str().unwrap(), &[], None).unwrap();
+        notices.iter().map(ToString::to_string).filter(|notice| notice.contains("mass")).collect::<Vec<_>>()
+    };
+    let without = replaced(LAMMPS, "Masses\n\n1 1.5\n2 2\n\n", "");
+    let (none, heavy) = (json!({"species": "A"}), json!({"species": "B", "mass": 2}));
+    assert_eq!(
+        said(&without, json!([none, {"species": "B"}])),
+        ["state.file: `init` has no masses of `A`, `B`, and `particles` gives none: they are 1"]
+    );
+    assert_eq!(
+        said(&without, json!([none, heavy])),
+        ["state.file: `init` has no mass of `A`, and `particles` gives none: it is 1"]
+    );
+    assert_eq!(said(LAMMPS, json!([none, heavy])), [""; 0]);
+}
+
+/// Six columns are a molecule, a charge or a temperature; only five are of one style.
+#[test]
+fn styles_of_lammps_are_not_guessed() {
+    for (name, columns) in [("charge, whole", 6), ("molecule and images", 9), ("images", 8)] {
+        let mut unhinted = replaced(LAMMPS, "Atoms # molecular", "Atoms");
+        if columns == 6 {
+            unhinted = unhinted.replace(" 0 0 1\n", "\n").replace(" 0 0 0\n", "\n").replace(" -1 0 2\n", "\n");
+        } else if columns == 8 {
+            unhinted = unhinted.replace(" 1 A", " A").replace(" 1 B", " B");
+        }
+        let place = Place::of("init", unhinted);
+        let found = place.problems("init", &[]);
+        let expected =
+            format!("; accepted: the style of the atoms in that line, such as `Atoms # molecular`: {columns} columns");
+        assert!(found.len() == 1 && found[0].contains(&expected), "{name}: {found:?}");
+        assert!(
+            found[0].starts_with("state.file: `init`, line 30: found `Atoms` without a style"),
+            "{name}: {found:?}"
+        );
+    }
+    let five = replaced(LAMMPS, "Atoms # molecular", "Atoms");
+    let five = five.replace(" 1 A", " A").replace(" 1 B", " B");
+    let five = five.replace(" 0 0 1\n", "\n").replace(" 0 0 0\n", "\n").replace(" -1 0 2\n", "\n");
+    let loaded = Place::of("init", five).load("init", &[]);
+    assert!(loaded.is_ok(), "{loaded:?}");
+}
+
+/// Velocities of some atoms, or of one twice, matter where they are used.
+#[test]
+fn incomplete_velocities_of_lammps() {
+    let accepted =
+        "accepted: one line for every atom of the section `Atoms`; or `velocities` that are \"thermal\" or \"rest\"";
+    for (line, expected) in [
+        ("3 0.5 0.5 0", vec!["found more than one velocity of atom 3", "found no velocity of atom 1"]),
+        ("8 0.5 0.5 0", vec!["found velocities of atom 8, not in `Atoms`", "found no velocity of atom 1"]),
+    ] {
+        let content = replaced(LAMMPS, "1 0.5 0 0", line);
+        let expected: Vec<String> =
+            expected.iter().map(|found| format!("state.file: `init`: {found}; {accepted}")).collect();
+        refused(&content, &[], &expected.iter().map(String::as_str).collect::<Vec<_>>());
+        for other in ["thermal", "rest"] {
+            let loaded = Place::of("init", &content).load("init", &[("/state/velocities", json!(other))]);
+            assert!(loaded.is_ok(), "{loaded:?}");
+        }
+    }
+    let endless = replaced(XYZ, "0 0 1\n", "0 0 inf\n");
+    assert!(Place::of("init", endless).load("init", &[("/state/velocities", json!("rest"))]).is_ok());
+}
+
+/// Forces act across every end of the box of a scene; a file without a box leaves it to the scene.
+#[test]
+fn boxes_that_are_not_periodic() {
+    let accepted = "accepted: a box that is periodic along every axis of the scene, as all are here: `pbc=\"T T T\"`";
+    for (periodic, axes) in [("F F F", "x, y and z"), ("F T T", "x"), ("False True False", "x and z")] {
+        refused(
+            &replaced(XYZ, "T T T", periodic),
+            &[],
+            &[&format!("state.file: `init`: found a box that is not periodic along {axes}; {accepted}")],
+        );
+    }
+    let boxless = replaced(&replaced(XYZ, "T T T", "F F F"), "Lattice=\"4 0 0 0 5 0 0 0 6\" ", "");
+    assert!(Place::of("init", boxless).load("init", &[("/space", json!({"box": [4, 4, 4]}))]).is_ok());
+    for unclear in ["T T", "T T maybe"] {
+        refused(
+            &replaced(XYZ, "T T T", unclear),
+            &[],
+            &[&format!(
+                "state.file: `init`, line 2: found pbc=\"{unclear}\"; accepted: `T` or `F` for each of three axes"
+            )],
+        );
+    }
+}
+
+/// A number that is refused is not compared with the file.
+#[test]
+fn mistakes_of_a_scene_are_said_alone() {
+    let place = Place::of("init", XYZ);
+    let told = |changes: &[(&str, Value)]| {
+        let found = place.problems("init", changes);
+        assert_eq!(found.len(), 1, "{found:?}");
+        found[0].split(':').next().unwrap_or_default().to_owned()
+    };
+    assert_eq!(told(&[("/space", json!({"box": [4, 5, -6]}))]), "space.box[2]");
+    assert_eq!(told(&[("/state/frame", json!("last"))]), "state.frame");
+    assert_eq!(
+        told(&[("/state/replicate", json!([2, 0, 1])), ("/space", json!({"box": [8, 5, 6]}))]),
+        "state.replicate[1]"
+    );
+    assert_eq!(told(&[("/particles", json!([{"species": "A", "count": -2}, {"species": "B"}]))]), "particles[0].count");
+    // What is wrong elsewhere hides nothing of the file.
+    let both = place.problems("init", &[("/temperature", json!(-1)), ("/state/frame", json!(7))]);
+    assert_eq!(both.len(), 2, "{both:?}");
 }
 
 #[test]

@@ -64,7 +64,7 @@ pub enum NoiseProcess {
     Literal,
 }
 
-/// A spring from every particle to where it started.
+/// A spring from every particle to where it started, or was tied in the run that it starts from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TetherInteraction {

@@ -21,7 +21,9 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
     if let Some(noise) = &particles.coloured_noise {
         state.holds = noise.first_holds(model, state.len());
     }
-    if particles.tether.is_some() {
+    if particles.tether.is_none() {
+        state.tethers = Vec::new();
+    } else if state.tethers.is_empty() {
         state.tethers.clone_from(&state.positions);
     }
     if particles.body_forces.is_some() {

@@ -4,7 +4,7 @@ use crate::families::{Angles, Bonds, Family, Model};
 use crate::scene::{FileStart, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
-use crate::state_file::{Links, Mistake, ParticleFile};
+use crate::state_file::{Links, Mistake, ParticleFile, open_regular_file};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
         return Some(path.join(FILE));
     }
     let mut start = Vec::new();
-    checkpoint::open_regular_file(path).ok()?.take(MAGIC.len() as u64).read_to_end(&mut start).ok()?;
+    open_regular_file(path).ok()?.take(MAGIC.len() as u64).read_to_end(&mut start).ok()?;
     (start == MAGIC).then(|| path.to_path_buf())
 }
 
@@ -66,8 +66,12 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
     }
     let mass = |particle: usize| species(particle).map_or(1.0, |species| species.mass);
     let velocity = |particle: usize| model.units.momentum(state.momenta[particle]).map(|part| part / mass(particle));
-    let memory = [StateArray::PairBaths, StateArray::PositionBaths, StateArray::BondBaths, StateArray::Holds];
-    let remembers = memory.iter().any(|array| state.length(*array) > 0);
+    let mut unused: Vec<String> = Vec::new();
+    for lost in StateArray::ALL.into_iter().filter(|array| state.length(*array) > 0).filter_map(lost) {
+        if !unused.iter().any(|known| known == lost) {
+            unused.push(lost.to_owned());
+        }
+    }
     Ok(ParticleFile {
         species: model.species.iter().map(|species| species.name.clone()).collect(),
         labelled: true,
@@ -83,9 +87,23 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
             "angle",
             model.particles().angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)),
         ),
-        unused: if remembers { vec!["what its baths remember".to_owned()] } else { Vec::new() },
+        tethers: state.tethers.iter().map(|tether| model.units.position(*tether)).collect(),
+        unused,
         ..ParticleFile::default()
     })
+}
+
+/// What another run cannot take from an array of a state.
+const fn lost(array: StateArray) -> Option<&'static str> {
+    match array {
+        // Tethers and images are taken; neighbours are listed anew, and what is put in is counted from the start of each run.
+        StateArray::Tethers | StateArray::Images | StateArray::Anchors | StateArray::Account => None,
+        StateArray::PairBaths | StateArray::PositionBaths | StateArray::BondBaths => Some("what its baths remember"),
+        StateArray::Holds => Some("its coloured noise"),
+        StateArray::Predicted => Some("the momenta that its integrator predicted"),
+        StateArray::Masses | StateArray::Energies => Some("masses and energies of single particles"),
+        StateArray::NodeMasses | StateArray::NodeBath => Some("what its mesh remembers"),
+    }
 }
 
 /// Bonds or angles by their kind, which trajectories name so too.

@@ -7,15 +7,11 @@ use super::{
     FileStart, Interaction, KeptStart, Placement, Problem, Problems, Scene, SceneError, SpeciesNames, StateFile,
     StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
-use crate::state_file::{self, Links, Mistake, ParticleFile, StateFileError};
+use crate::document::number_of_copies;
+use crate::state::MOST_PARTICLES;
+use crate::state_file::{self, Links, Mistake, ParticleFile, ROUNDING, StateFileError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-
-/// Part of an edge by which a box of the scene may differ from that of the file: files in single precision round.
-const ROUNDING: f64 = 1e-6;
-
-/// Particles are numbered by 32-bit words.
-const MOST_PARTICLES: u64 = u32::MAX as u64;
 
 /// Species are numbered by eight bits.
 const MOST_SPECIES: usize = 256;
@@ -85,8 +81,9 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
     };
     if let Some(index) = scene.interactions.iter().position(unsuited) {
         let found = format!("found in a scene with interactions[{index}], whose particles a file does not describe");
-        let accepted = "a state from a file in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `bonds` and `angles`: what other \
-                        particles consist of, such as masses of their own or energies, is in none of these files";
+        let accepted = "a state from a file in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `body-force`, `bonds` \
+                        and `angles`: what other particles consist of, such as masses of their own or energies, is in none of these \
+                        files";
         problems.push(Problem::new("state", found, accepted));
     }
     for (index, group) in scene.particles.iter().enumerate() {
@@ -136,14 +133,13 @@ impl Reader<'_> {
         let Some(lengths) = self.adopt_box(scene) else { return };
         let dimension = scene.space.lengths.len();
         refuse(self.state, self.file.mistakes(dimension, lengths), &mut self.problems);
-        let total =
-            self.state.copies().iter().fold(self.file.len() as u64, |all, copies| all.saturating_mul((*copies).into()));
+        if self.state.velocities == StateVelocities::File {
+            refuse(self.state, self.file.mistakes_of_velocities(dimension), &mut self.problems);
+        }
+        let copies = number_of_copies(self.state.copies());
+        let total = copies.saturating_mul(self.file.len() as u64);
         if total > MOST_PARTICLES {
-            let found = format!(
-                "found {total} particles in {} copies of {}",
-                total / self.file.len().max(1) as u64,
-                self.file.len()
-            );
+            let found = format!("found {total} particles in {copies} copies of {}", self.file.len());
             self.push(
                 "state.replicate",
                 found,
@@ -166,6 +162,7 @@ impl Reader<'_> {
             return;
         }
         self.note_what_is_not_used(scene, dimension);
+        self.note_missing_masses(scene, masses, &species);
         let start = places::start(self.file, self.state, &species, dimension, lengths, SpeciesNames::of(scene).count());
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
@@ -244,7 +241,7 @@ impl Reader<'_> {
 
     /// Numbers of particles; those that the scene gives have to be the same.
     fn adopt_counts(&mut self, scene: &mut Scene, species: &[Option<u8>]) {
-        let copies = self.state.copies().iter().fold(1, |all: u64, copies| all.saturating_mul((*copies).into()));
+        let copies = number_of_copies(self.state.copies());
         let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
         let mut counts = vec![0_u64; names.len()];
         for kind in &self.file.types {
@@ -303,6 +300,32 @@ impl Reader<'_> {
                     ));
                 }
             }
+        }
+    }
+
+    /// Says which species have no mass, neither in the file nor in the scene.
+    fn note_missing_masses(&mut self, scene: &Scene, given: &[bool], species: &[Option<u8>]) {
+        let names = SpeciesNames::of(scene);
+        let is_given = |name: &str| {
+            let mut groups = scene.particles.iter().zip(given);
+            groups.any(|(group, given)| group.species == name && *given)
+        };
+        let mut has_particles = vec![false; species.len()];
+        for kind in &self.file.types {
+            if let Some(has) = has_particles.get_mut(*kind as usize) {
+                *has = true;
+            }
+        }
+        let lacking: Vec<String> = (0..species.len())
+            .filter(|kind| has_particles[*kind] && self.file.masses.get(*kind).copied().flatten().is_none())
+            .filter_map(|kind| names.names().get(usize::from(species[kind]?)).copied())
+            .filter(|name| !is_given(name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        let (mass, be) = if lacking.len() == 1 { ("mass", "it is") } else { ("masses", "they are") };
+        if !lacking.is_empty() {
+            let (file, names) = (&self.state.file, lacking.join(", "));
+            self.notices.push(format!("`{file}` has no {mass} of {names}, and `particles` gives none: {be} 1"));
         }
     }
 
@@ -402,6 +425,10 @@ impl Reader<'_> {
         note("angles", angles);
         if self.state.velocities != StateVelocities::File && !self.file.velocities.is_empty() {
             unused.push("velocities".to_owned());
+        }
+        if !self.file.tethers.is_empty() && !scene.interactions.iter().any(|one| matches!(one, Interaction::Tether(_)))
+        {
+            unused.push("the points that its particles are tied to".to_owned());
         }
         if !self.file.images.is_empty() && self.file.images.iter().any(|image| *image != [0; 3]) {
             if scene.output.trajectory.is_none() {

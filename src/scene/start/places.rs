@@ -17,16 +17,12 @@ pub(super) fn start(
     species_of_scene: usize,
 ) -> FileStart {
     let copies = state.copies();
-    let fraction = |position: &[f64; 3]| -> [u32; 3] {
-        std::array::from_fn(|axis| {
-            if axis >= dimension {
-                return 0;
-            }
-            let turns = (position[axis] - file.origin[axis]) / lengths[axis];
-            ((turns - turns.floor()) * 4_294_967_296.0).round() as u64 as u32
-        })
+    let folded = |point: &[f64; 3]| -> [(u32, i32); 3] {
+        let fold = |axis: usize| fold((point[axis] - file.origin[axis]) / lengths[axis]);
+        std::array::from_fn(|axis| if axis < dimension { fold(axis) } else { (0, 0) })
     };
-    let positions: Vec<[u32; 3]> = file.positions.iter().map(fraction).collect();
+    let fractions = |points: &[[f64; 3]]| points.iter().map(|point| folded(point).map(|(part, _)| part)).collect();
+    let positions: Vec<[u32; 3]> = fractions(&file.positions);
     let species: Vec<u8> =
         file.types.iter().map(|kind| species.get(*kind as usize).copied().flatten().unwrap_or(0)).collect();
     let mut fastest = vec![0.0_f64; species_of_scene];
@@ -40,25 +36,32 @@ pub(super) fn start(
             *most = velocity.iter().fold(*most, |most: f64, part: &f64| most.max(part.abs()));
         }
     }
-    // A position that rounds to the upper face is at the lower one, of the next image.
     let image = |(image, position): (&[i32; 3], &[f64; 3])| -> [i32; 3] {
-        std::array::from_fn(|axis| {
-            let turns = (position[axis] - file.origin[axis]) / lengths[axis];
-            let rounded = i32::from((turns - turns.floor()) * 4_294_967_296.0 >= 4_294_967_295.5);
-            if axis < dimension { image[axis].saturating_add(turns.floor() as i32 + rounded) } else { 0 }
-        })
+        let folded = folded(position);
+        std::array::from_fn(|axis| if axis < dimension { image[axis].saturating_add(folded[axis].1) } else { 0 })
     };
     let images =
         if copies == [1; 3] { file.images.iter().zip(&file.positions).map(image).collect() } else { Vec::new() };
     let of_box = Cell { positions: &positions, species: &species, lengths, dimension, copies };
+    let bonds = file.bonds.iter().map(|links| of_box.links(links)).collect();
+    let angles = file.angles.iter().map(|links| of_box.links(links)).collect();
+    let tethers = fractions(&file.tethers);
     FileStart {
         copies,
+        species,
         fastest,
-        bonds: file.bonds.iter().map(|links| of_box.links(links)).collect(),
-        angles: file.angles.iter().map(|links| of_box.links(links)).collect(),
-        places: Some(FilePlaces { velocities, images, positions: positions.clone() }),
-        species: species.clone(),
+        bonds,
+        angles,
+        places: Some(FilePlaces { positions, velocities, images, tethers }),
     }
+}
+
+/// A coordinate in edges of the box: its fraction of an edge, in units of 2⁻³², and the whole turns round the box. What rounds to the
+/// upper face is at the lower one, one turn further.
+fn fold(edges: f64) -> (u32, i32) {
+    let turns = edges.floor();
+    let part = ((edges - turns) * 4_294_967_296.0).round();
+    if part < 4_294_967_296.0 { (part as u32, turns as i32) } else { (0, turns as i32 + 1) }
 }
 
 /// The box of a file with its particles.
@@ -130,6 +133,9 @@ pub(super) fn checksum(file: &ParticleFile) -> String {
     add("positions", bytemuck::cast_slice(&file.positions));
     add("velocities", bytemuck::cast_slice(&file.velocities));
     add("images", bytemuck::cast_slice(&file.images));
+    if !file.tethers.is_empty() {
+        add("tethers", bytemuck::cast_slice(&file.tethers));
+    }
     let masses: Vec<f64> = file.masses.iter().map(|mass| mass.unwrap_or(0.0)).collect();
     add("masses", bytemuck::cast_slice(&masses));
     for links in &file.bonds {
@@ -139,4 +145,26 @@ pub(super) fn checksum(file: &ParticleFile) -> String {
         add(&links.name, bytemuck::cast_slice(&links.members));
     }
     format!("{:08x}", sum.finalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_are_folded_into_the_box() {
+        for (edges, folded) in [
+            (0.0, (0, 0)),
+            (0.25, (1 << 30, 0)),
+            (-0.25, (3 << 30, -1)),
+            (2.75, (3 << 30, 2)),
+            (1.0, (0, 1)),
+            // The last unit, and half a unit more, which rounds to the upper face.
+            (1.0 - 2.0_f64.powi(-32), (u32::MAX, 0)),
+            (1.0 - 2.0_f64.powi(-33), (0, 1)),
+            (-2.0_f64.powi(-34), (0, 0)),
+        ] {
+            assert_eq!(fold(edges), folded, "{edges}");
+        }
+    }
 }
