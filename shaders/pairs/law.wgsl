@@ -2,11 +2,13 @@
 // All are even under exchange to the last bit, so that both ends round the same number. Defaults: off.
 //
 // Slot pairs/weight: the root of the weight omega(w), w = 1 - r/rc, and the coupling function phi with phi' = root of omega.
-// Variants standard (omega = w^2), general; the plan follows the exponent of the scene. No default.
+// Variants standard (omega = w^2), general; the plan follows the exponent of the scene. Where pairs of species differ in their
+// cutoff or exponent, w is that of the largest cutoff, and standard_of_pair or general_of_pair make of it what belongs to the pair
+// whose coefficients were looked up last: callers look them up first. No default.
 
 // Slot pairs/repulsion: the conservative force, all of it proportional to `c.repulsion`. `repulsion_impulse` is the impulse of half a
 // step at w, for steps; `repulsion_of` is what a report needs of the same force. A variant holds the whole law: potential, force
-// and curvature. The plan chooses `soft` if any repulsion is above zero.
+// and curvature. The plan chooses `soft` if any repulsion is above zero, `soft_of_pair` if cutoffs differ.
 struct Repulsion {
     impulse: f32,   // of half a step
     energy: f32,    // in halves of the cutoff, as an impulse

@@ -34,11 +34,11 @@ pub enum Interaction {
 }
 
 impl Interaction {
-    /// Range of the pair forces; zero where there are none.
+    /// Range of the forces of pairs that have none of their own, in a scene of this many species; zero where there are none.
     #[must_use]
-    pub fn cutoff(&self) -> f64 {
+    pub fn common_cutoff(&self, species: usize) -> f64 {
         match self {
-            Self::Dpd(dpd) => dpd.cutoff,
+            Self::Dpd(dpd) => dpd.common_cutoff(species).unwrap_or(0.0),
             _ => 0.0,
         }
     }

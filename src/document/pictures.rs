@@ -66,7 +66,7 @@ pub struct Snapshot {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 64, max = 8192))]
     pub height: Option<u32>,
-    /// Radius of the drawn discs in units of length; left out, a third of the cutoff.
+    /// Radius of the drawn discs in units of length; left out, a third of the largest cutoff.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,

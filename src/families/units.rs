@@ -47,7 +47,7 @@ pub(super) fn momentum_unit(
     if scale == 0.0
         && let Some(force) = pair_force
     {
-        scale = (heaviest * force.largest_repulsion() * force.cutoff).sqrt();
+        scale = (heaviest * force.largest_energy()).sqrt();
     }
     let lightest = species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(heaviest);
     let [mut forced, of_lightest] =

@@ -406,7 +406,7 @@ fn lightest(model: &Model) -> f64 {
     masses.fold(f64::INFINITY, f64::min)
 }
 
-/// A third of the cutoff, or, without one, of the distance between neighbours.
+/// A third of the largest cutoff, or, without one, of the distance between neighbours.
 fn radius(model: &Model) -> f64 {
     let spacing = || {
         let volume = model.units.volume() / model.particle_count().max(1) as f64;

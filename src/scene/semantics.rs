@@ -207,7 +207,9 @@ fn quantity(number: f64) -> String {
 
 fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
     families::check_interactions(scene, species, problems);
-    let cutoff = scene.interactions.iter().map(Interaction::cutoff).fold(0.0, f64::max);
+    // Cutoffs of single pairs of species are checked where they are given.
+    let common = scene.interactions.iter().map(|interaction| interaction.common_cutoff(species.count()));
+    let cutoff = common.fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < 2.0 * cutoff {
             let accepted = format!(

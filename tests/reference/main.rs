@@ -6,6 +6,7 @@ mod support;
 
 mod body_forces;
 mod bonds;
+mod pair_coefficients;
 mod particles;
 mod single_steps;
 mod smoothing;

@@ -15,6 +15,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
+use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
@@ -63,6 +64,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             noise_plans,
             bond_plans,
             voronoi_plans,
+            range_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -114,6 +116,49 @@ fn fluid_plans() -> Vec<(String, Plan)> {
                 let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
                 plans.extend(plans_of(&name, &scene, options));
             }
+        }
+    }
+    plans
+}
+
+/// The same where pairs of species have cutoffs or exponents of their own, with and without bonds and memory.
+fn range_plans() -> Vec<(String, Plan)> {
+    let ranges = [
+        r#""pairs":[{"between":["A","B"],"cutoff":0.7}]"#,
+        r#""pairs":[{"between":["A","B"],"weight_exponent":1}]"#,
+        r#""pairs":[{"between":["A","B"],"cutoff":1.2,"weight_exponent":0.5}]"#,
+    ];
+    let particles = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50}]"#,
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let bonds = r#",{"type":"bonds","exclude_repulsion":true,"potential":{"type":"harmonic","stiffness":9}}"#;
+    let mut plans = Vec::new();
+    for (range, particles) in ranges.iter().flat_map(|range| particles.map(|particles| (range, particles))) {
+        for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
+            for (integrator, bonds) in
+                INTEGRATORS.iter().flat_map(|integrator| ["", bonds].map(|bonds| (integrator, bonds)))
+            {
+                let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{range}}}{bonds}]"#);
+                let scene = fluid(&[&[force.as_str(), particles, space, integrator], SAMPLERS].concat());
+                for traversal in [Traversal::Rows, Traversal::Clusters] {
+                    let options = Options { traversal: Some(traversal), ..Options::default() };
+                    let name = format!("{force} {particles} {space} {integrator} {traversal:?}");
+                    plans.extend(plans_of(&name, &scene, options));
+                }
+                if !integrator.contains("splitting") {
+                    let options = Options { listed: true, ..Options::default() };
+                    plans.extend(plans_of(
+                        &format!("{force} {particles} {space} {integrator} listed"),
+                        &scene,
+                        options,
+                    ));
+                }
+            }
+            let memory = r#""bath":{"type":"memory","rate":3}"#;
+            let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{range},{memory}}}]"#);
+            let scene = fluid(&[force.as_str(), particles, space, INTEGRATORS[3]]);
+            plans.extend(plans_of(&format!("{force} {particles} {space}"), &scene, Options::default()));
         }
     }
     plans
@@ -825,7 +870,16 @@ fn host_structs_lie_as_in_the_shaders() {
             if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
                 // Coupled scenes add a row for the species by themselves.
-                let pairs = 2 * if plan.layout.of::<CoupledLayout>().is_some() { 3 } else { 2 };
+                // Pairs with ranges of their own have one row more each, after a row for each species.
+                let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
+                let rows = if ranges {
+                    2 + 1 + 2
+                } else if plan.layout.of::<CoupledLayout>().is_some() {
+                    3
+                } else {
+                    2
+                };
+                let pairs = 2 * rows;
                 // Body forces have one an axis and a species.
                 let entries = pairs + if plan.has_buffer(Array::Account) { 2 * 3 } else { 0 };
                 match texels(Array::Coefficients) {

@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DpdInteraction {
-    /// Range rc of all pair forces.
+    /// Range rc of the forces of every pair of species that has none of its own in `pairs`.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub cutoff: f64,
-    /// Exponent of the friction weight ω = (1 - r/rc)^exponent; 2 is the standard choice.
+    /// Exponent of the friction weight ω = (1 - r/rc)^exponent of every pair of species that has none of its own in `pairs`; 2 is the
+    /// standard choice.
     #[serde(default = "two")]
     #[schemars(range(min = 0.0))]
     pub weight_exponent: f64,
@@ -59,6 +60,36 @@ pub struct DpdPair {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub friction: Option<f64>,
+    /// Range rc; left out, that of the interaction. At least a hundredth of the largest in the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cutoff: Option<f64>,
+    /// Exponent of the friction weight; left out, that of the interaction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub weight_exponent: Option<f64>,
+}
+
+impl DpdInteraction {
+    /// The cutoff of the interaction, unless every pair of this many species has one of its own.
+    #[must_use]
+    pub fn common_cutoff(&self, species: usize) -> Option<f64> {
+        let mut own: Vec<[&str; 2]> =
+            self.pairs.iter().filter(|pair| pair.cutoff.is_some()).map(DpdPair::key).collect();
+        own.sort_unstable();
+        own.dedup();
+        (own.len() < species * (species + 1) / 2).then_some(self.cutoff)
+    }
+}
+
+impl DpdPair {
+    /// Both species, in alphabetical order.
+    #[must_use]
+    pub fn key(&self) -> [&str; 2] {
+        let mut key = [self.between[0].as_str(), self.between[1].as_str()];
+        key.sort_unstable();
+        key
+    }
 }
 
 fn default_skin() -> f64 {

@@ -16,8 +16,9 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
         "4 bytes a pair"
     };
     let text = format!(
-        "within {} of each other (cutoff {}, margin {}), capacity for {} {noun} a particle owns; {each}",
+        "within {} of each other ({}cutoff {}, margin {}), capacity for {} {noun} a particle owns; {each}",
         six_digits(force.cutoff + force.skin),
+        if force.cutoffs_differ() { "largest " } else { "" },
         six_digits(force.cutoff),
         six_digits(force.skin),
         list.capacity

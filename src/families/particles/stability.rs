@@ -10,7 +10,6 @@ use crate::document::{
     Bath, BondPotential, BondsInteraction, FileStart, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
 use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, Limit, Model, Particles};
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// B + W beyond which nothing is stable.
@@ -87,7 +86,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
     };
     let step = scene.time.step;
     // A pair alone relaxes exactly in one stage only.
-    let sparse = particles.splits(model) && !staged && model.mean_neighbours(force) < NEIGHBOURS;
+    let sparse = particles.splits(model) && !staged && model.most_neighbours(force) < NEIGHBOURS;
     if rate * step < most || sparse {
         return;
     }
@@ -266,22 +265,13 @@ fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
         return strains;
     };
     let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
-    let exponent = force.weight_exponent;
-    let first = 2.0 * force.cutoff / (exponent + 1.0);
-    let weight = match model.units.dimension {
-        1 => first,
-        2 => first * PI * force.cutoff / (exponent + 2.0),
-        _ => first * 4.0 * PI * force.cutoff.powi(2) / ((exponent + 2.0) * (exponent + 3.0)),
-    };
     let volume = model.units.volume();
     for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
-        let others = model
-            .species
-            .iter()
-            .enumerate()
-            .map(|(other, species)| force.bath_step(index, other, step).coupling * species.count as f64 / volume);
-        let mean =
-            others.sum::<f64>() * weight * step * step * inverse_mass(model, index) / model.units.dimension as f64;
+        let others = model.species.iter().enumerate().map(|(other, species)| {
+            let weight = force.weight_volume(index, other, model.units.dimension);
+            force.bath_step(index, other, step).coupling * species.count as f64 / volume * weight
+        });
+        let mean = others.sum::<f64>() * step * step * inverse_mass(model, index) / model.units.dimension as f64;
         let what = format!("the bath of pairs of `{}` with their neighbours", species.name);
         strains.push(Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what });
     }

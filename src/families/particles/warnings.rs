@@ -16,13 +16,12 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         warn_of_attraction(model, force, &mut warnings);
     }
     warn_of_rounding(model, &mut warnings);
+    if let Some(force) = &particles.pair_force {
+        warn_of_lengths(&scene.space.lengths, force, &mut warnings);
+    }
     for (index, interaction) in scene.interactions.iter().enumerate() {
-        match interaction {
-            Interaction::Dpd(dpd) => warn_of_lengths(&scene.space.lengths, dpd.cutoff, &mut warnings),
-            Interaction::ColouredNoise(noise) => {
-                warn_of_noise(noise, model, &format!("interactions[{index}]"), &mut warnings);
-            }
-            _ => {}
+        if let Interaction::ColouredNoise(noise) = interaction {
+            warn_of_noise(noise, model, &format!("interactions[{index}]"), &mut warnings);
         }
     }
     warn_of_places(scene, &mut warnings);
@@ -254,7 +253,8 @@ fn warn_of_noise(noise: &ColouredNoiseInteraction, model: &Model, path: &str, wa
     }
 }
 
-fn warn_of_lengths(lengths: &[f64], cutoff: f64, warnings: &mut Vec<Warning>) {
+fn warn_of_lengths(lengths: &[f64], force: &PairForce, warnings: &mut Vec<Warning>) {
+    let (cutoff, smallest) = (force.cutoff, force.smallest_cutoff());
     for (axis, length) in lengths.iter().enumerate() {
         let path = format!("space.box[{axis}]");
         if *length < 3.0 * cutoff {
@@ -264,9 +264,9 @@ fn warn_of_lengths(lengths: &[f64], cutoff: f64, warnings: &mut Vec<Warning>) {
             continue;
         }
         let resolution = length / 4_294_967_296.0;
-        if resolution > 1e-6 * cutoff {
+        if resolution > 1e-6 * smallest {
             let message = format!(
-                "positions are resolved to {resolution:.1e} on the edge of {length}, more than a millionth of the cutoff {cutoff}"
+                "positions are resolved to {resolution:.1e} on the edge of {length}, more than a millionth of the cutoff {smallest}"
             );
             warn(warnings, path, message);
         }

@@ -2,7 +2,6 @@
 
 use crate::families::Model;
 use crate::scene::{CountedQuantity, Histogram};
-use std::f64::consts::PI;
 
 /// The default range in typical magnitudes.
 const RANGE: f64 = 6.0;
@@ -34,27 +33,27 @@ fn velocity_scale(model: &Model) -> f64 {
 }
 
 /// A typical component of the acceleration, the largest of all species: √(kT/m) √(ω² + min(2Γ/dt, 4/dt²)), where the
-/// repulsion of evenly spread neighbours makes a frequency ω, ω² = Σ aρV(rc)/(d rc m), and their friction a rate
+/// repulsion of evenly spread neighbours makes a frequency ω, ω² = Σ aρV(rc)/rc / (d m), and their friction a rate
 /// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
 /// of the strongest contact.
 fn acceleration_scale(model: &Model) -> f64 {
     let Some(force) = model.particles().pair_force.as_ref() else { return 1.0 };
     let dimension = model.units.dimension as f64;
-    let (cutoff, exponent) = (force.cutoff, force.weight_exponent);
-    let (sphere, weight) = if model.units.dimension == 2 {
-        (PI * cutoff.powi(2), 2.0 * PI * cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)))
-    } else {
-        let weight = 8.0 * PI * cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0));
-        (4.0 / 3.0 * PI * cutoff.powi(3), weight)
-    };
     let step = model.time_step;
     let squares = model.species.iter().enumerate().filter(|(_, species)| species.count > 0).map(|(a, species)| {
         let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
             let others = model.species.iter().enumerate();
             others.map(|(b, other)| coefficient(b) * other.count as f64 / model.units.volume()).sum()
         };
-        let frequency = sum(&|b| force.repulsion(a, b).abs()) * sphere / (dimension * cutoff * species.mass);
-        let rate = sum(&|b| force.friction(a, b)) * weight / (dimension * species.mass);
+        // In units of what particles of the species have among themselves.
+        let axes = model.units.dimension;
+        let (sphere, weight, cutoff) =
+            (force.sphere(a, a, axes), force.weight_volume(a, a, axes), force.cutoff_between(a, a));
+        let of_repulsion =
+            |b: usize| force.repulsion(a, b).abs() * (force.cutoff_between(a, b) / cutoff).powi(axes as i32 - 1);
+        let frequency = sum(&of_repulsion) * sphere / (dimension * cutoff * species.mass);
+        let of_friction = |b: usize| force.friction(a, b) * (force.weight_volume(a, b, axes) / weight);
+        let rate = sum(&of_friction) * weight / (dimension * species.mass);
         model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))
     });
     let square = squares.fold(0.0, f64::max);

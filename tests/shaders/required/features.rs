@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::scenes::{
-    Change, add, at_rest, bathed, bonded, has_particles, heat, interaction, leapfrog, leave_out, no_analyses,
-    no_tracers, remove, set, set_last_group, set_scene, split_group, tracers, write,
+    Change, add, alike, at_rest, bathed, bonded, has_particles, heat, interaction, leapfrog, leave_out, no_analyses,
+    no_tracers, remove, set, set_last_group, set_pair, set_scene, split_group, tracers, write,
 };
 
 /// Something that a scene may have or not.
@@ -156,6 +156,27 @@ pub fn features() -> Vec<Feature> {
             more: &[],
             instead: &[],
             always: true,
+        },
+        Feature {
+            name: "cutoffs of pairs",
+            ground: alike,
+            with: |scene| set_pair(scene, json!({"cutoff": 0.8})),
+            without: nothing,
+            own: Some(&["file space/coefficients/ranges", "_of_pair"]),
+            more: &[],
+            instead: &[],
+            always: true,
+        },
+        Feature {
+            name: "weight exponents of pairs",
+            ground: alike,
+            with: |scene| set_pair(scene, json!({"weight_exponent": 1})),
+            without: nothing,
+            own: Some(&["file space/coefficients/ranges", "_of_pair"]),
+            more: &[],
+            instead: &[],
+            // Only where there is friction.
+            always: false,
         },
         Feature {
             name: "memory of pairs",

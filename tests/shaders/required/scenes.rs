@@ -109,6 +109,25 @@ pub fn split_group(scene: &mut Value) {
     groups.push(other);
 }
 
+/// Coefficients of the first species with the last, in place of those of any pairs. Nothing without a pair force.
+pub fn set_pair(scene: &mut Value, coefficients: Value) {
+    let groups = scene["particles"].as_array().unwrap();
+    let [Some(first), Some(last)] = [groups.first(), groups.last()] else { return };
+    let mut pair = coefficients;
+    pair["between"] = json!([first["species"], last["species"]]);
+    set(scene, "dpd", "pairs", json!([pair]));
+}
+
+/// Two species whose pairs all have the same forces.
+pub fn alike(scene: &mut Value) {
+    if interaction(scene, "dpd").is_some() {
+        set(scene, "dpd", "pairs", Value::Null);
+        set(scene, "dpd", "cutoff", Value::Null);
+        set(scene, "dpd", "weight_exponent", Value::Null);
+        split_group(scene);
+    }
+}
+
 /// Sets a key of the last group.
 pub fn set_last_group(scene: &mut Value, key: &str, value: Value) {
     if let Some(group) = scene["particles"].as_array_mut().unwrap().last_mut() {
@@ -190,6 +209,14 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
             "no pairs of species",
             |scene| set(scene, "dpd", "pairs", json!([])),
             |scene| set(scene, "dpd", "pairs", Value::Null),
+        ),
+        (
+            "a cutoff and an exponent that are those of all pairs",
+            |scene| {
+                alike(scene);
+                set_pair(scene, json!({"cutoff": 1, "weight_exponent": 2}));
+            },
+            alike,
         ),
         (
             "no prediction",

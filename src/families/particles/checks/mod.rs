@@ -456,18 +456,58 @@ fn check_presence(
     problems.push(Problem::new(path, found, accepted));
 }
 
-pub(crate) fn check_pairs(species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
+/// The largest cutoff over the smallest that a pair of species may have.
+const MOST_DIFFERENT: f64 = 100.0;
+
+pub(crate) fn check_pairs(
+    scene: &Scene,
+    species: &SpeciesNames<'_>,
+    dpd: &DpdInteraction,
+    path: &str,
+    problems: &mut Problems,
+) {
+    check_cutoffs(scene, species, dpd, path, problems);
     let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
     for (index, pair) in dpd.pairs.iter().enumerate() {
         let path = format!("{path}.pairs[{index}]");
         for (end, name) in pair.between.iter().enumerate() {
             species.check(name, &format!("{path}.between[{end}]"), problems);
         }
-        let mut key = [pair.between[0].as_str(), pair.between[1].as_str()];
-        key.sort_unstable();
+        let key = pair.key();
         if let Some(earlier) = defined.insert(key, index) {
             let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
             problems.push(Problem::new(path, found, "every pair of species once, in either order"));
         }
+    }
+}
+
+/// Cutoffs that pairs of species have of their own.
+fn check_cutoffs(scene: &Scene, species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
+    let common = dpd.common_cutoff(species.count());
+    let largest = dpd.pairs.iter().filter_map(|pair| pair.cutoff).fold(common.unwrap_or(0.0), f64::max);
+    let least = largest / MOST_DIFFERENT;
+    let half = half_box(scene);
+    for (index, pair) in dpd.pairs.iter().enumerate() {
+        let Some(cutoff) = pair.cutoff else { continue };
+        let path = format!("{path}.pairs[{index}].cutoff");
+        let [first, second] = pair.key();
+        let found = format!("found {cutoff} between `{first}` and `{second}`");
+        if cutoff > half {
+            let accepted = format!(
+                "at most {half}, half the shortest box edge: beyond it a particle would meet two images of a neighbour"
+            );
+            problems.push(Problem::new(path, found, accepted));
+        } else if cutoff < least {
+            let accepted = format!(
+                "at least {least}, a hundredth of the largest cutoff, {largest}: cells are as wide as that, and distances are \
+                 resolved to a small part of it"
+            );
+            problems.push(Problem::new(path, found, accepted));
+        }
+    }
+    if let Some(cutoff) = common.filter(|cutoff| *cutoff < least) {
+        let found = format!("found {cutoff} between species that have no cutoff of their own");
+        let accepted = format!("at least {least}, a hundredth of the largest cutoff, {largest}, in `pairs`");
+        problems.push(Problem::new(format!("{path}.cutoff"), found, accepted));
     }
 }

@@ -3,14 +3,13 @@
 use crate::document::{Bath, DpdInteraction};
 use crate::families::BathStep;
 use crate::families::Species;
+use std::f64::consts::PI;
 
 /// Soft repulsion, friction and noise between all pairs of species.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairForce {
-    /// Range of the force.
+    /// The largest range of any pair of species that has a force.
     pub cutoff: f64,
-    /// Exponent of the friction weight ω = (1 - r/rc)^exponent.
-    pub weight_exponent: f64,
     /// Temperature kT of the bath.
     pub temperature: f64,
     /// The bath of every pair.
@@ -20,6 +19,8 @@ pub struct PairForce {
     species: usize,
     repulsion: Vec<f64>,
     friction: Vec<f64>,
+    cutoffs: Vec<f64>,
+    exponents: Vec<f64>,
 }
 
 impl PairForce {
@@ -27,13 +28,14 @@ impl PairForce {
         let count = species.len();
         let mut force = Self {
             cutoff: interaction.cutoff,
-            weight_exponent: interaction.weight_exponent,
             temperature: interaction.bath.temperature(temperature),
             bath: interaction.bath.clone(),
             skin: interaction.skin,
             species: count,
             repulsion: vec![interaction.repulsion; count * count],
             friction: vec![interaction.friction; count * count],
+            cutoffs: vec![interaction.cutoff; count * count],
+            exponents: vec![interaction.weight_exponent; count * count],
         };
         for pair in &interaction.pairs {
             let index = |name: &str| species.iter().position(|species| species.name == name);
@@ -45,9 +47,35 @@ impl PairForce {
                 if let Some(friction) = pair.friction {
                     force.friction[entry] = friction;
                 }
+                if let Some(cutoff) = pair.cutoff {
+                    force.cutoffs[entry] = cutoff;
+                }
+                if let Some(exponent) = pair.weight_exponent {
+                    force.exponents[entry] = exponent;
+                }
             }
         }
+        force.unite_what_does_not_act();
         force
+    }
+
+    /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without a force, which need none.
+    fn unite_what_does_not_act(&mut self) {
+        let acts = |entry: &usize| self.repulsion[*entry] != 0.0 || self.bath.acts(self.friction[*entry]);
+        let rubs = |entry: &usize| self.bath.acts(self.friction[*entry]);
+        let (acting, still): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(acts);
+        let (rubbing, smooth): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(rubs);
+        if let Some(largest) = acting.iter().map(|entry| self.cutoffs[*entry]).reduce(f64::max) {
+            self.cutoff = largest;
+            for entry in still {
+                self.cutoffs[entry] = largest;
+            }
+        }
+        if let Some(first) = rubbing.first().map(|entry| self.exponents[*entry]) {
+            for entry in smooth {
+                self.exponents[entry] = first;
+            }
+        }
     }
 
     /// No force: nothing reaches further than half the shortest edge.
@@ -55,13 +83,14 @@ impl PairForce {
         let zeros = vec![0.0; species * species];
         Self {
             cutoff: 0.5 * units.shortest_length(),
-            weight_exponent: 2.0,
             temperature: 0.0,
             bath: Bath::default(),
             skin: 0.0,
             species,
             repulsion: zeros.clone(),
             friction: zeros,
+            cutoffs: vec![0.5 * units.shortest_length(); species * species],
+            exponents: vec![2.0; species * species],
         }
     }
 
@@ -69,6 +98,66 @@ impl PairForce {
     #[must_use]
     pub fn repulsion(&self, a: usize, b: usize) -> f64 {
         self.repulsion[a * self.species + b]
+    }
+
+    /// Range of the force between two species, at most [`Self::cutoff`].
+    ///
+    /// ```
+    /// use mesoscope::{families::Model, scene};
+    ///
+    /// let own = r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":1.5,"weight_exponent":1}]"#;
+    /// let model = Model::new(&scene::load("binary-mixture", &[own.to_owned()])?);
+    /// let force = model.particles().pair_force.as_ref();
+    /// let cutoffs = force.map(|force| [force.cutoff_between(0, 0), force.cutoff_between(0, 1), force.cutoff]);
+    /// assert_eq!(cutoffs, Some([1.0, 1.5, 1.5]));
+    /// let exponents = force.map(|force| [force.weight_exponent(0, 0), force.weight_exponent(0, 1)]);
+    /// assert_eq!(exponents, Some([2.0, 1.0]));
+    /// # Ok::<(), mesoscope::scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn cutoff_between(&self, a: usize, b: usize) -> f64 {
+        self.cutoffs[a * self.species + b]
+    }
+
+    /// Exponent of the friction weight ω = (1 - r/rc)^exponent of two species.
+    #[must_use]
+    pub fn weight_exponent(&self, a: usize, b: usize) -> f64 {
+        self.exponents[a * self.species + b]
+    }
+
+    /// Whether forces of pairs of species have different ranges.
+    #[must_use]
+    pub fn cutoffs_differ(&self) -> bool {
+        self.cutoffs.iter().any(|cutoff| *cutoff != self.cutoff)
+    }
+
+    /// The exponent of the friction weight that all pairs of species have, if they have one.
+    #[must_use]
+    pub fn common_weight_exponent(&self) -> Option<f64> {
+        let first = self.exponents.first().copied().unwrap_or(2.0);
+        self.exponents.iter().all(|exponent| *exponent == first).then_some(first)
+    }
+
+    /// Volume of the sphere (disc, line) within the cutoff of two species.
+    #[must_use]
+    pub(crate) fn sphere(&self, a: usize, b: usize, dimension: usize) -> f64 {
+        let cutoff = self.cutoff_between(a, b);
+        match dimension {
+            1 => 2.0 * cutoff,
+            2 => PI * cutoff.powi(2),
+            _ => 4.0 / 3.0 * PI * cutoff.powi(3),
+        }
+    }
+
+    /// The friction weight ω of two species integrated over that sphere.
+    #[must_use]
+    pub(crate) fn weight_volume(&self, a: usize, b: usize, dimension: usize) -> f64 {
+        let (cutoff, exponent) = (self.cutoff_between(a, b), self.weight_exponent(a, b));
+        match dimension {
+            1 => 2.0 * cutoff / (exponent + 1.0),
+            2 => 2.0 * PI * cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
+            _ => 8.0 * PI * cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
+        }
     }
 
     /// rc |V''| of the conservative force between two species, at most.
@@ -111,6 +200,18 @@ impl PairForce {
     #[must_use]
     pub fn largest_repulsion(&self) -> f64 {
         self.repulsion.iter().fold(0.0, |most: f64, a| most.max(a.abs()))
+    }
+
+    /// The largest magnitude of a rc, twice the energy of two particles in one place.
+    #[must_use]
+    pub fn largest_energy(&self) -> f64 {
+        self.repulsion.iter().zip(&self.cutoffs).fold(0.0, |most: f64, (a, cutoff)| most.max(a.abs() * cutoff))
+    }
+
+    /// The smallest range of any pair of species that has a force.
+    #[must_use]
+    pub fn smallest_cutoff(&self) -> f64 {
+        self.cutoffs.iter().fold(self.cutoff, |least: f64, cutoff| least.min(*cutoff))
     }
 
     /// The largest friction.

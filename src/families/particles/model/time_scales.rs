@@ -2,7 +2,6 @@
 
 use super::PairForce;
 use crate::families::{Model, Species};
-use std::f64::consts::PI;
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
 const FRICTION_LIMIT: f64 = 0.25;
@@ -23,15 +22,14 @@ impl Model {
     /// The largest mean friction rate of any species that has particles, and its index: Γ = Σ γρ \[ω\] / (d·m), with \[ω\]
     /// the weight integrated over the sphere (disc).
     pub(crate) fn largest_friction_rate(&self, force: &PairForce) -> (f64, usize) {
-        let exponent = force.weight_exponent;
-        let weight = match self.units.dimension {
-            1 => 2.0 * force.cutoff / (exponent + 1.0),
-            2 => 2.0 * PI * force.cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
-            _ => 8.0 * PI * force.cutoff.powi(3) / ((exponent + 1.0) * (exponent + 2.0) * (exponent + 3.0)),
-        };
+        let dimension = self.units.dimension;
         self.largest(|index| {
-            let sum: f64 = self.densities().map(|(other, density)| force.friction(index, other) * density).sum();
-            sum * weight / (self.units.dimension as f64 * self.species[index].mass)
+            // In units of the weight of the species with itself.
+            let unit = force.weight_volume(index, index, dimension);
+            let of_pair = |(other, density): (usize, f64)| {
+                force.friction(index, other) * density * (force.weight_volume(index, other, dimension) / unit)
+            };
+            self.densities().map(of_pair).sum::<f64>() * unit / (dimension as f64 * self.species[index].mass)
         })
     }
 
@@ -42,21 +40,26 @@ impl Model {
 
     /// The largest frequency of particles in a fluid, and the species that has it.
     ///
-    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc) / (d·rc·m), from the radial parts of their force constants a/rc.
+    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc)/rc / (d·m), from the radial parts of their force constants a/rc.
     /// The stiffest mode is that of a crowd of some tens of particles. For springs in random directions between z neighbours it
     /// is stiffer by (1 + √(2d/z))², the edge of the spectrum of Marchenko and Pastur, doi:10.1070/SM1967v001n04ABEH001994; repulsion
     /// makes the crowds fewer, and of the root a part is left.
     pub(crate) fn largest_repulsion_frequency(&self, force: &PairForce) -> (f64, usize) {
-        let sphere = self.sphere(force);
-        let neighbours = self.mean_neighbours(force);
-        if neighbours == 0.0 {
-            return (0.0, 0);
-        }
-        let crowded = 1.0 + CROWDING * (2.0 * self.units.dimension as f64 / neighbours).sqrt();
+        let dimension = self.units.dimension;
         self.largest(|index| {
-            let stiffness: f64 = self.densities().map(|(other, density)| force.stiffness(index, other) * density).sum();
-            let mass = self.species[index].mass;
-            crowded * (stiffness * sphere / (self.units.dimension as f64 * force.cutoff * mass)).sqrt()
+            let neighbours = self.neighbours(force, index);
+            if neighbours == 0.0 {
+                return 0.0;
+            }
+            let crowded = 1.0 + CROWDING * (2.0 * dimension as f64 / neighbours).sqrt();
+            // V(rc)/rc in units of that of the species with itself.
+            let (unit, length) = (force.sphere(index, index, dimension), force.cutoff_between(index, index));
+            let of_pair = |(other, density): (usize, f64)| {
+                let relative = force.cutoff_between(index, other) / length;
+                force.stiffness(index, other) * density * relative.powi(dimension as i32 - 1)
+            };
+            let stiffness: f64 = self.densities().map(of_pair).sum();
+            crowded * (stiffness * unit / (dimension as f64 * length * self.species[index].mass)).sqrt()
         })
     }
 
@@ -68,18 +71,17 @@ impl Model {
         (self.friction_limit() / rate).min(FREQUENCY_LIMIT / frequency)
     }
 
-    /// Neighbours within the cutoff of evenly spread particles.
-    pub(crate) fn mean_neighbours(&self, force: &PairForce) -> f64 {
-        self.densities().map(|(_, density)| density).sum::<f64>() * self.sphere(force)
+    /// Neighbours within their cutoffs of evenly spread particles, for the species that has most.
+    pub(crate) fn most_neighbours(&self, force: &PairForce) -> f64 {
+        self.largest(|index| self.neighbours(force, index)).0
     }
 
-    /// Volume of the sphere within the cutoff.
-    fn sphere(&self, force: &PairForce) -> f64 {
-        match self.units.dimension {
-            1 => 2.0 * force.cutoff,
-            2 => PI * force.cutoff.powi(2),
-            _ => 4.0 / 3.0 * PI * force.cutoff.powi(3),
-        }
+    /// Neighbours of a particle of a species within their cutoffs, of evenly spread particles.
+    fn neighbours(&self, force: &PairForce, index: usize) -> f64 {
+        let dimension = self.units.dimension;
+        let unit = force.sphere(index, index, dimension);
+        self.densities().map(|(other, density)| density * (force.sphere(index, other, dimension) / unit)).sum::<f64>()
+            * unit
     }
 
     fn densities(&self) -> impl Iterator<Item = (usize, f64)> {

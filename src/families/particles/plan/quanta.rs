@@ -1,7 +1,7 @@
 //! The integer units in which a report sums what it observes of particles.
 
 use super::bonded::stiffest_spring;
-use crate::families::Model;
+use crate::families::{Model, PairForce};
 use crate::plan::Quanta;
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
@@ -19,7 +19,7 @@ pub(crate) fn quanta(model: &Model) -> Quanta {
     let thermal = typical_momentum * typical_momentum <= 4.0 * heaviest * model.temperature;
     let kinetic = typical_momentum * typical_momentum / if thermal { heaviest } else { lightest };
     let cutoff = model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
-    let repulsive = model.particles().pair_force.as_ref().map_or(0.0, |force| force.largest_repulsion() * cutoff);
+    let repulsive = model.particles().pair_force.as_ref().map_or(0.0, PairForce::largest_energy);
     let strongest = kinetic.max(repulsive);
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let energy = power_of_two(kinetic) * 2_f64.powi(-32);

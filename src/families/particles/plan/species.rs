@@ -1,5 +1,6 @@
 //! How kernels know what species are like: by constants where there are few, else by a table.
 
+use super::law::have_ranges;
 use crate::families::Model;
 use crate::shaders::Choices;
 use crate::shaders::space::{Coefficients, Mass, MassOfParticle};
@@ -10,13 +11,17 @@ pub(crate) struct Species {
     count: usize,
     /// The mass that all particles have; nothing if they differ or some are held.
     mass: Option<f64>,
+    /// Whether pairs of species have cutoffs or exponents of their own.
+    ranges: bool,
 }
 
 impl Species {
     pub fn of(model: &Model) -> Self {
         let mut masses = model.species.iter().map(|species| (!species.fixed).then_some(species.mass));
         let first = masses.next().unwrap_or(Some(1.0));
-        Self { count: model.species.len(), mass: first.filter(|mass| masses.all(|other| other == Some(*mass))) }
+        let mass = first.filter(|mass| masses.all(|other| other == Some(*mass)));
+        let ranges = model.particles().pair_force.as_ref().is_some_and(have_ranges);
+        Self { count: model.species.len(), mass, ranges }
     }
 
     /// Whether there is a table: all coefficients of a single species that can move are constants.
@@ -36,7 +41,11 @@ impl Species {
 
     /// Where kernels find masses and coefficients.
     pub fn choices(self) -> Choices {
-        let coefficients = if self.have_table() { Coefficients::Table } else { Coefficients::Single };
+        let coefficients = match (self.have_table(), self.ranges) {
+            (false, _) => Coefficients::Single,
+            (true, false) => Coefficients::Table,
+            (true, true) => Coefficients::Ranges,
+        };
         Choices::new()
             .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
             .with(MassOfParticle::OfSpecies)

@@ -71,7 +71,7 @@ pub(super) fn half_kicks(
             let species = [pair.first, pair.second].map(|end| state.species[end] as usize);
             let step = force.bath_step(species[0], species[1], model.time_step);
             let change = motion.approach(pair).map_or_else(
-                || coupling(force, pair.distance) - coupling(force, motion.distance_before(pair)),
+                || coupling(force, species, pair.distance) - coupling(force, species, motion.distance_before(pair)),
                 |approach| forces.weight * approach,
             );
             // The noise of a pair pushes it apart; that of its bath would pull.
@@ -83,10 +83,10 @@ pub(super) fn half_kicks(
     virial
 }
 
-/// φ(r), whose derivative is √ω within the cutoff; zero from there on.
-pub(super) fn coupling(force: &PairForce, distance: f64) -> f64 {
-    let power = force.weight_exponent / 2.0 + 1.0;
-    -force.cutoff / power * (1.0 - distance / force.cutoff).max(0.0).powf(power)
+/// φ(r) of two species, whose derivative is √ω within their cutoff; zero from there on.
+pub(super) fn coupling(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> f64 {
+    let (cutoff, power) = (force.cutoff_between(a, b), force.weight_exponent(a, b) / 2.0 + 1.0);
+    -cutoff / power * (1.0 - distance / cutoff).max(0.0).powf(power)
 }
 
 #[cfg(test)]
@@ -98,17 +98,18 @@ mod tests {
 
     #[test]
     fn the_coupling_has_the_weight_as_its_derivative() {
-        let scene = scene::load("dpd-fluid", &[]).unwrap();
-        let mut force = Model::new(&scene).particles().pair_force.clone().unwrap();
-        force.cutoff = 1.5;
         for weight_exponent in [0.5, 1.0, 2.0, 3.0] {
-            force.weight_exponent = weight_exponent;
+            let own = r#"[{"between":["A","A"],"cutoff":1.5,"weight_exponent":EXPONENT}]"#
+                .replace("EXPONENT", &weight_exponent.to_string());
+            let scene = scene::load("dpd-fluid", &[format!("interactions.0.pairs={own}")]).unwrap();
+            let force = Model::new(&scene).particles().pair_force.clone().unwrap();
+            let phi = |distance: f64| coupling(&force, [0, 0], distance);
             for distance in [0.1, 0.7, 1.4] {
-                let slope = (coupling(&force, distance + 1e-6) - coupling(&force, distance - 1e-6)) / 2e-6;
+                let slope = (phi(distance + 1e-6) - phi(distance - 1e-6)) / 2e-6;
                 let weight = (1.0_f64 - distance / 1.5).powf(weight_exponent / 2.0);
                 assert!((slope - weight).abs() < 1e-8, "{weight_exponent} {distance}: {slope} {weight}");
             }
-            assert_eq!(coupling(&force, 1.6), 0.0);
+            assert_eq!(phi(1.6), 0.0);
         }
     }
 }

@@ -151,15 +151,19 @@ pub(super) struct Forces {
 }
 
 impl Forces {
-    /// The forces between two particles within the cutoff; none at all without a pair force.
+    /// The forces between two particles; none at all without a pair force, and beyond the cutoff of their species.
     pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
         let Some(force) = model.particles().pair_force.as_ref() else { return Self::default() };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];
-        let closeness = 1.0 - pair.distance / force.cutoff;
+        let cutoff = force.cutoff_between(a, b);
+        if pair.distance >= cutoff {
+            return Self::default();
+        }
+        let (closeness, exponent) = (1.0 - pair.distance / cutoff, force.weight_exponent(a, b));
         Self {
             potential: Potential::of_pair(force, [a, b], pair.distance),
             friction: force.friction(a, b),
-            weight: if force.weight_exponent == 2.0 { closeness } else { closeness.powf(force.weight_exponent / 2.0) },
+            weight: if exponent == 2.0 { closeness } else { closeness.powf(exponent / 2.0) },
         }
     }
 }

@@ -16,17 +16,14 @@ pub(super) struct Potential {
 }
 
 impl Potential {
-    /// The conservative force between two particles within the cutoff.
+    /// The conservative force between particles of two species within their cutoff.
     pub fn of_pair(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> Self {
         // V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.
         let repulsion = force.repulsion(a, b);
-        let closeness = 1.0 - distance / force.cutoff;
+        let cutoff = force.cutoff_between(a, b);
+        let closeness = 1.0 - distance / cutoff;
         let magnitude = repulsion * closeness;
-        Self {
-            energy: 0.5 * force.cutoff * magnitude * closeness,
-            slope: -magnitude,
-            curvature: repulsion / force.cutoff,
-        }
+        Self { energy: 0.5 * cutoff * magnitude * closeness, slope: -magnitude, curvature: repulsion / cutoff }
     }
 
     /// Of a bond of some length; none for a length that is out of reach.

@@ -149,7 +149,7 @@ impl Builder<'_> {
             (Constant::Quantities, self.quantities() as f64),
             (Constant::Species, model.species.len() as f64),
             (Constant::Cutoff, cutoff),
-            (Constant::WeightRootExponent, 0.5 * self.force.weight_exponent),
+            (Constant::WeightRootExponent, 0.5 * self.force.common_weight_exponent().unwrap_or(0.0)),
             (Constant::DisplacementLimit, reach),
             (Constant::PairEnergy, to_force * cutoff / (2.0 * quanta.pair_energy)),
             (Constant::PairVirial, to_force / quanta.pair_energy),

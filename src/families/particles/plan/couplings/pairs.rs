@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
-use crate::families::particles::plan::law::law;
+use crate::families::particles::plan::law::{law, ranges};
 use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {
@@ -94,7 +94,7 @@ impl Builder<'_> {
     }
 
     /// The table of coefficients where there are several species: for every pair of species what [`Self::pair_impulses`]
-    /// gives and the inverse mass of the second, then for every species the position bath.
+    /// gives and the inverse mass of the second, then for every species the position bath, then what pairs have of their own.
     pub(super) fn coefficient_table(&self) -> Vec<f32> {
         let count = self.model.species.len();
         let mut table = Vec::with_capacity(4 * count * (count + 1));
@@ -108,6 +108,7 @@ impl Builder<'_> {
             table.extend(self.position_coefficients(species).map(|value| value as f32));
             table.push(0.0);
         }
+        table.extend(ranges(self.force, count));
         table
     }
 }

@@ -3,7 +3,7 @@
 mod bonded;
 
 use super::external;
-use super::law::law;
+use super::law::{law, ranges};
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
@@ -139,7 +139,7 @@ impl Builder<'_> {
         let cutoff = self.force.cutoff;
         let Quanta { energy, pair_energy, force_squared, curvature, .. } = self.plan.quanta;
         let to_force = units.momentum / half;
-        let exponent = self.force.weight_exponent;
+        let exponent = self.force.common_weight_exponent().unwrap_or(0.0);
         let capacity = self.frame_capacity();
         let mut constants = self.grid.constants(&units).to_vec();
         constants.extend([
@@ -537,6 +537,12 @@ impl Builder<'_> {
                     table.extend(self.impulses(a, b).map(|value| value as f32));
                     table.push((1.0 / self.model.species[b].mass) as f32);
                 }
+            }
+            let ranges = ranges(self.force, count);
+            if !ranges.is_empty() {
+                // In the place of the baths of positions, which no such plan has.
+                table.resize(4 * count * (count + 1), 0.0);
+                table.extend(ranges);
             }
             external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
             table.extend(external::entries(self.model));

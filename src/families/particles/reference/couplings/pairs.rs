@@ -33,14 +33,16 @@ pub(super) fn kick(
         if pair.distance >= force.cutoff {
             continue;
         }
-        let step = force.bath_step(state.species[first] as usize, state.species[second] as usize, model.time_step);
+        let species = [first, second].map(|end| state.species[end] as usize);
+        let step = force.bath_step(species[0], species[1], model.time_step);
         let gaussian = noise::gaussian(noise::words(model.generator, key, [memory.first, memory.second]));
         let steps = (state.step as u32).wrapping_sub(memory.stamp);
         let remembered = f64::from(f32::from_bits(memory.memory));
         // At step 0 the pair has always been where it is, and its bath is at rest.
-        let change = if state.step == 0 { 0.0 } else { coupling(force, pair.distance) };
+        let coupled = coupling(force, species, pair.distance);
+        let change = if state.step == 0 { 0.0 } else { coupled };
         let value = bath::recalled(&step, force.temperature, remembered, steps, change, gaussian);
-        let kept = step.persistence * value - step.response() * coupling(force, pair.distance);
+        let kept = step.persistence * value - step.response() * coupled;
         (memory.memory, memory.stamp) = ((kept as f32).to_bits(), state.step as u32);
         let forces = Forces::between(model, &state.species, &pair);
         let repulsion = if memory.spared == 1 { 0.0 } else { forces.potential.force() };
