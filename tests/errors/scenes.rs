@@ -175,6 +175,75 @@ fn species_and_pairs() {
 }
 
 #[test]
+fn coefficients_of_pairs() {
+    let pair = |coefficients: &str| {
+        format!(
+            r#"interactions.0.pairs=[{{"between":["water","water"]}},{{"between":["water","oil"],{coefficients}}}]"#
+        )
+    };
+    for exponent in ["-1", "101", "null", "\"two\""] {
+        if exponent == "null" {
+            FLUID.accepted(&[&pair(r#""weight_exponent":null"#)]);
+            continue;
+        }
+        let path = "interactions[0].pairs[1].weight_exponent: found";
+        FLUID.refused_with(&[&pair(&format!(r#""weight_exponent":{exponent}"#))], &[path, "100"]);
+    }
+    FLUID.refused_with(&["interactions.0.weight_exponent=101"], &["interactions[0].weight_exponent: found 101", "100"]);
+    for cutoff in ["0", "-1"] {
+        FLUID.refused_with(&[&pair(&format!(r#""cutoff":{cutoff}"#))], &["interactions[0].pairs[1].cutoff: found"]);
+    }
+    FLUID.refused_with(
+        &[&pair(r#""cutoff":5.5"#)],
+        &[
+            "interactions[0].pairs[1].cutoff: found 5.5 between `oil` and `water`",
+            "at most 5, half the shortest box edge: beyond it a particle would meet two images of a neighbour",
+        ],
+    );
+    FLUID.accepted(&[&pair(r#""cutoff":5"#)]);
+    FLUID.refused_with(
+        &[&pair(r#""cutoff":0.009"#)],
+        &["interactions[0].pairs[1].cutoff: found 0.009 between `oil` and `water`", "at least 0.01, a hundredth"],
+    );
+    let all = |cutoff: &str| {
+        ["water", "oil"].map(|name| format!(r#"{{"between":["{name}","{name}"],"cutoff":{cutoff}}}"#)).join(",")
+    };
+    // Where every pair has a cutoff of its own, that of the interaction says nothing.
+    let own = format!(r#"interactions.0.pairs=[{},{{"between":["oil","water"],"cutoff":2}}]"#, all("3"));
+    FLUID.accepted(&[&own, "interactions.0.cutoff=6"]);
+    FLUID.accepted(&[&own, "interactions.0.cutoff=0.01"]);
+    let two_of_three = format!("interactions.0.pairs=[{}]", all("3"));
+    FLUID.refused_with(&[&two_of_three, "interactions.0.cutoff=0.02"], &["interactions[0].cutoff: found 0.02"]);
+    FLUID.refused_with(
+        &[&two_of_three, "interactions.0.cutoff=6", "space.box=[10,20,20]"],
+        &["space.box[0]: found 10; accepted: at least 12, two cutoffs of 6"],
+    );
+}
+
+#[test]
+fn laws_of_the_time_step_see_the_coefficients_of_each_pair() {
+    let pairs = |water: &str, unlike: &str| {
+        format!(
+            r#"interactions.0.pairs=[{{"between":["water","water"],{water}}},{{"between":["oil","oil"],"friction":0,"repulsion":0}},
+                {{"between":["water","oil"],"cutoff":1.5,"weight_exponent":1,{unlike}}}]"#
+        )
+    };
+    // Γ of water is Σ γρ[ω]/3 with [ω] = 8πrc³/((s+1)(s+2)(s+3)): (7500·.3·8π/60 + 3000·.3·8π·3.375/24)/3.
+    let found = FLUID.warnings(&[&pairs(r#""friction":7500"#, r#""friction":3000"#)]);
+    assert!(found.len() == 1 && found[0].contains("`water` at a mean rate of 1374"), "{found:?}");
+    // ω² of evenly spread neighbours is Σ aρV/rc / 3 = (250000·.3·4.19 + 100000·.3·14.14/1.5)/3; 5.50 neighbours make it 1.784 times
+    // as large.
+    let found = FLUID.warnings(&[&pairs(r#""repulsion":250000"#, r#""repulsion":100000"#)]);
+    assert!(found.len() == 1 && found[0].contains("`water` at a frequency of about 795"), "{found:?}");
+    let narrow = pairs(r#""cutoff":0.5"#, r#""repulsion":1"#);
+    let found = FLUID.warnings(&[&narrow, "space.box=[10,10,4]"]);
+    assert!(
+        found.len() == 1 && found[0].contains("space.box[2]: the edge of 4 is under three cutoffs (4.5)"),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn numbers_of_particles() {
     FLUID.refused_with(&["particles.0.number_density=3"], &["particles[0]: both", "exactly one of"]);
     FLUID.refused_with(&["particles.0.count=null"], &["particles[0]: neither", "exactly one of"]);

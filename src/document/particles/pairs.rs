@@ -15,7 +15,7 @@ pub struct DpdInteraction {
     /// Exponent of the friction weight ω = (1 - r/rc)^exponent of every pair of species that has none of its own in `pairs`; 2 is the
     /// standard choice.
     #[serde(default = "two")]
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub weight_exponent: f64,
     /// Repulsion a of every pair of species not listed in `pairs`; if all are zero there is no conservative force.
     #[serde(default)]
