@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 12] = [
+const CASES: [Case; 13] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -68,6 +68,14 @@ const CASES: [Case; 12] = [
         name: "pairs, Cotter and Reich",
         scene: FLUID,
         changes: &[r#"integrator={"type":"cotter-reich"}"#, r#"noise={"generator":"threefry2x32-20"}"#],
+        twice: false,
+    },
+    Case {
+        name: "pairs with cutoffs of their own",
+        scene: FLUID,
+        changes: &[
+            r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":1.3},{"between":["B","B"],"cutoff":0.8,"weight_exponent":1}]"#,
+        ],
         twice: false,
     },
     Case {

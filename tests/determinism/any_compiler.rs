@@ -23,6 +23,9 @@ const EVERY: u64 = 10;
 const REPORTS: &str = "output.energies.every=10";
 const TWO_DIMENSIONS: &str = "space.box=[12,9]";
 const MEMORY: &str = r#"interactions.0.bath={"type":"memory","rate":5}"#;
+/// Pairs with cutoffs and exponents of their own.
+const OWN_COEFFICIENTS: &str = r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":0.8,"weight_exponent":1},
+    {"between":["B","B"],"cutoff":1.3,"friction":9}]"#;
 const GAUSSIAN: &str = r#"noise={"distribution":"gaussian"}"#;
 
 /// A scene, and whether its pairs are listed.
@@ -44,6 +47,9 @@ fn fluids() -> Vec<Case> {
     }
     add(&[SPLITTING, TWO_DIMENSIONS, "interactions.0.weight_exponent=0.3", GAUSSIAN], false);
     add(&[GROOT_WARREN, MIXTURE, MIXTURE_FORCE, GAUSSIAN], true);
+    for (integrator, listed) in [(SPLITTING, false), (COTTER_REICH, false), (COTTER_REICH, true)] {
+        add(&[integrator, MIXTURE, OWN_COEFFICIENTS], listed);
+    }
     add(&[COTTER_REICH, TWO_DIMENSIONS], true);
     add(&[COTTER_REICH, MEMORY, "time.step=0.02"], false);
     add(
