@@ -204,6 +204,29 @@ pub fn two_gaussians(words: [u32; 2]) -> [f64; 2] {
     [radius * angle.cos(), radius * angle.sin()]
 }
 
+/// Two words as a unit vector, even over all directions of so many dimensions; zero on axes beyond.
+///
+/// ```
+/// use mesoscope::noise::{direction, seed_key, threefry2x32};
+/// let words = threefry2x32([0, 0], seed_key(1, 9));
+/// assert_eq!(direction(words, 2)[2], 0.0);
+/// let length = direction(words, 3).iter().map(|part| part * part).sum::<f64>();
+/// assert!((length - 1.0).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn direction(words: [u32; 2], dimension: usize) -> [f64; 3] {
+    let [height, turn] = words.map(|word| 2.0 * centred_uniform(word));
+    let (sine, cosine) = (std::f64::consts::PI * turn).sin_cos();
+    match dimension {
+        1 => [height.signum(), 0.0, 0.0],
+        2 => [cosine, sine, 0.0],
+        _ => {
+            let across = (1.0 - height * height).sqrt();
+            [across * cosine, across * sine, height]
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

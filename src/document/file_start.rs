@@ -1,4 +1,4 @@
-//! What a scene keeps of the file that its particles start from.
+//! What a scene keeps of the file that its particles start from, or of the molecules that they form.
 
 use super::{Scene, number_of_copies};
 use serde::{Deserialize, Serialize};
@@ -113,9 +113,10 @@ impl FileStart {
     pub(crate) fn fits(&self, scene: &Scene) -> bool {
         let species = super::SpeciesNames::of(scene).count();
         let particles = self.species.len() as u64;
-        let state = scene.state.as_ref();
+        let copies = scene.state.as_ref().map_or([1; 3], super::StateFile::copies);
         let is_there = |member: &u32| u64::from(*member) < particles;
-        state.is_some_and(|state| state.copies() == self.copies)
+        scene.has_start()
+            && copies == self.copies
             && self.fastest.len() == species
             && self.species.iter().all(|index| usize::from(*index) < species)
             && self.bonds.iter().flat_map(|links| links.members.iter().flatten()).all(is_there)

@@ -1,7 +1,7 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Output, ParticleGroup, StateFile,
+    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Output, ParticleGroup, StateFile,
     StateVelocities,
 };
 use schemars::JsonSchema;
@@ -35,6 +35,10 @@ pub struct Scene {
     /// A file that the particles start from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<StateFile>,
+    /// Molecules, in place of numbers of particles in groups: all particles of the scene are beads of one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1024))]
+    pub molecules: Vec<Molecule>,
     /// Time step and duration.
     pub time: Time,
     /// Temperature kT of the heat bath, in units of energy. Zero switches the noise off.
@@ -56,12 +60,12 @@ pub struct Scene {
     /// What the run writes.
     #[serde(default)]
     pub output: Output,
-    /// What was read of the file of `state`.
+    /// What was read of the file of `state`, or follows from `molecules`.
     #[serde(skip)]
     pub kept: KeptStart,
 }
 
-/// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file does.
+/// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file or molecules do.
 fn amounts_or_a_file(schema: &mut schemars::Schema) {
     let listed = serde_json::json!({
         "required": ["placement"],
@@ -77,7 +81,11 @@ fn amounts_or_a_file(schema: &mut schemars::Schema) {
         "if".to_owned(),
         serde_json::json!({"required": ["state"], "properties": {"state": {"type": "object"}}}),
     );
-    let otherwise = serde_json::json!({"required": ["space"], "properties": {"particles": {"items": amount}}});
+    let otherwise = serde_json::json!({
+        "required": ["space"],
+        "if": {"required": ["molecules"]},
+        "else": {"properties": {"particles": {"items": amount}}},
+    });
     schema.insert("else".to_owned(), otherwise);
     if let Some(space) = schema.pointer_mut("/properties/space").and_then(serde_json::Value::as_object_mut) {
         // A box of no edges is none.
@@ -86,15 +94,28 @@ fn amounts_or_a_file(schema: &mut schemars::Schema) {
 }
 
 impl Scene {
-    /// What was read of the file that the particles start from, if they do.
+    /// What was read of the file that the particles start from, or what follows from molecules, if there are any.
     #[must_use]
     pub fn start(&self) -> Option<&Arc<FileStart>> {
-        self.state.as_ref().and(self.kept.get())
+        self.kept.get().filter(|_| self.has_start())
+    }
+
+    /// Whether a file or molecules say which particles there are, and where they start.
+    #[must_use]
+    pub fn has_start(&self) -> bool {
+        self.state.is_some() || !self.molecules.is_empty()
+    }
+
+    /// Where the velocities of such particles come from.
+    #[must_use]
+    pub fn start_velocities(&self) -> Option<StateVelocities> {
+        let thermal = (!self.molecules.is_empty()).then_some(StateVelocities::Thermal);
+        self.state.as_ref().map(|state| state.velocities).or(thermal)
     }
 
     /// The largest component of the velocities that a species starts with, where a file says so.
     pub(crate) fn speed_from_file(&self, species: &str) -> Option<f64> {
-        match self.state.as_ref()?.velocities {
+        match self.start_velocities()? {
             StateVelocities::Thermal => None,
             StateVelocities::Rest => Some(0.0),
             StateVelocities::File => {
@@ -118,7 +139,7 @@ impl Scene {
 
     /// Whether bonds and angles that name nothing are those of a file: where it has them, and groups have no chains.
     pub(crate) fn links_are_from_file(&self, types: Option<&[String]>) -> bool {
-        self.state.is_some() && (types.is_some() || self.particles.iter().all(|group| group.chain.is_none()))
+        self.has_start() && (types.is_some() || self.particles.iter().all(|group| group.chain.is_none()))
     }
 }
 

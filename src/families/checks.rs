@@ -20,7 +20,7 @@ pub(crate) enum StepCheck {
 pub(crate) fn check(scene: &Scene, step: StepCheck, problems: &mut Problems) {
     let model = Model::new(scene);
     // Of a run that continues the places are elsewhere.
-    let has_places = scene.state.is_none() || scene.start().is_some_and(|start| start.places.is_some());
+    let has_places = !scene.has_start() || scene.start().is_some_and(|start| start.places.is_some());
     if has_places && model.physics().may_refuse_starts() && model.particle_count() <= MOST_TRIED {
         model.physics().check_start(scene, &model, &initial_state(scene, &model), problems);
     }

@@ -74,7 +74,7 @@ pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
         let random = pushed / group.mass;
         let what = if random > start.max(bath) {
             "velocities of the random force"
-        } else if bath > start || group.velocities == Velocities::Thermal && scene.state.is_none() {
+        } else if bath > start || group.velocities == Velocities::Thermal && !scene.has_start() {
             "thermal velocities"
         } else {
             "velocities"

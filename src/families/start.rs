@@ -29,12 +29,12 @@ use std::ops::Range;
 pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut state = State::default();
     let mut thermal = Vec::new();
-    if let Some(asked) = &scene.state {
+    if let Some(velocities) = scene.start_velocities() {
         if let Some(start) = scene.start() {
-            state = from_file(start, asked.velocities, model);
+            state = from_file(start, velocities, model);
         }
         let moves = |id: &usize| !model.species[state.species[*id] as usize].fixed;
-        if asked.velocities == StateVelocities::Thermal {
+        if velocities == StateVelocities::Thermal {
             thermal.extend((0..state.len()).filter(moves));
         }
         return complete(state, scene, model, &thermal);

@@ -48,6 +48,7 @@ pub fn builtin() -> &'static [Builtin] {
         "voronoi-dpd",
         "voronoi-energy",
         "voronoi-shear",
-        "poiseuille"
+        "poiseuille",
+        "diblock-copolymer"
     ]
 }

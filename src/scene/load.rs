@@ -207,7 +207,7 @@ fn parse_checked(
     if let Ok(scene) = &mut reading.scene {
         match source {
             // Numbers that stand in for refused ones are not compared with a file.
-            Source::File(_) if reading.problems.iter().any(|known| says_where_a_file_is(&known.path)) => {}
+            Source::File(_) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
             Source::File(files) => {
                 unreadable = start::read(scene, &reading.masses, (name, files), &mut reading.notices)?;
                 let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
@@ -228,7 +228,7 @@ fn parse_checked(
     let mut problems = reading.problems;
     problems.append(unreadable);
     // What a file should say, or what its box is compared with, is missing wherever it is needed.
-    if let Some(scene) = reading.scene.ok().filter(|scene| scene.state.is_none()) {
+    if let Some(scene) = reading.scene.ok().filter(|scene| !scene.has_start()) {
         let mut misfits = semantics::check(&scene);
         drop(scene);
         // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
@@ -245,9 +245,9 @@ fn parse_checked(
     Err(invalid(name, problems))
 }
 
-/// Whether a mistake in this place concerns which file is read, or the box that the file is compared with.
-fn says_where_a_file_is(path: &str) -> bool {
-    ["state", "space"].iter().any(|key| related(key, path))
+/// Whether a mistake in this place concerns which file is read, the box that the file is compared with, or which molecules there are.
+fn says_where_particles_are(path: &str) -> bool {
+    ["state", "space", "molecules"].iter().any(|key| related(key, path))
 }
 
 /// The schema, which is derived once.

@@ -9,6 +9,7 @@ mod documentation;
 #[cfg(unix)]
 mod interruption;
 mod manifest;
+mod molecules;
 mod output;
 mod particles;
 mod schema;

@@ -476,7 +476,7 @@ fn a_run_goes_on_without_its_file() {
     fails(
         &["resume", &place.argument("parts"), "--steps", "60"],
         5,
-        &["what it keeps of the file of its state makes no sense"],
+        &["what it keeps of the start of its particles makes no sense"],
     );
 }
 

@@ -9,6 +9,7 @@ mod cost;
 mod couplings;
 mod damage;
 mod fuzzing;
+mod molecules;
 mod scenes;
 mod shallow_water;
 mod states;

@@ -186,20 +186,10 @@ fn perpendicular(along: [f64; 3], other: [f64; 3]) -> [f64; 3] {
     if length > 1e-6 { rest.map(|part| part / length) } else { perpendicular(along, [along[1], along[2], -along[0]]) }
 }
 
-/// A random unit vector, even over all directions.
+/// A random unit vector for a bead.
 fn direction(id: usize, counter: u32, model: &Model) -> [f64; 3] {
     let key = noise::step_key(model.seed, stream::CHAIN, 0);
-    let words = noise::words(Generator::Threefry2x32, key, [id as u32, counter]);
-    let [height, turn] = words.map(|word| 2.0 * noise::centred_uniform(word));
-    let (sine, cosine) = (PI * turn).sin_cos();
-    match model.units.dimension {
-        1 => [height.signum(), 0.0, 0.0],
-        2 => [cosine, sine, 0.0],
-        _ => {
-            let across = (1.0 - height * height).sqrt();
-            [across * cosine, across * sine, height]
-        }
-    }
+    noise::direction(noise::words(Generator::Threefry2x32, key, [id as u32, counter]), model.units.dimension)
 }
 
 #[cfg(test)]

@@ -111,7 +111,7 @@ fn warn_of_places(scene: &Scene, warnings: &mut Vec<Warning>) {
         fractions.sort_unstable();
         let shared = fractions.windows(2).filter(|pair| pair[0] == pair[1]).count();
         if shared > 0 {
-            warn(warnings, "state.file", in_one_place(shared));
+            warn(warnings, if scene.state.is_some() { "state.file" } else { "molecules" }, in_one_place(shared));
         }
     }
     places.sort_unstable();

@@ -36,13 +36,14 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let run_id = Id::parse(&content.run_id).ok_or_else(|| malformed("its run id is none"))?;
     let Content { scene: text, state, files, mut sections, .. } = content;
     let mut scene: Scene = early.ok_or_else(|| malformed("it has no scene"))?;
-    if scene.state.is_some() {
+    if scene.has_start() {
         let place = sections.iter().position(|(name, _)| name == START);
         let start = place.map(|place| sections.remove(place).1);
         let start = start.as_deref().and_then(FileStart::from_bytes);
         let fits = |start: &FileStart| start.particles() == state.len() as u64 && start.fits(&scene);
-        let start =
-            start.filter(fits).ok_or_else(|| malformed("what it keeps of the file of its state makes no sense"))?;
+        let start = start
+            .filter(fits)
+            .ok_or_else(|| malformed("what it keeps of the start of its particles makes no sense"))?;
         scene = scene::parse_kept("its scene", &text, &[], Some(Arc::new(start)))
             .map_err(|source| Refusal::Scene(source).of(path))?;
     }

@@ -1,6 +1,8 @@
-//! The state of a scene from a file: what the file says goes into the scene, and everything is compared with what the scene says.
+//! The state of a scene from a file or of molecules: what that says goes into the scene, and everything is compared with what the scene
+//! says.
 
 mod checkpoint;
+mod molecules;
 mod places;
 
 use super::{
@@ -28,11 +30,14 @@ pub(super) fn read(
     notices: &mut Vec<Warning>,
 ) -> Result<Problems, SceneError> {
     let mut problems = Problems::default();
-    let Some(state) = scene.state.clone() else { return Ok(problems) };
+    if !scene.has_start() {
+        return Ok(problems);
+    }
     check_scene(scene, &mut problems);
     if !problems.is_empty() {
         return Ok(problems);
     }
+    let Some(state) = scene.state.clone() else { return Ok(of_molecules(scene, masses, problems, notices)) };
     let path = files.path(name, &state.file);
     let file = match particles(&path, state.frame) {
         Ok(file) => file,
@@ -50,6 +55,22 @@ pub(super) fn read(
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: "state.file".to_owned(), message }));
     Ok(reader.problems)
+}
+
+/// Places the molecules of a scene and completes it, as by a file.
+fn of_molecules(scene: &mut Scene, masses: &[bool], mut problems: Problems, notices: &mut Vec<Warning>) -> Problems {
+    let Some(file) = molecules::particles(scene, &mut problems) else { return problems };
+    let state = StateFile {
+        file: MOLECULES.to_owned(),
+        frame: -1,
+        velocities: StateVelocities::Thermal,
+        replicate: Vec::new(),
+        checksum: None,
+    };
+    let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
+    reader.adopt(scene, masses);
+    notices.extend(reader.notices.into_iter().map(|message| Warning { path: MOLECULES.to_owned(), message }));
+    reader.problems
 }
 
 /// Where the file of a scene of that name is.
@@ -74,26 +95,48 @@ fn refuse(state: &StateFile, mistakes: Vec<Mistake>, problems: &mut Problems) {
     problems.extend(mistakes.into_iter().map(problem));
 }
 
-/// What a scene with a file has to be, whatever the file says.
+/// The key of molecules, which is also what messages call them.
+const MOLECULES: &str = "molecules";
+
+/// What a scene with a file or with molecules has to be, whatever those say.
 fn check_scene(scene: &Scene, problems: &mut Problems) {
     let unsuited = |interaction: &Interaction| {
         !interaction.is_of_particles() || matches!(interaction, Interaction::HarmonicChain(_))
     };
     if let Some(index) = scene.interactions.iter().position(unsuited) {
-        let found = format!("found in a scene with interactions[{index}], whose particles a file does not describe");
-        let accepted = "a state from a file in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `body-force`, `bonds` \
-                        and `angles`: what other particles consist of, such as masses of their own or energies, is in none of these \
-                        files";
-        problems.push(Problem::new("state", found, accepted));
+        let (path, what) = match &scene.state {
+            Some(_) => ("state", "a file"),
+            None => (MOLECULES, MOLECULES),
+        };
+        let found = format!("found in a scene with interactions[{index}], whose particles {what} cannot describe");
+        let accepted = format!(
+            "{what} in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `body-force`, `bonds` and `angles`: other particles have \
+             more than a place and a velocity, such as masses of their own or energies"
+        );
+        problems.push(Problem::new(path, found, accepted));
     }
+    if scene.state.is_some() && !scene.molecules.is_empty() {
+        let accepted = "one of the two: molecules are placed anew, and a file says where all particles are";
+        problems.push(Problem::new(MOLECULES, "found beside a `state`", accepted));
+    }
+    let (beside, places) = match &scene.state {
+        Some(_) => ("found beside a `state`", "no `placement`: the file of `state` says where particles start"),
+        None => ("found beside `molecules`", "no `placement`: molecules are placed along random walks"),
+    };
     for (index, group) in scene.particles.iter().enumerate() {
         if group.placement != Placement::Random {
-            let accepted = "no `placement`: the file of `state` says where particles start";
-            problems.push(Problem::new(format!("particles[{index}].placement"), "found beside a `state`", accepted));
+            problems.push(Problem::new(format!("particles[{index}].placement"), beside, places));
         }
         if group.velocities != Velocities::Thermal {
-            let accepted = "no `velocities`: `state.velocities` is `file`, `thermal` or `rest` for all particles";
-            problems.push(Problem::new(format!("particles[{index}].velocities"), "found beside a `state`", accepted));
+            let accepted = match &scene.state {
+                Some(_) => "no `velocities`: `state.velocities` is `file`, `thermal` or `rest` for all particles",
+                None => "no `velocities`: molecules start with those of Maxwell's distribution",
+            };
+            problems.push(Problem::new(format!("particles[{index}].velocities"), beside, accepted));
+        }
+        if group.chain.is_some() && !scene.molecules.is_empty() {
+            let accepted = "no `chain`: one is a molecule with `bonds` from bead to bead";
+            problems.push(Problem::new(format!("particles[{index}].chain"), beside, accepted));
         }
     }
     let species = SpeciesNames::of(scene).count();

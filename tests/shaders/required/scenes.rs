@@ -94,10 +94,19 @@ pub fn bathed(scene: &mut Value) {
     add(scene, json!({"type": "langevin", "friction": 1}));
 }
 
-/// Ten particles of the only group become one of their own.
+/// Particles that do not repel each other, whatever their species.
+fn without_repulsion(scene: &mut Value) {
+    set(scene, "dpd", "repulsion", json!(0));
+    set(scene, "dpd", "pairs", Value::Null);
+}
+
+/// Ten particles of the only group become one of their own; of molecules, which say their numbers themselves, none.
 pub fn split_group(scene: &mut Value) {
     let edges = scene["space"]["box"].as_array().unwrap().iter();
     let volume: f64 = edges.map(|edge| edge.as_f64().unwrap()).product();
+    if scene.get("molecules").is_some() {
+        return;
+    }
     let groups = scene["particles"].as_array_mut().unwrap();
     let [group] = groups.as_mut_slice() else { return };
     let count = serde_json::from_value::<ParticleGroup>(group.clone()).unwrap().resolved_count(volume);
@@ -282,10 +291,10 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
         (
             "no repulsion to be spared",
             |scene| {
-                set(scene, "dpd", "repulsion", json!(0));
+                without_repulsion(scene);
                 set(scene, "bonds", "exclude_repulsion", json!(true));
             },
-            |scene| set(scene, "dpd", "repulsion", json!(0)),
+            without_repulsion,
         ),
         (
             "no surface",

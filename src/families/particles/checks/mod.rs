@@ -271,7 +271,9 @@ fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path
 fn check_bonds(scene: &Scene, names: &SpeciesNames<'_>, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
     check_bath(&bonds.bath, vec![(format!("{path}.friction"), bonds.friction)], path, problems);
     check_members(scene, names, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
-    let in_file = || scene.file_bonds(bonds.types.as_deref()).any(|links| !links.members.is_empty());
+    let in_file = || {
+        scene.file_bonds(bonds.types.as_deref()).any(|links| !(links.members.is_empty() && scene.molecules.is_empty()))
+    };
     if check_file(
         scene,
         bonds.types.as_deref(),
@@ -313,7 +315,11 @@ fn check_angles(
     problems: &mut Problems,
 ) {
     check_members(scene, names, angles.species.as_deref(), "triples", &angles.triples, path, problems);
-    let in_file = || scene.file_angles(angles.types.as_deref()).any(|links| !links.members.is_empty());
+    let in_file = || {
+        scene
+            .file_angles(angles.types.as_deref())
+            .any(|links| !(links.members.is_empty() && scene.molecules.is_empty()))
+    };
     if check_file(
         scene,
         angles.types.as_deref(),
@@ -403,13 +409,14 @@ fn check_file(
     path: &str,
     problems: &mut Problems,
 ) -> bool {
-    if types.is_some() && (scene.state.is_none() || !unlisted || names_species) {
-        let found = match (&scene.state, unlisted) {
-            (None, _) => "found in a scene without a `state`".to_owned(),
+    if types.is_some() && (!scene.has_start() || !unlisted || names_species) {
+        let found = match (scene.has_start(), unlisted) {
+            (false, _) => "found in a scene without a `state` and without `molecules`".to_owned(),
             (_, false) => format!("found together with `{key}`"),
             _ => "found together with `species`".to_owned(),
         };
-        let accepted = format!("`types` of the file of `state`, or `{key}`, or `species` with chains");
+        let accepted =
+            format!("`types` of the file of `state` or of `molecules`, or `{key}`, or `species` with chains");
         problems.push(Problem::new(format!("{path}.types"), found, accepted));
         return true;
     }
@@ -419,8 +426,14 @@ fn check_file(
     // Of a run that continues, the file was there once.
     if scene.start().is_some() && !in_file() {
         let noun = if key == "pairs" { "bonds" } else { "angles" };
-        let accepted = format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`");
-        problems.push(Problem::new(path, format!("found no {noun} in the file of `state`"), accepted));
+        let (place, accepted) = match &scene.state {
+            Some(_) => (
+                "the file of `state`",
+                format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`"),
+            ),
+            None => ("`molecules`", format!("molecules with {noun}, or `{key}` of particle ids")),
+        };
+        problems.push(Problem::new(path, format!("found no {noun} in {place}"), accepted));
     }
     true
 }

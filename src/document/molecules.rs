@@ -1,0 +1,54 @@
+//! Molecules: beads of any species that are bonded together.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Molecules of one kind. Beads are numbered from 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Molecule {
+    /// The species of each bead.
+    #[schemars(length(min = 1, max = 65536))]
+    pub beads: Vec<String>,
+    /// Pairs of beads that are bonded; they join all beads.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1048576))]
+    pub bonds: Vec<[u32; 2]>,
+    /// The type of each bond, for the `types` of an interaction `bonds`; left out, `bond` for all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bond_types: Vec<String>,
+    /// Triples of beads with angles, the vertex in the middle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1048576))]
+    pub angles: Vec<[u32; 3]>,
+    /// The type of each angle, for the `types` of an interaction `angles`; left out, `angle` for all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub angle_types: Vec<String>,
+    /// Number of molecules; give this or `number_density`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u64>,
+    /// Molecules per unit volume (area in two dimensions); the count is rounded to the nearest integer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub number_density: Option<f64>,
+    /// Distance of bonded beads at the start.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub spacing: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Molecule {
+    /// Number of molecules, whichever way the scene gives it.
+    #[must_use]
+    pub fn resolved_count(&self, volume: f64) -> u64 {
+        match (self.count, self.number_density) {
+            (Some(count), _) => count,
+            (None, Some(density)) => (density * volume).round() as u64,
+            (None, None) => 0,
+        }
+    }
+}
