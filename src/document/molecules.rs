@@ -12,14 +12,14 @@ pub struct Molecule {
     pub beads: Vec<String>,
     /// Pairs of beads that are bonded; they join all beads.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 1048576))]
+    #[schemars(length(max = 1_048_576))]
     pub bonds: Vec<[u32; 2]>,
     /// The type of each bond, for the `types` of an interaction `bonds`; left out, `bond` for all.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bond_types: Vec<String>,
     /// Triples of beads with angles, the vertex in the middle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 1048576))]
+    #[schemars(length(max = 1_048_576))]
     pub angles: Vec<[u32; 3]>,
     /// The type of each angle, for the `types` of an interaction `angles`; left out, `angle` for all.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

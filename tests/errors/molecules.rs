@@ -1,5 +1,6 @@
 //! Molecules with mistakes.
 
+use mesoscope::families::{Angles, Bonds};
 use serde_json::{Value, json};
 
 use crate::support::mistakes::Correct;
@@ -33,8 +34,8 @@ fn the_base_is_right() {
     assert_eq!(SURFACTANT.warnings(&[]), Vec::<String>::new());
     let model = mesoscope::families::Model::new(&scene);
     let particles = model.particles();
-    assert_eq!(particles.bonds.as_ref().map(|bonds| bonds.count()), Some(80));
-    assert_eq!(particles.angles.as_ref().map(|angles| angles.count()), Some(40));
+    assert_eq!(particles.bonds.as_ref().map(Bonds::count), Some(80));
+    assert_eq!(particles.angles.as_ref().map(Angles::count), Some(40));
     // No molecules are none, and so is a scene without particles.
     assert_eq!(SURFACTANT.accepted(&["molecules.0.count=0"]).particles[0].count, Some(0));
 }
