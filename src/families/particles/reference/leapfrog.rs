@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn the_coupling_has_the_weight_as_its_derivative() {
         for weight_exponent in [0.5, 1.0, 2.0, 3.0] {
-            let own = r#"[{"between":["A","A"],"cutoff":1.5,"weight_exponent":EXPONENT}]"#
+            let own = r#"[{"between":["fluid","fluid"],"cutoff":1.5,"weight_exponent":EXPONENT}]"#
                 .replace("EXPONENT", &weight_exponent.to_string());
             let scene = scene::load("dpd-fluid", &[format!("interactions.0.pairs={own}")]).unwrap();
             let force = Model::new(&scene).particles().pair_force.clone().unwrap();
