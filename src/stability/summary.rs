@@ -2,14 +2,13 @@
 
 use super::bounds::Bound;
 use super::cell::Cell;
-use super::files;
 use super::range::Spacing;
 use super::request::{Arguments, Request};
 use super::run::Bisecting;
 use super::verdict::Verdict;
 use crate::output::Id;
 use crate::output::summary::AdapterSummary;
-use crate::study::{self, Kind, Record, Setting, StudyError};
+use crate::study::{self, Kind, Record, STABILITY, Setting, StudyError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -133,7 +132,7 @@ impl Record for StabilitySummary {
     type Ended = Cell;
     type Phase = Bisecting;
 
-    const KIND: &'static Kind = &files::KIND;
+    const KIND: &'static Kind = &STABILITY;
 
     fn before(request: &Request) -> Self {
         let row = |row: usize| Row {

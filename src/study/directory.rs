@@ -1,21 +1,23 @@
 //! The directory of a study: made, cleared.
 
-use super::record::{self, Record};
+use super::kind::{KINDS, Kind};
+use super::record::Record;
 use crate::output::{OutputError, RunDirectory};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// Creates the directory of a study, takes its lock and makes sure that it can be written to. With `force`, the files and
-/// runs of an earlier study there, or of a single run, are removed; anything else is left alone.
+/// runs of earlier studies there, of any kind, or of a single run, are removed; anything else is left alone.
 ///
 /// # Errors
-/// [`OutputError::ResultExists`] when there are such files and `force` is not given; [`OutputError::Io`].
+/// Those of [`check`]; [`OutputError::InUse`] when another process writes there.
 pub(super) fn create<R: Record>(path: &Path, study: &R, force: bool) -> Result<RunDirectory, OutputError> {
     let in_the_way = check(path, study, force)?;
-    let earlier: Option<R> = record::load(path).ok();
     let directory = RunDirectory::make(path)?;
-    let names = earlier.iter().chain([study]).flat_map(Record::runs);
+    let earlier = KINDS.into_iter().flat_map(|kind| runs_of(kind, path));
+    let names = earlier.chain(study.runs().into_iter().map(str::to_owned));
     let of_runs = names.filter(|name| is_plain(name)).map(|name| path.join(name));
     let of_runs: BTreeSet<PathBuf> = of_runs.filter(|path| path.is_dir()).collect();
     // Nothing is removed where a run is under way.
@@ -28,35 +30,51 @@ pub(super) fn create<R: Record>(path: &Path, study: &R, force: bool) -> Result<R
         drop(run);
         let _ = fs::remove_dir(path);
     }
-    for file in in_the_way.iter().filter(|path| path.is_file()) {
+    for file in &in_the_way {
         fs::remove_file(file).map_err(OutputError::io("replace", file))?;
     }
     Ok(directory)
 }
 
-/// Files of an earlier study, and what has the name of a run's directory; sorted.
+/// Files of earlier studies of any kind; sorted.
 ///
 /// # Errors
-/// [`OutputError::ResultExists`] when there are any and `force` is not given; [`OutputError::Io`].
+/// [`OutputError::ResultExists`] when there are any, or a directory has the name of a run, and `force` is not given;
+/// [`OutputError::NoDirectory`] when a file has that name, and [`OutputError::DirectoryOfThatName`] when a directory has the name of
+/// a file of the study, even with `force`; [`OutputError::Io`].
 pub(super) fn check<R: Record>(path: &Path, study: &R, force: bool) -> Result<Vec<PathBuf>, OutputError> {
     let entries = match fs::read_dir(path) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         entries => entries.map_err(OutputError::io("list the directory", path))?,
     };
     let runs = study.runs();
-    let mut found = Vec::new();
+    let (mut files, mut directories) = (Vec::new(), Vec::new());
     for entry in entries {
         let entry = entry.map_err(OutputError::io("list the directory", path))?;
         let Ok(name) = entry.file_name().into_string() else { continue };
-        if (R::KIND.has_file)(&name) || runs.contains(&name.as_str()) {
-            found.push(entry.path());
+        let path = entry.path();
+        match (path.is_dir(), runs.contains(&name.as_str())) {
+            (true, true) => directories.push(path),
+            // Nobody but the user made it.
+            (false, true) => return Err(OutputError::NoDirectory { path }),
+            (true, false) if R::KIND.has_file(&name) => return Err(OutputError::DirectoryOfThatName { path }),
+            (false, false) if KINDS.iter().any(|kind| kind.has_file(&name)) => files.push(path),
+            _ => {}
         }
     }
-    found.sort();
-    match found.first() {
+    files.sort();
+    match files.iter().chain(&directories).min() {
         Some(first) if !force => Err(OutputError::ResultExists { path: first.clone() }),
-        _ => Ok(found),
+        _ => Ok(files),
     }
+}
+
+/// Names of the runs that a summary of this kind lists; none where there is none.
+fn runs_of(kind: &Kind, directory: &Path) -> Vec<String> {
+    let Ok(text) = fs::read(directory.join(kind.summary)) else { return Vec::new() };
+    let summary: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let lists = kind.runs.iter().filter_map(|key| summary.get(key)?.as_array());
+    lists.flatten().filter_map(|run| Some(run.get("name")?.as_str()?.to_owned())).collect()
 }
 
 /// Whether a name leads into the directory of the study and nowhere else.

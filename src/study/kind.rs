@@ -1,4 +1,4 @@
-//! The kinds of studies, in words.
+//! The kinds of studies: their words and their files.
 
 /// What a kind of study is called, and what belongs to it.
 #[derive(Debug, Clone, Copy)]
@@ -15,17 +15,99 @@ pub struct Kind {
     pub resumed: &'static str,
     /// What makes one shorter: `--budget to shorten them`.
     pub shortened: &'static str,
+    /// Names of its other files, but for the pictures of quantities.
+    files: &'static [&'static str],
+    /// Whether it has a picture for every quantity.
+    has_plots: bool,
+    /// Keys of its summary with lists of the runs that have directories, each with a name.
+    pub(super) runs: &'static [&'static str],
+}
+
+/// Sweeps.
+pub(crate) const SWEEP: Kind = Kind {
+    command: "sweep",
+    noun: "sweep",
+    summary: "sweep.json",
+    again: "run the sweep again",
+    resumed: "finishes the sweep",
+    shortened: "shorten them with --steps",
+    files: &["sweep.csv", "sweep-averages.csv"],
+    has_plots: true,
+    runs: &["variants"],
+};
+
+/// Tradeoffs.
+pub(crate) const TRADEOFF: Kind = Kind {
+    command: "tradeoff",
+    noun: "tradeoff",
+    summary: "tradeoff.json",
+    again: "run the tradeoff again",
+    resumed: "goes on",
+    shortened: "--budget to shorten them",
+    files: &["tradeoff.csv", "tradeoff.md"],
+    has_plots: true,
+    runs: &["choices", "finer"],
+};
+
+/// Maps of stability.
+pub(crate) const STABILITY: Kind = Kind {
+    command: "stability",
+    noun: "map of stability",
+    summary: "stability.json",
+    again: "make the map again",
+    resumed: "goes on",
+    shortened: "shorten them with --set time.steps=N or a narrower range",
+    files: &["stability.csv", "stability.md", "stability.png"],
+    has_plots: false,
+    runs: &[],
+};
+
+/// All kinds.
+pub(super) const KINDS: [&Kind; 3] = [&SWEEP, &TRADEOFF, &STABILITY];
+
+impl Kind {
     /// Whether it may have written a file of this name.
-    pub has_file: fn(&str) -> bool,
+    #[must_use]
+    pub fn has_file(&self, name: &str) -> bool {
+        name == self.summary || self.files.contains(&name) || self.has_plots && self.is_plot(name)
+    }
+
+    /// The name of the picture of a quantity.
+    pub(crate) fn plot(&self, quantity: &str) -> String {
+        format!("{}-{quantity}.png", self.command)
+    }
+
+    fn is_plot(&self, name: &str) -> bool {
+        let rest = name.strip_prefix(self.command).and_then(|rest| rest.strip_prefix('-'));
+        rest.and_then(|rest| rest.strip_suffix(".png")).is_some_and(|quantity| !quantity.is_empty())
+    }
 }
 
-/// The name of the picture of a quantity.
-pub(crate) fn plot(command: &str, quantity: &str) -> String {
-    format!("{command}-{quantity}.png")
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Whether a name is that of such a picture.
-pub(crate) fn is_plot(command: &str, name: &str) -> bool {
-    let rest = name.strip_prefix(command).and_then(|rest| rest.strip_prefix('-'));
-    rest.and_then(|rest| rest.strip_suffix(".png")).is_some_and(|quantity| !quantity.is_empty())
+    #[test]
+    fn every_file_is_of_the_kind_that_begins_its_name() {
+        for name in [
+            "sweep.json",
+            "sweep.csv",
+            "sweep-averages.csv",
+            "sweep-x.png",
+            "tradeoff.json",
+            "tradeoff.csv",
+            "tradeoff.md",
+            "tradeoff-pressure.png",
+            "stability.json",
+            "stability.csv",
+            "stability.md",
+            "stability.png",
+        ] {
+            let kinds: Vec<&str> = KINDS.iter().filter(|kind| kind.has_file(name)).map(|kind| kind.command).collect();
+            assert!(kinds.len() == 1 && name.starts_with(kinds[0]), "{name}: {kinds:?}");
+        }
+        for name in ["sweep-.png", "stability-x.png", "tradeoff.json.bak", "energies.csv", "notes.md"] {
+            assert!(KINDS.iter().all(|kind| !kind.has_file(name)), "{name}");
+        }
+    }
 }

@@ -16,6 +16,7 @@ mod record;
 mod run;
 pub(crate) mod table;
 mod variation;
+mod version;
 
 pub(crate) use concurrency::at_once;
 pub use concurrency::default_jobs;
@@ -23,7 +24,7 @@ pub use error::{Mistake, StudyError};
 pub(crate) use expansion::LENGTHS;
 pub use expansion::{Sweep, Variant};
 pub use kind::Kind;
-pub(crate) use kind::{is_plot, plot};
+pub(crate) use kind::{STABILITY, SWEEP, TRADEOFF};
 pub(crate) use members::Member;
 pub(crate) use naming::{ShortKeys, readable};
 pub use record::Record;

@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use super::kind::Kind;
+use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, write_atomically};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -94,7 +95,10 @@ pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     let claimed = RunDirectory::claim(directory)?;
     let record: R = load(directory)?;
     let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
-    if is_later(record.version(), env!("CARGO_PKG_VERSION")) {
+    let Some(version) = Version::parse(record.version()) else {
+        return Err(StudyError::Changed { kind, path, reasons: vec!["has a `mesoscope_version` that is no version"] });
+    };
+    if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version.is_later(&own)) {
         return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
     }
     let request = record.request()?;
@@ -102,23 +106,6 @@ pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     if !reasons.is_empty() {
         return Err(StudyError::Changed { kind, path, reasons });
     }
-    claimed.check_pictures(record.id(), kind.summary, kind.has_file)?;
+    claimed.check_pictures(record.id(), kind.summary, |name| kind.has_file(name))?;
     Ok((record, request, claimed))
-}
-
-/// Whether a version is later than another, number by number; what is no version is not.
-fn is_later(version: &str, other: &str) -> bool {
-    let numbers = |text: &str| text.split('.').map(|part| part.parse().ok()).collect::<Option<Vec<u64>>>();
-    numbers(version).zip(numbers(other)).is_some_and(|(version, other)| version > other)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_later;
-
-    #[test]
-    fn versions_are_compared_by_their_numbers() {
-        assert!(is_later("0.10.0", "0.9.1") && is_later("1.0.0", "0.99.99"));
-        assert!(!is_later("0.9.1", "0.9.1") && !is_later("0.9.1", "0.10.0") && !is_later("latest", "0.1.0"));
-    }
 }

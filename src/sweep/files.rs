@@ -1,22 +1,11 @@
 //! The names of the files in the directory of a sweep, in addition to the directories of its variants.
 
-use crate::study::{self, Kind};
-
-/// What messages say of sweeps.
-pub(super) const KIND: Kind = Kind {
-    command: "sweep",
-    noun: "sweep",
-    summary: SUMMARY,
-    again: "run the sweep again",
-    resumed: "finishes the sweep",
-    shortened: "shorten them with --steps",
-    has_file: is_of_a_sweep,
-};
+use crate::study::SWEEP;
 
 /// The table: a row for every variant.
 pub const TABLE: &str = "sweep.csv";
 /// The summary: what was varied and what came out.
-pub const SUMMARY: &str = "sweep.json";
+pub const SUMMARY: &str = SWEEP.summary;
 
 /// The table of averages over the seed: a row for every variant but for its seed.
 pub const AVERAGES: &str = "sweep-averages.csv";
@@ -39,7 +28,7 @@ pub fn means(number: usize) -> String {
 /// ```
 #[must_use]
 pub fn plot(quantity: &str) -> String {
-    study::plot(KIND.command, quantity)
+    SWEEP.plot(quantity)
 }
 
 /// Whether a sweep may have written a file of this name.
@@ -52,7 +41,7 @@ pub fn plot(quantity: &str) -> String {
 /// ```
 #[must_use]
 pub fn is_of_a_sweep(name: &str) -> bool {
-    [TABLE, SUMMARY, AVERAGES].contains(&name) || study::is_plot(KIND.command, name)
+    SWEEP.has_file(name)
 }
 
 #[cfg(test)]
@@ -61,7 +50,7 @@ mod tests {
 
     #[test]
     fn only_the_files_of_a_sweep_are_recognised() {
-        for name in ["sweep.csv", "sweep-averages.csv", "sweep.json", "sweep-total_energy.png", "sweep-x.png"] {
+        for name in [TABLE, AVERAGES, SUMMARY, "sweep-total_energy.png", "sweep-x.png"] {
             assert!(is_of_a_sweep(name), "{name}");
         }
         for name in

@@ -7,7 +7,7 @@ use super::variant::{VariantState, VariantSummary};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory, Summary, files as run_files, of_one_run};
 use crate::scene::StateFiles;
-use crate::study::{self, Kind, Record, Setting, StudyError, Sweep, Variant, Variation};
+use crate::study::{self, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variant, Variation};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::convert::Infallible;
@@ -77,7 +77,7 @@ impl Record for SweepSummary {
     type Ended = VariantSummary;
     type Phase = Infallible;
 
-    const KIND: &'static Kind = &files::KIND;
+    const KIND: &'static Kind = &SWEEP;
 
     fn before(sweep: &Sweep) -> Self {
         let variants: Vec<VariantSummary> = sweep.variants().iter().map(VariantSummary::before).collect();

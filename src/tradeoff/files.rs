@@ -1,22 +1,11 @@
 //! The names of the files in the directory of a tradeoff, in addition to the directories of its runs.
 
-use crate::study::{self, Kind};
-
-/// What messages say of tradeoffs.
-pub(super) const KIND: Kind = Kind {
-    command: "tradeoff",
-    noun: "tradeoff",
-    summary: SUMMARY,
-    again: "run the tradeoff again",
-    resumed: "goes on",
-    shortened: "--budget to shorten them",
-    has_file: is_of_a_tradeoff,
-};
+use crate::study::TRADEOFF;
 
 /// The table: a row for every choice.
 pub const TABLE: &str = "tradeoff.csv";
 /// The summary: what was asked, what every choice costs, and how far off it is.
-pub const SUMMARY: &str = "tradeoff.json";
+pub const SUMMARY: &str = TRADEOFF.summary;
 /// The page that says in words what to choose.
 pub const PAGE: &str = "tradeoff.md";
 
@@ -27,7 +16,7 @@ pub const PAGE: &str = "tradeoff.md";
 /// ```
 #[must_use]
 pub fn plot(measure: &str) -> String {
-    study::plot(KIND.command, measure)
+    TRADEOFF.plot(measure)
 }
 
 /// Whether a tradeoff may have written a file of this name.
@@ -35,10 +24,12 @@ pub fn plot(measure: &str) -> String {
 /// ```
 /// use mesoscope::tradeoff::files;
 ///
-/// assert!(files::is_of_a_tradeoff("tradeoff.md") && files::is_of_a_tradeoff(&files::plot("pressure")));
+/// for name in [files::TABLE, files::SUMMARY, files::PAGE, &files::plot("pressure")] {
+///     assert!(files::is_of_a_tradeoff(name));
+/// }
 /// assert!(!files::is_of_a_tradeoff("energies.csv"));
 /// ```
 #[must_use]
 pub fn is_of_a_tradeoff(name: &str) -> bool {
-    [TABLE, SUMMARY, PAGE].contains(&name) || study::is_plot(KIND.command, name)
+    TRADEOFF.has_file(name)
 }

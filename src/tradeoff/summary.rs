@@ -2,7 +2,6 @@
 
 use super::cost::Cost;
 use super::deviation::Deviation;
-use super::files;
 use super::measures::Measured;
 use super::reference::Reference;
 use super::request::{Arguments, COARSER, FINER, Request};
@@ -12,7 +11,7 @@ use super::target::Verdict;
 use crate::output::Id;
 use crate::output::summary::AdapterSummary;
 use crate::scene;
-use crate::study::{self, Kind, Record, Setting, StudyError, Variant};
+use crate::study::{self, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -213,7 +212,7 @@ impl Record for TradeoffSummary {
     type Ended = Choice;
     type Phase = Phase;
 
-    const KIND: &'static Kind = &files::KIND;
+    const KIND: &'static Kind = &TRADEOFF;
 
     fn before(request: &Request) -> Self {
         let variants = request.sweep.variants();

@@ -163,11 +163,14 @@ fn an_interrupted_map_goes_on() {
     let path = out.join(files::SUMMARY);
     let kept = fs::read_to_string(&path).unwrap();
     let reference = r#""references": [{"measure": "temperature", "value": 2, "uncertainty": 0, "source": "given"}],"#;
+    let version = concat!("\"mesoscope_version\": \"", env!("CARGO_PKG_VERSION"), "\"");
     for (old, new, part) in [
         ("\"time.step=0.05..0.4/4\"", "\"time.step=0.05..0.4/5\"", "asks for something else"),
         ("\"tolerance\": 0.05", "\"tolerance\": 0.5", "asks for something else"),
         ("\"references\": [],", reference, "and it compares other measures"),
         ("\"mesoscope_version\": \"", "\"mesoscope_version\": \"9", "later than this one"),
+        (version, "\"mesoscope_version\": \"99.0.0-rc.1\"", "later than this one"),
+        (version, "\"mesoscope_version\": \"latest\"", "has a `mesoscope_version` that is no version"),
     ] {
         assert!(kept.contains(old), "{old}");
         fs::write(&path, kept.replacen(old, new, 1)).unwrap();

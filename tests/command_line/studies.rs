@@ -9,7 +9,7 @@ use mesoscope::stability::{Request, StabilityRun, StabilitySummary};
 use mesoscope::study::StudyEvent;
 use serde_json::json;
 
-use crate::support::program::{Place, command, fails, text};
+use crate::support::program::{Place, command, fails, listing, text};
 
 /// A fluid of 64 particles that start from `start.xyz`.
 fn place() -> Place {
@@ -48,19 +48,23 @@ fn succeeds_in(directory: &Path, arguments: &[&str]) -> String {
     text(&output.stdout).to_owned()
 }
 
+/// A tiny study of a kind.
+fn study<'a>(command: &'a str, further: &[&'a str]) -> Vec<&'a str> {
+    let own = match command {
+        "sweep" => &["--vary", "seed=1,2"][..],
+        "tradeoff" => &["--vary", "time.step=0.02", "--measure", "temperature"],
+        _ => &["--vary", "time.step=0.01,0.02", "--bisections", "0"],
+    };
+    [&[command, "scene.json", "--quiet"], own, further].concat()
+}
+
 #[test]
 fn studies_find_the_file_of_their_state_from_anywhere_as_long_as_it_is_the_same() {
     let place = place();
     place.scene();
     let (here, elsewhere) = (place.path(""), tempfile::tempdir().unwrap());
-    let further = |command| match command {
-        "sweep" => &["--vary", "seed=1,2"][..],
-        "tradeoff" => &["--vary", "time.step=0.02", "--measure", "temperature"],
-        _ => &["--vary", "time.step=0.01,0.02", "--bisections", "0"],
-    };
     for command in ["sweep", "tradeoff", "stability"] {
-        let arguments = [&[command, "scene.json", "--out", command, "--quiet"], further(command)].concat();
-        succeeds_in(&here, &arguments);
+        succeeds_in(&here, &study(command, &["--out", command]));
     }
     fs::remove_dir_all(place.path("sweep/seed=2")).unwrap();
     for command in ["sweep", "tradeoff", "stability"] {
@@ -110,4 +114,49 @@ fn a_map_has_one_start() {
     let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
     let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
     assert!(message.contains("other.xyz` is not what it was"), "{message}");
+}
+
+#[test]
+fn a_study_replaces_one_of_another_kind_only_when_asked_and_wholly() {
+    let place = place();
+    place.scene();
+    let (here, out) = (place.path(""), place.path("out"));
+    let refused = |arguments: &[&str], parts: &[&str]| {
+        let output = command(arguments).current_dir(&here).output().unwrap();
+        let message = text(&output.stderr).to_owned();
+        assert_eq!(output.status.code(), Some(5), "{message}");
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    };
+    succeeds_in(&here, &study("sweep", &["--out", "out", "--plot", "temperature"]));
+    fs::write(out.join("notes.md"), "mine").unwrap();
+    let before = listing(&out);
+    for next in ["stability", "tradeoff"] {
+        refused(&study(next, &["--out", "out"]), &["exists already", "--force"]);
+        assert_eq!(listing(&out), before, "{next}");
+    }
+    for (next, expected) in [
+        ("tradeoff", &["finer", "notes.md", "step=0.02", "tradeoff-temperature.png"][..]),
+        ("stability", &["notes.md", "stability.csv", "stability.json", "stability.md", "stability.png"]),
+        ("sweep", &["notes.md", "seed=1", "seed=2", "sweep-averages.csv"]),
+    ] {
+        succeeds_in(&here, &study(next, &["--out", "out", "--force"]));
+        let found = listing(&out);
+        assert!(expected.iter().all(|name| found.iter().any(|own| own == name)), "{next}: {found:?}");
+        let others = ["sweep", "tradeoff", "stability", "seed=", "step="].into_iter().filter(|start| match next {
+            "sweep" => !["sweep", "seed="].contains(start),
+            "tradeoff" => !["tradeoff", "step="].contains(start),
+            _ => *start != "stability",
+        });
+        for start in others {
+            assert!(!found.iter().any(|name| name.starts_with(start)), "{next}: {found:?}");
+        }
+    }
+    // A file that has the name of a run's directory is the user's.
+    fs::remove_dir_all(out.join("seed=2")).unwrap();
+    fs::write(out.join("seed=2"), "mine").unwrap();
+    let before = listing(&out);
+    refused(&study("sweep", &["--out", "out", "--force"]), &["seed=2` is a file"]);
+    assert_eq!((listing(&out), fs::read_to_string(out.join("seed=2")).unwrap()), (before, "mine".to_owned()));
+    succeeds_in(&here, &study("tradeoff", &["--out", "out", "--force"]));
+    assert_eq!(fs::read_to_string(out.join("seed=2")).unwrap(), "mine");
 }
