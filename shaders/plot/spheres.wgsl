@@ -1,5 +1,5 @@
-// Particles as sphere impostors in parallel projection: one quad per particle, the surface and its depth found per
-// fragment. Drawn larger than the picture and averaged down by composite.wgsl.
+// Particles as spheres and bonds as rods in parallel projection: one quad each, the surface and its depth found per fragment.
+// Drawn larger than the picture and averaged down by composite.wgsl.
 
 struct Camera {
     // Unit vectors of the view in box coordinates; w of `right` is pixels per unit of length.
@@ -14,6 +14,8 @@ struct Camera {
     fog: vec4f,
     // Radius in units of length, radius in pixels, strength of the lighting, darkness of the rim.
     look: vec4f,
+    // Of bonds: radius in units of length, radius in pixels.
+    rods: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
@@ -43,15 +45,22 @@ fn linear_from_srgb(colour: vec3f) -> vec3f {
     return select(high, low, colour <= vec3f(0.04045));
 }
 
+// Where a place relative to the centre of the box is seen.
+fn pixel_of(place: vec3f) -> vec2f {
+    let seen = vec2f(dot(place, camera.right.xyz), -dot(place, camera.up.xyz));
+    return camera.centre_and_size.xy + seen * camera.right.w;
+}
+
+fn target_of(pixel: vec2f) -> vec4f {
+    return vec4f(pixel / camera.centre_and_size.zw * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0), 0.5, 1.0);
+}
+
 @vertex
 fn vertex_sphere(@builtin(vertex_index) vertex: u32, particle: Particle) -> Varying {
     let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u)) * 2.0 - 1.0;
-    let across = dot(particle.position, camera.right.xyz);
-    let upward = dot(particle.position, camera.up.xyz);
-    let centre = camera.centre_and_size.xy + vec2f(across, -upward) * camera.right.w;
-    let pixel = centre + corner * (camera.look.y + 1.0);
+    let centre = pixel_of(particle.position);
     var out: Varying;
-    out.position = vec4f(pixel / camera.centre_and_size.zw * vec2f(2.0, -2.0) + vec2f(-1.0, 1.0), 0.5, 1.0);
+    out.position = target_of(centre + corner * (camera.look.y + 1.0));
     out.centre = centre;
     out.height = dot(particle.position, camera.toward.xyz);
     out.colour = linear_from_srgb(particle.colour.rgb);
@@ -66,7 +75,12 @@ fn fragment_sphere(in: Varying) -> Surface {
         discard;
     }
     let normal = vec3f(offset.x, -offset.y, sqrt(1.0 - squared));
-    let height = in.height + normal.z * camera.look.x;
+    return surface(in.colour, normal, squared, in.height + normal.z * camera.look.x);
+}
+
+// A surface in the light at a height towards the viewer; `squared` is the square of the distance from the axis of sight through
+// the middle, in radii.
+fn surface(own: vec3f, normal: vec3f, squared: f32, height: f32) -> Surface {
     let farness = clamp(0.5 - 0.5 * height / camera.toward.w, 0.0, 1.0);
 
     let light = normalize(vec3f(-0.45, 0.65, 0.75));
@@ -79,13 +93,70 @@ fn fragment_sphere(in: Varying) -> Surface {
     let facing_8 = facing_4 * facing_4;
     let facing_16 = facing_8 * facing_8;
     let gloss = 0.16 * facing_16 * facing_16;
-    let lit = in.colour * diffuse + gloss;
+    let lit = own * diffuse + gloss;
     let rim = 1.0 - camera.look.w * smoothstep(0.62, 0.95, squared);
-    let colour = mix(in.colour, lit, camera.look.z) * rim;
+    let colour = mix(own, lit, camera.look.z) * rim;
 
     var out: Surface;
     // Mixed and stored in nearly perceptual steps: in linear light a little white would drown a dark colour.
     out.colour = vec4f(mix(sqrt(colour), camera.fog.rgb, camera.fog.a * farness), 1.0);
     out.depth = farness;
     return out;
+}
+
+// Half of a bond, from the particle whose colour it has.
+struct Rod {
+    // Of the particle, relative to the centre of the box.
+    @location(0) position: vec3f,
+    // From there to the middle of the bond.
+    @location(1) reach: vec3f,
+    // sRGB.
+    @location(2) colour: vec4f,
+}
+
+struct RodVarying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) start: vec2f,
+    // Unit vector of the rod in the picture.
+    @location(1) @interpolate(flat) along: vec2f,
+    // Height of the start, and cosine and sine of the angle between the rod and the picture.
+    @location(2) @interpolate(flat) height: f32,
+    @location(3) @interpolate(flat) tilt: vec2f,
+    @location(4) @interpolate(flat) colour: vec3f,
+}
+
+@vertex
+fn vertex_rod(@builtin(vertex_index) vertex: u32, rod: Rod) -> RodVarying {
+    let start = pixel_of(rod.position);
+    let way = pixel_of(rod.position + rod.reach) - start;
+    let seen = max(length(way), 1e-3);
+    let along = way / seen;
+    let across = vec2f(-along.y, along.x) * (camera.rods.y + 1.0);
+    let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u) * 2.0 - 1.0);
+    let rise = dot(rod.reach, camera.toward.xyz) * camera.right.w;
+    var out: RodVarying;
+    out.position = target_of(start + way * corner.x + across * corner.y);
+    out.start = start;
+    out.along = along;
+    out.height = dot(rod.position, camera.toward.xyz);
+    // A rod that points at the viewer is hidden behind its particle.
+    out.tilt = vec2f(max(seen, 0.1 * abs(rise)), rise) / sqrt(max(seen * seen + rise * rise, 1e-6));
+    out.colour = linear_from_srgb(rod.colour.rgb);
+    return out;
+}
+
+@fragment
+fn fragment_rod(in: RodVarying) -> Surface {
+    let offset = in.position.xy - in.start;
+    let across = vec2f(-in.along.y, in.along.x);
+    let beside = dot(offset, across) / camera.rods.y;
+    let squared = beside * beside;
+    if squared > 1.0 {
+        discard;
+    }
+    let front = sqrt(1.0 - squared);
+    let flat_part = across * beside - in.along * (in.tilt.y * front);
+    let normal = normalize(vec3f(flat_part.x, -flat_part.y, in.tilt.x * front));
+    let axis = in.height + dot(offset, in.along) * in.tilt.y / (in.tilt.x * camera.right.w);
+    return surface(in.colour, normal, squared, axis + front * camera.rods.x / in.tilt.x);
 }

@@ -53,7 +53,7 @@ pub enum Theme {
 }
 
 /// Pictures of the particles.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Snapshot {
     /// Steps between two numbered pictures `snapshot-<number>.png`; zero writes only `snapshot.png` at the end.
@@ -70,12 +70,28 @@ pub struct Snapshot {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
+    /// Whether bonds are drawn, where there are any.
+    pub bonds: bool,
     /// The quantity that the colour of a particle shows; left out, the species, or the density for Voronoi cells of one species.
     pub color: SnapshotColor,
     /// The lowest and the highest value on the scale of colours, of all pictures of the run; left out, they follow from the
     /// first picture and the temperature of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
+}
+
+impl Default for Snapshot {
+    fn default() -> Self {
+        Self {
+            every: 0,
+            width: None,
+            height: None,
+            radius: None,
+            bonds: true,
+            color: SnapshotColor::default(),
+            range: None,
+        }
+    }
 }
 
 /// The quantity that the colour of a particle shows.

@@ -112,6 +112,7 @@ pub fn draw_chart(
 ///     species: &[0, 1],
 ///     species_names: &["light".to_owned(), "heavy".to_owned()],
 ///     speeds: None,
+///     bonds: &[[0, 1]],
 ///     radius: 0.4,
 ///     title: "Two particles",
 ///     subtitle: "",

@@ -22,6 +22,8 @@ pub struct ParticlePicture<'a> {
     pub species_names: &'a [String],
     /// One speed per particle; needed only to colour by speed.
     pub speeds: Option<&'a [f64]>,
+    /// Pairs of particles that are bonded: a rod is drawn between the two, the shortest way.
+    pub bonds: &'a [[u32; 2]],
     /// Radius of the drawn discs in units of length.
     pub radius: f64,
     /// One line that says what is shown; may be empty.
@@ -39,9 +41,24 @@ pub(super) struct ParticleInstance {
     pub colour: Colour,
 }
 
+/// Half of a bond in `spheres.wgsl`: from one of its particles to its middle.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct RodInstance {
+    /// Of the particle, relative to the centre of the box.
+    pub position: [f32; 3],
+    pub reach: [f32; 3],
+    pub colour: Colour,
+}
+
+/// Radius of a bond in radii of a particle.
+const ROD: f64 = 0.35;
+
 /// Particles and the view of them.
 pub(super) struct SphereScene {
     pub particles: Vec<ParticleInstance>,
+    pub rods: Vec<RodInstance>,
+    pub rod_radius: f64,
     pub right: [f64; 3],
     pub up: [f64; 3],
     pub toward: [f64; 3],
@@ -89,6 +106,9 @@ fn check(picture: &ParticlePicture<'_>, style: &Snapshot) -> Result<(), PlotErro
     }
     if let Some(species) = picture.species.iter().find(|species| **species as usize >= picture.species_names.len()) {
         return refuse(format!("species {species} has no name"));
+    }
+    if let Some([a, b]) = picture.bonds.iter().find(|ends| ends.iter().any(|end| *end as usize >= count)) {
+        return refuse(format!("a bond of {a} and {b} among {count} particles"));
     }
     match picture.speeds {
         Some(speeds) if speeds.len() != count => {
@@ -186,6 +206,7 @@ pub(super) fn lay_out(
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
     let particles = instances(picture, &colouring, lengths, radius);
+    let rods = rods(picture, &colouring, lengths);
     let fragments = particles.len() as f64 * 3.2 * (radius * pixels_per_length).powi(2);
     let flat = picture.dimension == 2;
     let scene = SphereScene {
@@ -204,6 +225,8 @@ pub(super) fn lay_out(
         // More samples where they cost little.
         samples: if fragments < 4e6 { 3 } else { 2 },
         particles,
+        rods,
+        rod_radius: ROD * radius,
     };
     Ok((canvas, scene))
 }
@@ -283,6 +306,28 @@ fn instances(
         }
     }
     instances
+}
+
+/// The halves of all bonds.
+fn rods(picture: &ParticlePicture<'_>, colouring: &Colouring<'_>, lengths: [f64; 3]) -> Vec<RodInstance> {
+    let dimension = picture.dimension as usize;
+    let flat = |position: [f64; 3]| [0, 1, 2].map(|axis| if axis < dimension { position[axis] } else { 0.0 });
+    let mut rods = Vec::with_capacity(2 * picture.bonds.len());
+    for [a, b] in picture.bonds.iter().map(|ends| ends.map(|end| end as usize)) {
+        for (near, far) in [(a, b), (b, a)] {
+            let [from, to] = [near, far].map(|end| flat(picture.positions[end]));
+            let half = [0, 1, 2].map(|axis| {
+                let (way, edge) = (to[axis] - from[axis], lengths[axis]);
+                0.5 * if axis < dimension { way - edge * (way / edge).round() } else { 0.0 }
+            });
+            if half.iter().chain(&from).all(|part| part.is_finite()) {
+                let position = [0, 1, 2].map(|axis| (from[axis] - 0.5 * lengths[axis]) as f32);
+                let colour = colouring.colour(picture, near);
+                rods.push(RodInstance { position, reach: half.map(|part| part as f32), colour });
+            }
+        }
+    }
+    rods
 }
 
 /// What the colours mean.

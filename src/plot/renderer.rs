@@ -13,7 +13,7 @@ use super::pipelines::{
     COLOUR_FORMAT, Target, checked, colour_attachment, filled_buffer, labelled, module, once, pipeline, uniform,
 };
 use super::readback::read_back;
-use super::sphere_renderer::{composite_pipeline, draw_spheres, spheres_pipeline};
+use super::sphere_renderer::{composite_pipeline, draw_spheres, rods_pipeline, spheres_pipeline};
 use crate::scene::{PlotStyle, Snapshot, Theme};
 use bytemuck::{Pod, Zeroable};
 use image::RgbaImage;
@@ -35,6 +35,7 @@ pub struct Plotter {
     queue: wgpu::Queue,
     shapes: wgpu::RenderPipeline,
     spheres: OnceLock<wgpu::RenderPipeline>,
+    rods: OnceLock<wgpu::RenderPipeline>,
     composite: OnceLock<wgpu::RenderPipeline>,
     field: OnceLock<wgpu::RenderPipeline>,
 }
@@ -58,6 +59,7 @@ impl Plotter {
             queue: queue.clone(),
             shapes,
             spheres: OnceLock::new(),
+            rods: OnceLock::new(),
             composite: OnceLock::new(),
             field: OnceLock::new(),
         })
@@ -161,9 +163,13 @@ impl Plotter {
                 let spheres = once(&self.spheres, &self.device, "pipeline of the particles", spheres_pipeline)?;
                 let composite = once(&self.composite, &self.device, "pipeline of the overlay", composite_pipeline)?;
                 let pipelines = [spheres, composite];
+                let rods = match scene.rods.as_slice() {
+                    [] => None,
+                    _ => Some(once(&self.rods, &self.device, "pipeline of the bonds", rods_pipeline)?),
+                };
                 if let Some(clip) = scissor(Some(scene.area), canvas) {
                     let (device, queue) = (&self.device, &self.queue);
-                    checked(device, "particles", || draw_spheres(device, queue, pipelines, scene, clip, &view))?;
+                    checked(device, "particles", || draw_spheres(device, queue, pipelines, rods, scene, clip, &view))?;
                 }
             }
             Content::Field(scene) => {

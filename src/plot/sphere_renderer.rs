@@ -1,7 +1,7 @@
 //! The device side of particles: spheres and discs drawn enlarged, then laid over the picture.
 
 use super::palette::linear;
-use super::particles::{ParticleInstance, SphereScene};
+use super::particles::{ParticleInstance, RodInstance, SphereScene};
 use super::pipelines::{
     DEPTH_FORMAT, ENLARGED_FORMAT, Target, colour_attachment, filled_buffer, labelled, module, pipeline, uniform,
 };
@@ -9,7 +9,7 @@ use bytemuck::{Pod, Zeroable};
 
 /// Side of the texture that particles are drawn into, larger than life; a big picture takes several turns.
 const TILE_SIDE: u32 = 2048;
-/// Instances in one vertex buffer: 16 bytes each, far below the smallest permitted buffer limit.
+/// Instances in one vertex buffer: 16 or 28 bytes each, far below the smallest permitted buffer limit.
 const INSTANCES_PER_BUFFER: usize = 1 << 21;
 
 #[repr(C)]
@@ -30,6 +30,13 @@ struct Camera {
     centre_and_size: [f32; 4],
     fog: [f32; 4],
     look: [f32; 4],
+    rods: [f32; 4],
+}
+
+/// Instances of one kind on the device, and how they are drawn.
+struct Drawn<'a> {
+    pipeline: &'a wgpu::RenderPipeline,
+    buffers: Vec<(wgpu::Buffer, u32)>,
 }
 
 pub(super) fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
@@ -42,17 +49,28 @@ pub(super) fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     pipeline(device, "plot: particles", &module, ["vertex_sphere", "fragment_sphere"], Some(instance), Target::Enlarged)
 }
 
+pub(super) fn rods_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
+    let module = module(device, "plot/spheres.wgsl", include_str!("../../shaders/plot/spheres.wgsl"));
+    let instance = wgpu::VertexBufferLayout {
+        array_stride: size_of::<RodInstance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4],
+    };
+    pipeline(device, "plot: bonds", &module, ["vertex_rod", "fragment_rod"], Some(instance), Target::Enlarged)
+}
+
 pub(super) fn composite_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = module(device, "plot/composite.wgsl", include_str!("../../shaders/plot/composite.wgsl"));
     pipeline(device, "plot: overlay", &module, ["vertex_composite", "fragment_composite"], None, Target::Picture)
 }
 
-/// Draws the particles enlarged, tile by tile, and lays each tile over the picture; of the picture they take the part
-/// with this left, top, width and height.
+/// Draws the particles and their bonds enlarged, tile by tile, and lays each tile over the picture; of the picture they take the
+/// part with this left, top, width and height.
 pub(super) fn draw_spheres(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     [spheres, composite]: [&wgpu::RenderPipeline; 2],
+    rods: Option<&wgpu::RenderPipeline>,
     scene: &SphereScene,
     [left, top, width, height]: [u32; 4],
     view: &wgpu::TextureView,
@@ -82,21 +100,17 @@ pub(super) fn draw_spheres(
     };
     let colour = texture("plot: particles", ENLARGED_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
     let depth = texture("plot: depth of particles", DEPTH_FORMAT, wgpu::TextureUsages::empty());
-    let buffers: Vec<_> = scene
-        .particles
-        .chunks(INSTANCES_PER_BUFFER)
-        .map(|chunk| {
-            let bytes = bytemuck::cast_slice::<ParticleInstance, u8>(chunk);
-            (filled_buffer(device, queue, "plot: particles", bytes, wgpu::BufferUsages::VERTEX), chunk.len() as u32)
-        })
-        .collect();
+    let mut drawn = vec![Drawn { pipeline: spheres, buffers: buffers(device, queue, &scene.particles) }];
+    if let Some(pipeline) = rods {
+        drawn.push(Drawn { pipeline, buffers: buffers(device, queue, &scene.rods) });
+    }
     for tile_top in (top..top + height).step_by(tile as usize) {
         for tile_left in (left..left + width).step_by(tile as usize) {
             let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];
             let mut encoder =
                 device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
             let camera = camera(scene, [tile_left, tile_top], [texture_size.width, texture_size.height]);
-            enlarged_pass(device, queue, spheres, &mut encoder, &camera, &buffers, [&colour, &depth]);
+            enlarged_pass(device, queue, &drawn, &mut encoder, &camera, [&colour, &depth]);
             let placement =
                 Placement { origin: [tile_left as i32, tile_top as i32], samples: samples as i32, padding: 0 };
             composite_pass(device, queue, composite, &mut encoder, &placement, tile_size, [&colour, view]);
@@ -105,23 +119,23 @@ pub(super) fn draw_spheres(
     }
 }
 
+fn buffers<T: Pod>(device: &wgpu::Device, queue: &wgpu::Queue, instances: &[T]) -> Vec<(wgpu::Buffer, u32)> {
+    let filled = |chunk: &[T]| {
+        let bytes = bytemuck::cast_slice(chunk);
+        (filled_buffer(device, queue, "plot: particles", bytes, wgpu::BufferUsages::VERTEX), chunk.len() as u32)
+    };
+    instances.chunks(INSTANCES_PER_BUFFER).map(filled).collect()
+}
+
 fn enlarged_pass(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    pipeline: &wgpu::RenderPipeline,
+    drawn: &[Drawn<'_>],
     encoder: &mut wgpu::CommandEncoder,
     camera: &Camera,
-    buffers: &[(wgpu::Buffer, u32)],
     [colour, depth]: [&wgpu::TextureView; 2],
 ) {
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("plot: camera"),
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: uniform(device, queue, "plot: camera", camera).as_entire_binding(),
-        }],
-    });
+    let camera = uniform(device, queue, "plot: camera", camera);
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("plot: particles"),
         color_attachments: &[Some(colour_attachment(colour, Some(wgpu::Color::TRANSPARENT)))],
@@ -132,11 +146,18 @@ fn enlarged_pass(
         }),
         ..Default::default()
     });
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &group, &[]);
-    for (buffer, count) in buffers {
-        pass.set_vertex_buffer(0, buffer.slice(..));
-        pass.draw(0..4, 0..*count);
+    for Drawn { pipeline, buffers } in drawn {
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("plot: camera"),
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: camera.as_entire_binding() }],
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        for (buffer, count) in buffers {
+            pass.set_vertex_buffer(0, buffer.slice(..));
+            pass.draw(0..4, 0..*count);
+        }
     }
 }
 
@@ -189,5 +210,6 @@ fn camera(scene: &SphereScene, tile: [u32; 2], target: [u32; 2]) -> Camera {
         ],
         fog: [fog(0), fog(1), fog(2), scene.fog as f32],
         look: [scene.radius as f32, (scene.radius * scale) as f32, scene.lighting as f32, scene.rim as f32],
+        rods: [scene.rod_radius as f32, (scene.rod_radius * scale) as f32, 0.0, 0.0],
     }
 }

@@ -222,6 +222,10 @@ impl<'a> Pictures<'a> {
             let begin = || colour_ranges::of_speeds(speeds, model.temperature, lightest(model));
             self.ranges.of("speed", asked.range, begin)
         });
+        let bonds: Vec<[u32; 2]> = match &model.particles().bonds {
+            Some(bonds) if asked.bonds => bonds.iter().map(|bond| bond.ends).collect(),
+            _ => Vec::new(),
+        };
         let picture = ParticlePicture {
             dimension: units.dimension as u32,
             lengths: units.lengths,
@@ -229,6 +233,7 @@ impl<'a> Pictures<'a> {
             species: &state.species,
             species_names: &names,
             speeds: speeds.as_deref(),
+            bonds: &bonds,
             radius: self.scene.output.snapshot.radius.unwrap_or_else(|| radius(model)),
             title: &self.scene.title,
             subtitle: &subtitle,

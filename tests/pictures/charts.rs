@@ -324,10 +324,48 @@ fn particle<'a>(positions: &'a [[f64; 3]], names: &'a [String]) -> ParticlePictu
         species: &[0],
         species_names: names,
         speeds: None,
+        bonds: &[],
         radius: 1.0,
         title: "",
         subtitle: "",
     }
+}
+
+/// A rod joins bonded particles the shortest way, half in the colour of each.
+#[test]
+fn bonds_are_drawn_the_shortest_way() {
+    let names = ["water".to_owned(), "oil".to_owned()];
+    let is_coloured = |pixel: &image::Rgba<u8>| {
+        let [red, green, blue, _] = pixel.0;
+        red.max(green).max(blue) - red.min(green).min(blue) > 40
+    };
+    for (x, between) in [([3.5, 6.5], true), ([1.5, 8.5], false)] {
+        let positions = x.map(|x| [x, 5.0, 0.0]);
+        let bonds = [[0, 1]];
+        let picture = ParticlePicture { bonds: &bonds, species: &[0, 1], radius: 0.8, ..particle(&positions, &names) };
+        let drawn = plotter().draw_particles(&picture, &square(), Theme::Light).unwrap();
+        let bare =
+            plotter().draw_particles(&ParticlePicture { bonds: &[], ..picture }, &square(), Theme::Light).unwrap();
+        save(&format!("bond-{between}"), drawn.clone());
+        let changed: Vec<(u32, u32)> = drawn
+            .enumerate_pixels()
+            .filter(|(x, y, pixel)| bare.get_pixel(*x, *y) != *pixel)
+            .map(|(x, y, _)| (x, y))
+            .collect();
+        assert!(changed.len() > 500, "{}", changed.len());
+        assert!(changed.iter().any(|(x, y)| is_coloured(drawn.get_pixel(*x, *y))));
+        let (least, most) =
+            (changed.iter().map(|(x, _)| *x).min().unwrap(), changed.iter().map(|(x, _)| *x).max().unwrap());
+        // Between the two, or from both to the edges of the box; the middle of the box is that of the picture.
+        let in_the_middle = changed.iter().any(|(x, _)| x.abs_diff(600) < 20);
+        assert_eq!(in_the_middle, between);
+        assert_eq!(most - least < 400, between, "{least} {most}");
+    }
+    let none = ParticlePicture { bonds: &[[0, 7]], ..particle(&[[1.0; 3]], &names) };
+    let refused = plotter().draw_particles(&none, &square(), Theme::Light);
+    assert!(
+        matches!(refused, Err(PlotError::Input(message)) if message.contains("a bond of 0 and 7 among 1 particles"))
+    );
 }
 
 #[test]
@@ -412,6 +450,7 @@ fn a_demixed_mixture_in_two_dimensions() {
         species: &species,
         species_names: &names,
         speeds: Some(&speeds),
+        bonds: &[],
         radius: 0.33,
         title: "Binary mixture",
         subtitle: "t = 200 time units",
@@ -445,6 +484,7 @@ fn a_box_of_24_000_particles() {
         species: &vec![0; positions.len()],
         species_names: &names,
         speeds: None,
+        bonds: &[],
         radius: 0.33,
         title: "DPD fluid at density 3",
         subtitle: "t = 80 time units",
