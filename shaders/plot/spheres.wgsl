@@ -119,28 +119,33 @@ struct RodVarying {
     @location(0) @interpolate(flat) start: vec2f,
     // Unit vector of the rod in the picture.
     @location(1) @interpolate(flat) along: vec2f,
-    // Height of the start, and cosine and sine of the angle between the rod and the picture.
+    // Height of the start, and length of the rod in pixels.
     @location(2) @interpolate(flat) height: f32,
-    @location(3) @interpolate(flat) tilt: vec2f,
-    @location(4) @interpolate(flat) colour: vec3f,
+    @location(3) @interpolate(flat) extent: f32,
+    // Cosine and sine of the angle between the rod and the picture.
+    @location(4) @interpolate(flat) tilt: vec2f,
+    @location(5) @interpolate(flat) colour: vec3f,
 }
 
 @vertex
 fn vertex_rod(@builtin(vertex_index) vertex: u32, rod: Rod) -> RodVarying {
     let start = pixel_of(rod.position);
     let way = pixel_of(rod.position + rod.reach) - start;
-    let seen = max(length(way), 1e-3);
-    let along = way / seen;
-    let across = vec2f(-along.y, along.x) * (camera.rods.y + 1.0);
+    let seen = length(way);
+    let along = select(vec2f(1.0, 0.0), way / seen, seen > 1e-3);
+    // The surface of a rod that comes towards the viewer begins before its axis does, and one that goes away ends after it.
+    let margin = camera.rods.y + 1.0;
     let corner = vec2f(f32(vertex & 1u), f32(vertex >> 1u) * 2.0 - 1.0);
+    let place = along * mix(-margin, seen + margin, corner.x) + vec2f(-along.y, along.x) * margin * corner.y;
     let rise = dot(rod.reach, camera.toward.xyz) * camera.right.w;
+    let extent = max(sqrt(seen * seen + rise * rise), 1e-3);
     var out: RodVarying;
-    out.position = target_of(start + way * corner.x + across * corner.y);
+    out.position = target_of(start + place);
     out.start = start;
     out.along = along;
     out.height = dot(rod.position, camera.toward.xyz);
-    // A rod that points at the viewer is hidden behind its particle.
-    out.tilt = vec2f(max(seen, 0.1 * abs(rise)), rise) / sqrt(max(seen * seen + rise * rise, 1e-6));
+    out.extent = extent;
+    out.tilt = vec2f(seen, rise) / extent;
     out.colour = linear_from_srgb(rod.colour.rgb);
     return out;
 }
@@ -151,12 +156,14 @@ fn fragment_rod(in: RodVarying) -> Surface {
     let across = vec2f(-in.along.y, in.along.x);
     let beside = dot(offset, across) / camera.rods.y;
     let squared = beside * beside;
-    if squared > 1.0 {
+    let front = sqrt(max(1.0 - squared, 0.0));
+    // How far along the rod the surface is that is seen here. One that points at the viewer is hidden by the particle before it.
+    let place = (dot(offset, in.along) + front * camera.rods.y * in.tilt.y) / max(in.tilt.x, 0.02);
+    if squared > 1.0 || place < 0.0 || place > in.extent || in.tilt.x < 0.02 {
         discard;
     }
-    let front = sqrt(1.0 - squared);
-    let flat_part = across * beside - in.along * (in.tilt.y * front);
-    let normal = normalize(vec3f(flat_part.x, -flat_part.y, in.tilt.x * front));
-    let axis = in.height + dot(offset, in.along) * in.tilt.y / (in.tilt.x * camera.right.w);
-    return surface(in.colour, normal, squared, axis + front * camera.rods.x / in.tilt.x);
+    let level = across * beside - in.along * (in.tilt.y * front);
+    let normal = vec3f(level.x, -level.y, in.tilt.x * front);
+    let rise = place * in.tilt.y + front * camera.rods.y * in.tilt.x;
+    return surface(in.colour, normal, squared, in.height + rise / camera.right.w);
 }
