@@ -100,7 +100,7 @@ impl StudyArguments {
         let executed = if self.how.quiet {
             execute(study, &adapter, &mut |_| {})
         } else {
-            let mut reporter = Reporter::new(title);
+            let mut reporter = Reporter::new(title, R::KIND);
             let executed = execute(study, &adapter, &mut |event| reporter.show(&event, &runs));
             reporter.clear();
             executed

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use mesoscope::numbers::prefixed;
 use mesoscope::printable;
 use mesoscope::run::Progress;
-use mesoscope::study::StudyEvent;
+use mesoscope::study::{Kind, StudyEvent};
 
 use super::report::duration;
 use super::{line, print, progress};
@@ -19,6 +19,7 @@ const PARTS: f64 = 1000.0;
 /// Shows how far a study is.
 pub struct Reporter {
     title: String,
+    kind: &'static Kind,
     bar: Option<ProgressBar>,
     /// Runs under way, with their first steps.
     under_way: Vec<(String, u64, Option<Progress>)>,
@@ -27,8 +28,9 @@ pub struct Reporter {
 }
 
 impl Reporter {
-    pub fn new(title: &str) -> Self {
-        Self { title: printable::name(title).into_owned(), bar: None, under_way: Vec::new(), runs: 0, ended: 0 }
+    pub fn new(title: &str, kind: &'static Kind) -> Self {
+        let title = printable::name(title).into_owned();
+        Self { title, kind, bar: None, under_way: Vec::new(), runs: 0, ended: 0 }
     }
 
     pub fn clear(&mut self) {
@@ -40,7 +42,8 @@ impl Reporter {
     pub fn show<E: Display, P: Display>(&mut self, event: &StudyEvent<'_, E, P>, in_words: &dyn Fn(usize) -> String) {
         match *event {
             StudyEvent::Started { adapter, runs, jobs, seconds } => {
-                let time = seconds.map(|seconds| format!(", about {}", duration(seconds.ceil() as u64)));
+                let estimate = self.kind.estimate;
+                let time = seconds.map(|seconds| format!(", {estimate} {}", duration(seconds.ceil() as u64)));
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
                     "{}: {}, {jobs} at a time, on {} ({}){}\n",

@@ -3,6 +3,7 @@
 use super::range::Spacing;
 use super::request::Request;
 use crate::families::{self, Beyond};
+use crate::scene::SceneError;
 use serde::{Deserialize, Serialize};
 
 /// Halvings of the distance to a bound.
@@ -20,9 +21,12 @@ pub struct Bound {
 }
 
 /// The bounds of a row that lie between its ends.
-pub(super) fn bounds(request: &Request, row: usize) -> Vec<Bound> {
+///
+/// # Errors
+/// [`SceneError`] when a file that scenes start from cannot be read, or is not what it was.
+pub(super) fn bounds(request: &Request, row: usize) -> Result<Vec<Bound>, SceneError> {
     let along = &request.along;
-    let shares: Vec<Vec<families::Limit>> = along.values.iter().map(|value| limits(request, row, *value)).collect();
+    let shares = along.values.iter().map(|value| limits(request, row, *value)).collect::<Result<Vec<_>, _>>()?;
     let mut laws: Vec<&'static str> = Vec::new();
     for limit in shares.iter().flatten() {
         if !laws.contains(&limit.law) {
@@ -40,25 +44,35 @@ pub(super) fn bounds(request: &Request, row: usize) -> Vec<Bound> {
         let (low, high) = (along.values[place], along.values[place + 1]);
         let rises = share(&shares[place], law) < 1.0;
         let at = crossing_between(low, high, along.spacing, &|value| {
-            (share(&limits(request, row, value), law) < 1.0) == rises
-        });
+            Ok((share(&limits(request, row, value)?, law) < 1.0) == rises)
+        })?;
         found.push(Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at });
     }
     found.sort_by(|a, b| a.at.total_cmp(&b.at));
-    found
+    Ok(found)
 }
 
 /// What laws say of one scene; nothing where it is none.
-fn limits(request: &Request, row: usize, value: f64) -> Vec<families::Limit> {
-    request.varied(row, value).map(|scene| families::limits(&scene)).unwrap_or_default()
+fn limits(request: &Request, row: usize, value: f64) -> Result<Vec<families::Limit>, SceneError> {
+    match request.varied(row, value) {
+        Ok(scene) => Ok(families::limits(&scene)),
+        // That says nothing about the scene.
+        Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => Err(error),
+        Err(_) => Ok(Vec::new()),
+    }
 }
 
-fn crossing_between(mut low: f64, mut high: f64, spacing: Spacing, is_before: &dyn Fn(f64) -> bool) -> f64 {
+fn crossing_between(
+    mut low: f64,
+    mut high: f64,
+    spacing: Spacing,
+    is_before: &dyn Fn(f64) -> Result<bool, SceneError>,
+) -> Result<f64, SceneError> {
     for _ in 0..ROUNDS {
         let middle = spacing.middle(low, high);
-        if is_before(middle) { low = middle } else { high = middle }
+        if is_before(middle)? { low = middle } else { high = middle }
     }
-    spacing.middle(low, high)
+    Ok(spacing.middle(low, high))
 }
 
 #[cfg(test)]
@@ -78,7 +92,7 @@ mod tests {
         let path = directory.path().join("oscillators.json");
         std::fs::write(&path, scene).unwrap();
         let request = Request::load(path.to_str().unwrap(), &[], &["time.step=0.01..2/6".to_owned()]).unwrap();
-        let found = bounds(&request, 0);
+        let found = bounds(&request, 0).unwrap();
         assert_eq!(found.len(), 1, "{found:?}");
         assert!((found[0].at - 0.5).abs() < 1e-3 && found[0].is_of_stability, "{found:?}");
     }

@@ -1,5 +1,6 @@
 //! A map of stability from its first scene to its page.
 
+use super::bounds::bounds;
 use super::cell::{Cell, Comparison, evaluate};
 use super::summary::StabilitySummary;
 use super::{chart, files, page, table};
@@ -51,6 +52,10 @@ impl StudyRun<StabilitySummary> {
         observer: &mut Observer<'_, StabilitySummary>,
     ) -> Result<StabilityOutcome, StudyError> {
         self.check_place()?;
+        for row in 0..self.summary.rows.len() {
+            // Also of a map that goes on: this version may know of other laws.
+            self.summary.rows[row].bounds = bounds(&self.request, row)?;
+        }
         let mut waiting = self.waiting();
         let gpu = run::adapter_for(&self.request.base, adapter).map_err(|source| match source {
             RunError::Gpu(source) => source.into(),

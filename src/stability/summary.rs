@@ -8,7 +8,7 @@ use super::run::Bisecting;
 use super::verdict::Verdict;
 use crate::output::Id;
 use crate::output::summary::AdapterSummary;
-use crate::study::{self, Kind, Record, STABILITY, Setting, StudyError};
+use crate::study::{self, ASKS_ELSE, Kind, Record, STABILITY, Setting, StudyError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -18,7 +18,7 @@ const MOST_EDGES: usize = 3;
 /// What was asked, and what became of every scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilitySummary {
-    /// Version of the program.
+    /// Version of the program that began it.
     pub mesoscope_version: String,
     /// The day it was begun, as year, month and day.
     pub date: String,
@@ -48,7 +48,7 @@ pub struct Row {
     pub setting: Option<Setting>,
     /// Its scenes so far, by their value.
     pub cells: Vec<Cell>,
-    /// Where laws put its edges.
+    /// Where laws put its edges; none before the map is begun.
     pub bounds: Vec<Bound>,
 }
 
@@ -139,7 +139,7 @@ impl Record for StabilitySummary {
             label: request.row_label(row),
             setting: request.setting(row),
             cells: Vec::new(),
-            bounds: super::bounds::bounds(request, row),
+            bounds: Vec::new(),
         };
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -161,10 +161,7 @@ impl Record for StabilitySummary {
 
     fn misfits(&self, request: &Request) -> Vec<&'static str> {
         let misfits = [
-            (
-                !self.is_of_this_version() || self.stability_id == request.id(),
-                "asks for something else than what its id stands for",
-            ),
+            (!self.is_of_this_version() || self.stability_id == request.id(), ASKS_ELSE),
             (self.rows.len() == request.row_count(), "has other rows than those that it asks for"),
             (self.measures == request.measures(), "compares other measures than those that it asks for"),
         ];

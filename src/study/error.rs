@@ -66,7 +66,7 @@ pub enum StudyError {
         version: String,
     },
     /// It would take very long, and nobody said that it may.
-    #[error("all runs together would take about {expected}: pass --yes to run them, or {}", kind.shortened)]
+    #[error("all runs together would take {} {expected}: pass --yes to run them, or {}", kind.estimate, kind.shortened)]
     Long {
         /// What would take so long.
         kind: &'static Kind,

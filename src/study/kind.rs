@@ -15,6 +15,10 @@ pub struct Kind {
     pub resumed: &'static str,
     /// What makes one shorter: `--budget to shorten them`.
     pub shortened: &'static str,
+    /// What stands before the time that its runs are expected to take: `about`, or `at most` where runs may end early.
+    pub estimate: &'static str,
+    /// Keys of its summary that say what was asked for; a checksum of their values is kept.
+    pub(super) asked: &'static [&'static str],
     /// Names of its other files, but for the pictures of quantities.
     files: &'static [&'static str],
     /// Whether it has a picture for every quantity.
@@ -31,6 +35,8 @@ pub(crate) const SWEEP: Kind = Kind {
     again: "run the sweep again",
     resumed: "finishes the sweep",
     shortened: "shorten them with --steps",
+    estimate: "about",
+    asked: &["scene", "vary", "also", "set", "steps", "state_files", "base"],
     files: &["sweep.csv", "sweep-averages.csv"],
     has_plots: true,
     runs: &["variants"],
@@ -44,6 +50,8 @@ pub(crate) const TRADEOFF: Kind = Kind {
     again: "run the tradeoff again",
     resumed: "goes on",
     shortened: "--budget to shorten them",
+    estimate: "about",
+    asked: &["arguments"],
     files: &["tradeoff.csv", "tradeoff.md"],
     has_plots: true,
     runs: &["choices", "finer"],
@@ -57,6 +65,9 @@ pub(crate) const STABILITY: Kind = Kind {
     again: "make the map again",
     resumed: "goes on",
     shortened: "shorten them with --set time.steps=N or a narrower range",
+    // A run ends when its verdict is certain.
+    estimate: "at most",
+    asked: &["arguments"],
     files: &["stability.csv", "stability.md", "stability.png"],
     has_plots: false,
     runs: &[],

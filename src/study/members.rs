@@ -5,7 +5,7 @@ use super::error::StudyError;
 use super::record::Record;
 use super::run::{Observer, StudyEvent, StudyRun};
 use crate::gpu::AdapterChoice;
-use crate::output::{Id, OutputError, RunDirectory, Summary, files};
+use crate::output::{Id, OutputError, RunDirectory, Summary, files, of_one_run};
 use crate::run::{Event, Progress, RunError, Simulation};
 use crate::scene::{Scene, Warning};
 use std::path::Path;
@@ -20,6 +20,22 @@ pub(crate) struct Member {
     pub id: Id,
     /// What was done to the scene.
     pub notices: Vec<Warning>,
+}
+
+/// The summary of the run of a scene in its directory, if it reached its last step and left all of its files; `reference` is the file
+/// that says which id it is to have.
+pub(crate) fn finished(directory: &Path, scene: &Scene, id: Id, reference: &'static str) -> Option<Summary> {
+    if !directory.is_dir() {
+        return None;
+    }
+    // A process that still writes there is not finished; what a killed one left half-written is removed.
+    let directory = RunDirectory::claim(directory).ok()?;
+    directory.check_run(id, reference).ok()?;
+    let reached_its_end = |summary: &Summary| {
+        summary.run_id == id && summary.steps >= scene.time.steps && of_one_run(&summary.scene, scene)
+    };
+    let summary = Summary::load(&directory.file(files::SUMMARY)).ok().filter(reached_its_end)?;
+    summary.is_complete(&directory).then_some(summary)
 }
 
 impl Member {

@@ -4,10 +4,18 @@ use super::error::StudyError;
 use super::kind::Kind;
 use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, write_atomically};
+use crate::state_file::checkpoint::Fnv;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use std::fmt::{Debug, Display};
 use std::path::Path;
+
+/// What a summary says that is not what was asked for when it was written.
+pub(crate) const ASKS_ELSE: &str = "asks for something else than what its id stands for";
+
+/// The key of the checksum of what was asked for.
+const CHECKSUM: &str = "request_checksum";
 
 /// What a kind of study writes down: what it was asked for and what came out.
 pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
@@ -61,12 +69,41 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     }
 }
 
+/// A summary as it is in its file.
+#[derive(Serialize)]
+struct Stored<'r, R> {
+    #[serde(flatten)]
+    record: &'r R,
+    request_checksum: String,
+}
+
 /// Writes a summary into the directory of its study.
 pub(crate) fn save<R: Record>(record: &R, directory: &Path) -> Result<(), OutputError> {
     let path = directory.join(R::KIND.summary);
-    let text =
-        serde_json::to_string_pretty(record).map_err(|source| OutputError::Json { path: path.clone(), source })?;
+    let text = || {
+        let request_checksum = checksum_of(R::KIND, &serde_json::to_value(record)?);
+        serde_json::to_string_pretty(&Stored { record, request_checksum })
+    };
+    let text = text().map_err(|source| OutputError::Json { path: path.clone(), source })?;
     write_atomically(&path, |writer| writeln!(writer, "{text}"))
+}
+
+/// The checksum of what a summary says that was asked for: of the text, so that it holds for every version of the program, whatever
+/// keys scenes have in it.
+fn checksum_of(kind: &Kind, summary: &Value) -> String {
+    let asked: Vec<&Value> = kind.asked.iter().map(|key| summary.get(key).unwrap_or(&Value::Null)).collect();
+    let mut sum = Fnv::new();
+    // Values of JSON can always be written.
+    sum.add(&serde_json::to_vec(&asked).unwrap_or_default());
+    format!("{:016x}", sum.0)
+}
+
+/// Whether what a summary asks for is what it asked for when it was written; those of early versions do not say.
+fn is_as_asked(kind: &Kind, path: &Path) -> Result<bool, OutputError> {
+    let text = std::fs::read(path).map_err(OutputError::io("read", path))?;
+    let summary: Value =
+        serde_json::from_slice(&text).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
+    Ok(summary.get(CHECKSUM).is_none_or(|noted| *noted == checksum_of(kind, &summary)))
 }
 
 /// Reads the summary in the directory of a study.
@@ -101,8 +138,15 @@ pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version.is_later(&own)) {
         return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
     }
-    let request = record.request()?;
-    let reasons = record.misfits(&request);
+    let is_as_asked = is_as_asked(kind, &path)?;
+    let request = match record.request() {
+        Err(_) if !is_as_asked => return Err(StudyError::Changed { kind, path, reasons: vec![ASKS_ELSE] }),
+        request => request?,
+    };
+    let mut reasons = record.misfits(&request);
+    if !is_as_asked && !reasons.contains(&ASKS_ELSE) {
+        reasons.insert(0, ASKS_ELSE);
+    }
     if !reasons.is_empty() {
         return Err(StudyError::Changed { kind, path, reasons });
     }

@@ -5,9 +5,9 @@ use super::files;
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use crate::output::summary::AdapterSummary;
-use crate::output::{Id, RunDirectory, Summary, files as run_files, of_one_run};
+use crate::output::{Id, RunDirectory};
 use crate::scene::StateFiles;
-use crate::study::{self, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variant, Variation};
+use crate::study::{self, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::convert::Infallible;
@@ -16,7 +16,7 @@ use std::path::Path;
 /// What was varied, on what, and what came out of every variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepSummary {
-    /// Version of the program.
+    /// Version of the program that began it.
     pub mesoscope_version: String,
     /// The id of the sweep, made of those of its runs.
     pub sweep_id: Id,
@@ -127,10 +127,14 @@ impl Record for SweepSummary {
     /// The summary before any of the variants was run, but for those that are finished.
     fn resumed(self, sweep: &Sweep, directory: &RunDirectory) -> Self {
         let mut new = Self::before(sweep);
+        // Its ids are of that version.
+        new.mesoscope_version = self.mesoscope_version;
         (new.sweep_id, new.adapter, new.plots) = (self.sweep_id, self.adapter, self.plots);
         for ((entry, earlier), variant) in new.variants.iter_mut().zip(self.variants).zip(sweep.variants()) {
             entry.run_id = earlier.run_id;
-            if let Some(run) = finished(&directory.file(&variant.name), variant, entry.run_id) {
+            if let Some(run) =
+                study::finished(&directory.file(&variant.name), &variant.scene, entry.run_id, files::SUMMARY)
+            {
                 entry.finish(&run);
             }
         }
@@ -141,19 +145,4 @@ impl Record for SweepSummary {
         let all = self.variants.len();
         format!(" after {} of {all} variants", all - self.waiting().len())
     }
-}
-
-/// The summary of the run of a variant, if it reached its last step and left all of its files.
-fn finished(directory: &Path, variant: &Variant, id: Id) -> Option<Summary> {
-    if !directory.is_dir() {
-        return None;
-    }
-    // A process that still writes there is not finished; what a killed one left half-written is removed.
-    let directory = RunDirectory::claim(directory).ok()?;
-    directory.check_run(id, files::SUMMARY).ok()?;
-    let reached_its_end = |summary: &Summary| {
-        summary.run_id == id && summary.steps >= variant.scene.time.steps && of_one_run(&summary.scene, &variant.scene)
-    };
-    let summary = Summary::load(&directory.file(run_files::SUMMARY)).ok().filter(reached_its_end)?;
-    summary.is_complete(&directory).then_some(summary)
 }

@@ -85,17 +85,18 @@ impl StudyRun<TradeoffSummary> {
     ) -> Result<TradeoffOutcome, StudyError> {
         let runs = self.runs(&self.summary.stretch)?;
         self.check_place()?;
-        let seconds = self.plan_pilot(&runs, adapter)?;
+        let waiting = self.waiting(&runs);
+        let seconds = self.plan_pilot(&waiting, adapter)?;
         // Every run opens the adapter for itself, this is to know it.
         let gpu = Gpu::open(adapter, Requirements::default())?;
-        let count = count(&runs);
-        let largest = study::largest(runs[..count].iter().map(|(_, scene)| scene)).unwrap_or(&self.request.base);
-        let jobs = self.jobs_for(largest, count, &gpu);
+        let largest = study::largest(waiting.iter().map(|(_, member)| &member.scene)).unwrap_or(&self.request.base);
+        let jobs = self.jobs_for(largest, waiting.len(), &gpu);
         // Steps follow from the stretch, which may be shorter now; all else stays.
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs, seconds: Some(seconds) });
+        let (count, seconds) = (waiting.len(), (!waiting.is_empty()).then_some(seconds));
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs, seconds });
         loop {
             self.advance(&runs, jobs, adapter, observer)?;
             self.save()?;
@@ -115,12 +116,12 @@ impl StudyRun<TradeoffSummary> {
                 self.refuse_long(spent * extension.factor)?;
             }
             let worst = length.error.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
-            let phase = Phase::Extended { factor: extension.factor, worst };
-            observer(StudyEvent::Phase { phase: &phase, runs: count });
             self.summary.stretch.averaged *= extension.factor;
             self.summary.extensions += 1;
             self.summary.is_short = extension.is_short;
             self.save()?;
+            let phase = Phase::Extended { factor: extension.factor, worst };
+            observer(StudyEvent::Phase { phase: &phase, runs: self.waiting(&runs).len() });
         }
         self.summary.is_long_enough = true;
         self.save()?;
@@ -144,10 +145,47 @@ impl StudyRun<TradeoffSummary> {
         Ok(runs)
     }
 
-    /// The seconds that all runs are expected to take, after the stretch of time was shortened to what a budget leaves for a pilot.
-    fn plan_pilot(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<f64, StudyError> {
+    /// The choice whose run an entry shares: one that references are taken from may be a choice, too.
+    fn twin(&self, runs: &[(String, Scene)], index: usize) -> Option<usize> {
+        let choices = self.summary.choices.len();
+        (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1)
+    }
+
+    /// The runs that have to come to the end of the stretch, with the numbers of their entries: not those that became unstable, nor
+    /// those that another entry has.
+    fn members(&mut self, runs: &[(String, Scene)]) -> Vec<(usize, Member)> {
+        let stretch = self.summary.stretch;
+        let mut members = Vec::new();
+        for (index, (name, scene)) in runs.iter().enumerate() {
+            if self.twin(runs, index).is_some() || self.entry(index).state == ChoiceState::Unstable {
+                continue;
+            }
+            let mut scene = scene.clone();
+            scene.time.steps = stretch.steps(&scene);
+            // The id stays that of the version of the program that began the run.
+            let id = *self.entry(index).run_id.get_or_insert_with(|| Id::of_run(&scene));
+            members.push((index, Member { name: name.clone(), id, scene, notices: Vec::new() }));
+        }
+        members
+    }
+
+    /// Those of them that have not come there yet.
+    fn waiting(&mut self, runs: &[(String, Scene)]) -> Vec<(usize, Member)> {
+        let members = self.members(runs);
+        // What stands in the place of a new study is not of it.
+        let is_begun = !self.is_new() || self.summary.adapter.is_some();
+        members.into_iter().filter(|(_, member)| !(is_begun && self.finished(member).is_some())).collect()
+    }
+
+    /// What a run that came to the end of the stretch says.
+    fn finished(&self, member: &Member) -> Option<Summary> {
+        study::finished(&self.directory().join(&member.name), &member.scene, member.id, files::SUMMARY)
+    }
+
+    /// The seconds that runs are expected to take, after the stretch of time was shortened to what a budget leaves for a pilot.
+    fn plan_pilot(&mut self, waiting: &[(usize, Member)], adapter: &AdapterChoice) -> Result<f64, StudyError> {
         let mut seconds = 0.0;
-        for (name, scene) in &runs[..count(runs)] {
+        for (_, Member { name, scene, .. }) in waiting {
             match run::adapter_for(scene, adapter).and_then(|gpu| run::expected_time(scene, &gpu)) {
                 Ok(expected) => seconds += expected.seconds,
                 // What cannot be stable takes no time.
@@ -193,19 +231,17 @@ impl StudyRun<TradeoffSummary> {
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, TradeoffSummary>,
     ) -> Result<(), StudyError> {
-        let stretch = self.summary.stretch;
-        let choices = self.summary.choices.len();
-        // A choice may be what the finer run is compared with.
-        let twin_of = |index: usize| (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1);
         let (mut own, mut members) = (Vec::new(), Vec::new());
-        for (index, (name, scene)) in runs.iter().enumerate() {
-            if self.entry(index).state != ChoiceState::Unstable && twin_of(index).is_none() {
-                let mut scene = scene.clone();
-                scene.time.steps = stretch.steps(&scene);
+        for (index, member) in self.members(runs) {
+            // One may have come to its end without being noted: the process was killed.
+            if let Some(summary) = self.finished(&member) {
+                self.take_up(index, &member, Ok(summary))?;
+            } else {
                 own.push(index);
-                members.push(Member { name: name.clone(), id: Id::of_run(&scene), scene, notices: Vec::new() });
+                members.push(member);
             }
         }
+        self.save()?;
         let (start, before) = (Instant::now(), self.summary.spent);
         let simulated = self.simulate(&members, jobs, adapter, observer, &mut |study, place, ended, observer| {
             // With every result, so that a budget holds after the process was killed.
@@ -219,8 +255,8 @@ impl StudyRun<TradeoffSummary> {
             self.save()?;
         }
         simulated?;
-        for index in choices..runs.len() {
-            if let Some(twin) = twin_of(index) {
+        for index in self.summary.choices.len()..runs.len() {
+            if let Some(twin) = self.twin(runs, index) {
                 *self.entry(index) = self.summary.choices[twin].clone();
             }
         }
@@ -377,10 +413,4 @@ impl StudyRun<TradeoffSummary> {
         let tables = [files::TABLE, files::SUMMARY, files::PAGE].map(str::to_owned);
         Ok(TradeoffOutcome { files: tables.into_iter().chain(drawn).collect(), summary: self.summary, page })
     }
-}
-
-/// Number of runs to be made: the last, with which the finer one is compared, may be a choice.
-fn count(runs: &[(String, Scene)]) -> usize {
-    let is_choice = runs.split_last().is_some_and(|((_, last), others)| others.iter().any(|(_, other)| other == last));
-    runs.len() - usize::from(is_choice)
 }

@@ -11,7 +11,7 @@ use super::target::Verdict;
 use crate::output::Id;
 use crate::output::summary::AdapterSummary;
 use crate::scene;
-use crate::study::{self, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
+use crate::study::{self, ASKS_ELSE, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -19,7 +19,7 @@ use std::path::Path;
 /// What was asked, and what every choice costs and misses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TradeoffSummary {
-    /// Version of the program.
+    /// Version of the program that began it.
     pub mesoscope_version: String,
     /// The day it was begun, as year, month and day.
     #[serde(default)]
@@ -62,6 +62,9 @@ pub struct Choice {
     pub label: String,
     /// What distinguishes it from others.
     pub settings: Vec<Setting>,
+    /// The id of its run, from when it is first to run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_id: Option<Id>,
     /// How far it is.
     pub state: ChoiceState,
     /// Why it ended early.
@@ -103,6 +106,7 @@ impl Choice {
             name: name.to_owned(),
             label: label.to_owned(),
             settings: settings.to_vec(),
+            run_id: None,
             state: ChoiceState::Waiting,
             failure: None,
             time_step,
@@ -256,7 +260,7 @@ impl Record for TradeoffSummary {
             names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str())) && self.finer.len() == 2;
         let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
         let misfits = [
-            (same_id, "asks for something else than what its id stands for"),
+            (same_id, ASKS_ELSE),
             (same_runs, "has other runs than those that it asks for"),
             (same_measures, "lacks measures that it asks for"),
         ];

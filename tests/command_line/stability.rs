@@ -44,7 +44,7 @@ fn a_row_is_right_biased_and_unstable_where_theory_says() {
     let place = place();
     let further = ["--vary", "time.step=0.02..0.8/6", "--bisections", "3", "--tolerance", "10%"];
     let said = succeeds(&borrowed(&arguments(&place, &further)));
-    for part in ["RIGHT: time.step UP TO", "B + W = 4 at 0.47", "stability.png", "then the edges"] {
+    for part in ["RIGHT: time.step UP TO", "B + W = 4 at 0.47", "stability.png", "then the edges", ", at most "] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     let out = place.path("out");
@@ -195,7 +195,7 @@ fn mistakes_are_named_before_anything_runs() {
     for (further, parts) in wrong {
         fails(&borrowed(&arguments(&place, further)), 2, parts);
     }
-    fails(&borrowed(&arguments(&place, &["--set", "time.steps=900000000000"])), 2, &["--yes"]);
+    fails(&borrowed(&arguments(&place, &["--set", "time.steps=900000000000"])), 2, &["--yes", "at most "]);
     fails(&["stability", "--resume", &place.argument("nothing")], 5, &["there is no map of stability"]);
     assert!(!place.path("out").exists());
 }

@@ -5,11 +5,12 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::gpu::AdapterChoice;
+use mesoscope::output::{Id, Summary};
 use mesoscope::stability::{Request, StabilityRun, StabilitySummary};
 use mesoscope::study::StudyEvent;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::support::program::{Place, command, fails, listing, text};
+use crate::support::program::{Place, command, fails, listing, succeeds, text};
 
 /// A fluid of 64 particles that start from `start.xyz`.
 fn place() -> Place {
@@ -114,6 +115,109 @@ fn a_map_has_one_start() {
     let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
     let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
     assert!(message.contains("other.xyz` is not what it was"), "{message}");
+}
+
+/// The summary of a study.
+fn read(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+/// Changes the summary of a study.
+fn edit(path: &Path, change: impl Fn(&mut Value)) {
+    let mut summary = read(path);
+    change(&mut summary);
+    fs::write(path, summary.to_string()).unwrap();
+}
+
+/// A study whose ids another version made, of whose scenes it knew other keys, goes on with these ids; and whatever the version, what
+/// it was asked for is what it goes on with.
+#[test]
+fn a_study_of_an_earlier_version_goes_on_as_it_is() {
+    let place = place();
+    place.scene();
+    let here = place.path("");
+    // One run of each kind: its lists of runs, and what of its request to edit.
+    for (command, lists, asked) in [
+        ("sweep", &["variants"][..], "/set"),
+        ("tradeoff", &["choices", "finer"], "/arguments/set"),
+        ("stability", &[], "/arguments/set"),
+    ] {
+        succeeds_in(&here, &study(command, &["--out", command]));
+        let (out, resume) = (place.path(command), [command, "--resume", &place.argument(command), "--quiet"]);
+        let path = out.join(format!("{command}.json"));
+        let mut runs = Vec::new();
+        for run in lists.iter().flat_map(|list| read(&path)[list].as_array().unwrap().clone()) {
+            runs.push(run["name"].as_str().unwrap().to_owned());
+        }
+        // Nothing has run yet, and the ids are others.
+        let id = |number: usize| format!("r{number:016x}");
+        let of_study = Id::of_sweep((0..runs.len()).map(|number| Id::parse(&id(number)).unwrap()));
+        edit(&path, |summary| {
+            summary["mesoscope_version"] = json!("0.0.1");
+            summary[format!("{command}_id")] = json!(of_study.to_string());
+            let mut number = 0;
+            for list in lists {
+                for run in summary[list].as_array_mut().unwrap() {
+                    (run["run_id"], run["state"]) = (json!(id(number)), json!("waiting"));
+                    number += 1;
+                }
+            }
+            if command == "stability" {
+                summary["rows"][0]["cells"] = json!([]);
+            }
+        });
+        for name in listing(&out) {
+            if name.ends_with(".png") {
+                fs::remove_file(out.join(name)).unwrap();
+            } else if out.join(&name).is_dir() {
+                fs::remove_dir_all(out.join(name)).unwrap();
+            }
+        }
+        let before = read(&path);
+        // Twice: the first time writes everything anew.
+        for time in ["first", "second"] {
+            succeeds(&resume);
+            let after = read(&path);
+            for key in [format!("{command}_id"), "mesoscope_version".to_owned(), "request_checksum".to_owned()] {
+                assert_eq!(after[&key], before[&key], "{command}, {key}, {time}");
+            }
+            for (number, name) in runs.iter().enumerate() {
+                // One that references are taken from may be a choice, too.
+                if runs[..number].contains(name) {
+                    continue;
+                }
+                let run = Summary::load(&out.join(name).join("run.json")).unwrap();
+                assert_eq!(run.run_id.to_string(), id(number), "{command}, {name}, {time}");
+            }
+        }
+        edit(&path, |summary| *summary.pointer_mut(asked).unwrap() = json!(["temperature=2"]));
+        fails(&resume, 5, &["was changed: it asks for something else"]);
+        edit(&path, |summary| *summary.pointer_mut(asked).unwrap() = json!(["temperature=hot"]));
+        fails(&resume, 5, &["was changed: it asks for something else"]);
+    }
+}
+
+/// What laws say of a row is computed when a map is begun or goes on, and not from a file that has changed.
+#[test]
+fn laws_are_those_of_the_state_that_was_read() {
+    let mut place = place();
+    place.scene["interactions"] = json!([{"type": "tether", "stiffness": 16}]);
+    place.scene["integrator"] = json!({"type": "cotter-reich"});
+    let vary = ["time.step=0.1,0.2,0.8".to_owned()];
+    let request = || Request::load(&place.scene(), &[], &vary).unwrap().with_bisections(0);
+    let early = request();
+    write_start(&place, 0.25);
+    let run = StabilityRun::start(early, place.path("out"), false);
+    let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
+    assert!(message.contains("start.xyz` is not what it was"), "{message}");
+    assert!(!place.path("out").exists(), "a row without laws was left");
+    let map = StabilityRun::start(request(), place.path("out"), false).execute(&AdapterChoice::Best, &mut |_| {});
+    let bounds = map.unwrap().summary.rows[0].bounds.clone();
+    assert_eq!(bounds.len(), 1, "{bounds:?}");
+    // One that lacks them is completed.
+    edit(&place.path("out/stability.json"), |summary| summary["rows"][0]["bounds"] = json!([]));
+    let map = StabilityRun::resume(place.path("out")).unwrap().execute(&AdapterChoice::Best, &mut |_| {});
+    assert_eq!(map.unwrap().summary.rows[0].bounds, bounds);
 }
 
 #[test]

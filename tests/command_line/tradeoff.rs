@@ -132,7 +132,8 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     // A second one does not replace it unless that is asked for, and nothing is left to do for one that goes on.
     fails(&borrowed(&arguments(&place, &["--vary", "time.step=0.02,0.04"])), 5, &["tradeoff", "--resume"]);
     let before = fs::read(out.join("step=0.02").join(run_files::CHECKPOINT)).unwrap();
-    succeeds(&["tradeoff", "--resume", &place.argument("out"), "--quiet"]);
+    let said = succeeds(&["tradeoff", "--resume", &place.argument("out")]);
+    assert!(said.contains("small fluid: 0 runs") && !said.contains(", about"), "{said}");
     assert_eq!(fs::read(out.join("step=0.02").join(run_files::CHECKPOINT)).unwrap(), before);
 }
 
@@ -214,7 +215,7 @@ fn an_interrupted_tradeoff_goes_on() {
 /// What the run of the small fluid has to become longer for: the mean of 40 rows, each of which scatters by 6 %, errs by .95 % at least, and
 /// by more where rows depend on each other.
 fn longer(place: &Place) -> Request {
-    let vary = ["time.step=0.04".to_owned()];
+    let vary = ["time.step=0.04,0.2".to_owned()];
     let request = Request::load(&place.scene(), &[], &vary, &[]).unwrap();
     let length = Length { error: Some(ERROR), budget: None };
     request.with_length(length).with_measures(&["temperature".to_owned()]).unwrap()
@@ -226,18 +227,28 @@ const ERROR: f64 = 0.004;
 #[test]
 fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
     let place = place();
-    let mut factors = Vec::new();
+    let (mut factors, mut announced, mut ended) = (Vec::new(), 0, 0);
     let whole = TradeoffRun::start(longer(&place), place.path("whole"), false);
-    let whole = whole.execute(&AdapterChoice::Best, &mut |event| {
-        if let StudyEvent::Phase { phase: Phase::Extended { factor, .. }, .. } = event {
-            factors.push(*factor);
+    let whole = whole.execute(&AdapterChoice::Best, &mut |event| match event {
+        StudyEvent::Started { runs, .. } => announced = runs,
+        StudyEvent::Ended { .. } => ended += 1,
+        StudyEvent::Phase { phase, runs } => {
+            assert_eq!(ended, announced, "another phase follows");
+            announced += runs;
+            if let Phase::Extended { factor, .. } = phase {
+                factors.push(*factor);
+            }
         }
+        _ => {}
     });
     let whole = whole.unwrap().summary;
+    // The step that is too long is run once; the finer run, of half the shortest, and the other every time.
+    assert_eq!(whole.choices[1].state, ChoiceState::Unstable);
+    assert_eq!((announced, ended), (3 + 2 * factors.len(), 3 + 2 * factors.len()));
     assert!(!factors.is_empty() && whole.extensions == factors.len(), "{factors:?}");
     let grown = 6.4 * factors.iter().product::<f64>();
     assert!((whole.averaged_time() / grown - 1.0).abs() < 1e-12);
-    let worst = whole.choices.iter().map(|choice| {
+    let worst = whole.choices[..1].iter().map(|choice| {
         // To the next row of the table, which is .16 long.
         let time = choice.steps as f64 * choice.time_step - 1.6;
         assert!(time > grown - 1e-9 && time < grown + 0.16 + 1e-9, "{}: {time} {grown}", choice.label);
@@ -259,7 +270,7 @@ fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
     assert!(matches!(stopped, Err(StudyError::Interrupted { .. })), "{stopped:?}");
     let before = TradeoffSummary::load(&place.path("parts")).unwrap();
     assert_eq!(before.extensions, 1);
-    assert!(before.choices.iter().any(|choice| choice.steps < whole.choices[0].steps), "nothing was left to do");
+    assert!(before.choices[0].steps < whole.choices[0].steps, "nothing was left to do");
     let parts = TradeoffRun::resume(place.path("parts")).unwrap();
     let parts = parts.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary;
     assert_eq!(
@@ -443,6 +454,6 @@ fn mistakes_are_named_before_anything_runs() {
 fn what_takes_a_day_has_to_be_said_twice() {
     let place = place();
     let vary = ["--vary", "time.step=0.02,0.04", "--set", "time.steps=4000000000"];
-    fails(&borrowed(&arguments(&place, &vary)), 2, &["--yes", "--budget", " days"]);
+    fails(&borrowed(&arguments(&place, &vary)), 2, &["--yes", "--budget", "about ", " days"]);
     assert!(!place.path("out").exists());
 }
