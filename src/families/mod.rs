@@ -80,8 +80,8 @@ pub(crate) struct ExactMean {
     pub column: &'static str,
     /// The mean of the continuous motion.
     pub continuous: f64,
-    /// The mean of the scheme with its time step.
-    pub discrete: f64,
+    /// The mean of the scheme with its time step, where that is known.
+    pub discrete: Option<f64>,
 }
 
 /// What the program asks of the physics of a family.

@@ -114,7 +114,7 @@ fn exact_mean(measure: &str, scene: &Scene) -> Option<ExactMean> {
 
 /// The value that the scheme of a scene gives a measure with its time step, noise apart, where that is known exactly.
 pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
-    exact_mean(measure, scene).map(|mean| mean.discrete)
+    exact_mean(measure, scene)?.discrete
 }
 
 /// The reference that a finer run gives. Its own bias is taken to be what its time step, halved once, has changed, noise included: that is

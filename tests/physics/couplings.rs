@@ -294,6 +294,51 @@ fn check_keeping_of_the_stationary_law(precision: Precision) {
     }
 }
 
+/// Particles joined in pairs by springs without a length, each with its own baths: the mode in which they move against each other
+/// is an oscillator of twice the stiffness.
+#[test]
+fn pairs_on_springs_reach_the_stationary_law_of_their_mode() {
+    for scheme in SCHEMES {
+        let (persistence, factor) = family(scheme, 1.0);
+        let law = Linear { mass: 2.0, temperature: 1.5, time_step: 0.1, persistence, bath: 1.5, spring: 1.5 };
+        let scene = oscillators(&[
+            "particles.0.count=10000",
+            "particles.0.chain={\"beads\":2,\"spacing\":0.1}",
+            "interactions.0.bath.rate=10",
+            &format!("interactions.0.bath.coupling={}", law.coupling() / factor),
+            &format!("interactions.0.bath.scheme=\"{scheme}\""),
+            &format!(
+                "interactions.1={{\"type\":\"bonds\",\"potential\":{{\"type\":\"harmonic\",\"stiffness\":{}}}}}",
+                0.5 * law.stiffness()
+            ),
+        ]);
+        let (_, state) = start(&scene);
+        for mut run in runs(&scene, &state) {
+            run.step(120);
+            let error = Precision::TwoPerCent.largest_error();
+            let what = format!("{scheme}, pairs");
+            check_law(&what, &scene, run.as_mut(), &law, &coordinates_of_pairs, [8, 12], error);
+        }
+    }
+}
+
+/// The coordinates in which two particles in a row move against each other.
+fn coordinates_of_pairs(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
+    let against = |values: [f64; 2]| (values[1] - values[0]) * 0.5_f64.sqrt();
+    let pair = |first: usize| {
+        let apart = model.units.displacement(reported.positions[first + 1], reported.positions[first]);
+        let momenta = |state: &State| {
+            let [a, b] = [first, first + 1].map(|id| model.units.momentum(state.momenta[id]));
+            std::array::from_fn::<f64, 3, _>(|axis| against([a[axis], b[axis]]))
+        };
+        let (p, half) = (momenta(reported), momenta(after));
+        let bath = |id: usize| after.position_baths[id].map(|bits| f64::from(f32::from_bits(bits)));
+        let (a, b) = (bath(first), bath(first + 1));
+        (0..3).map(move |axis| [apart[axis] * 0.5_f64.sqrt(), p[axis], against([a[axis], b[axis]]), half[axis]])
+    };
+    (0..reported.len()).step_by(2).flat_map(pair).collect()
+}
+
 #[test]
 fn a_free_bath_has_the_discrete_velocity_autocorrelation() {
     check_velocity_autocorrelation(Precision::TwoPerCent);

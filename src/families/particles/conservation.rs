@@ -49,7 +49,7 @@ pub(super) fn has_thermostat(model: &Model) -> bool {
 }
 
 /// The steps of all baths of particles, pairs and bonds, with their temperatures.
-fn baths(model: &Model) -> Vec<(BathStep, f64)> {
+pub(super) fn baths(model: &Model) -> Vec<(BathStep, f64)> {
     let mut baths = Vec::new();
     let species = model.species.len();
     if let Some(force) = model.particles().pair_force.as_ref() {

@@ -6,6 +6,7 @@ mod conservation;
 mod description;
 mod layout;
 pub(crate) mod model;
+mod normal_modes;
 mod observables;
 mod oscillators;
 pub(crate) mod plan;

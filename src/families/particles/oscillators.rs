@@ -1,41 +1,60 @@
-//! Independent oscillators with a bath on each coordinate: what their means are in equilibrium, exactly.
+//! What means are in equilibrium, exactly: those of linear systems with a bath on each coordinate, and those of what baths remember.
 //!
 //! A coordinate q with V = Kq²/2 and mass m, and a bath variable s coupled to it. The continuous motion has ⟨p²⟩ = m kT, ⟨q²⟩ = kT/K and
 //! ⟨s²⟩ = kT λ. The schemes of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, with B = λₑ dt²/m and W = K dt²/m have
-//! ⟨p²⟩ = m kT, ⟨q²⟩ = (kT/K) (4 - B)/(4 - B - W) and ⟨s²⟩ = kT λₑ (4 - W)/(4 - B - W) at the report, whatever e.
+//! ⟨p²⟩ = m kT, ⟨q²⟩ = (kT/K) (4 - B)/(4 - B - W) and ⟨s²⟩ = kT λₑ (4 - W)/(4 - B - W) at the report, whatever e. Particles of one
+//! mass and one bath that springs without a length join are such oscillators, too: their normal modes.
 
-use crate::families::{ExactMean, Model};
+use super::{conservation, normal_modes};
+use crate::families::{BathStep, ExactMean, Model, Particles, Species};
 
-/// Means of the columns of the table of energies; none of other scenes than these.
+/// Means of columns of the table of energies that are known.
 pub(super) fn means(model: &Model) -> Vec<ExactMean> {
-    let (Some(stiffness), Some(bath)) = (model.particles().tether, model.particles().position_bath.as_ref()) else {
-        return Vec::new();
-    };
-    let is_alone = model.particles().pair_force.is_none()
-        && model.particles().bonds.is_none()
-        && model.particles().angles.is_none()
-        && model.particles().coloured_noise.is_none();
+    means_of_oscillators(model).unwrap_or_else(|| mean_bath_square(model).into_iter().collect())
+}
+
+/// Coordinates that move alike: how many, their stiffness, and their species.
+#[derive(Debug, Clone, Copy)]
+struct Coordinates {
+    count: f64,
+    stiffness: f64,
+    species: usize,
+}
+
+/// All columns of a scene in which every coordinate, or every normal mode, is an oscillator with a bath.
+fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
+    let particles = model.particles();
+    let bath = particles.position_bath.as_ref()?;
+    let is_alone = particles.pair_force.is_none()
+        && particles.angles.is_none()
+        && particles.coloured_noise.is_none()
+        && particles.body_forces.is_none();
     let couples = bath.steps.iter().all(|step| step.coupling > 0.0);
-    if !is_alone || !couples || stiffness <= 0.0 || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
-        return Vec::new();
+    if !is_alone || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
+        return None;
     }
-    let (kt, dimension, square) = (bath.temperature, model.units.dimension as f64, model.time_step.powi(2));
-    // Of all coordinates: their number, and sums over them of what a coordinate has of each.
-    let mut count = 0.0;
+    let coordinates = coordinates(model, particles)?;
+    let (kt, square) = (bath.temperature, model.time_step.powi(2));
+    let (mut count, mut curvature, mut gradient) = (0.0, 0.0, [0.0; 2]);
+    // Sums over all coordinates, of the motion and of the scheme.
     let (mut potential, mut energy, mut squares) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    for (species, step) in model.species.iter().zip(&bath.steps).filter(|(species, _)| !species.fixed) {
-        let coordinates = species.count as f64 * dimension;
-        let (b, w) = (step.coupling * square / species.mass, stiffness * square / species.mass);
+    for group in coordinates {
+        let (step, mass) = (&bath.steps[group.species], model.species[group.species].mass);
+        let (b, w) = (step.coupling * square / mass, group.stiffness * square / mass);
         let margin = 4.0 - b - w;
-        if margin <= 0.0 && coordinates > 0.0 {
-            return Vec::new();
+        if margin <= 0.0 {
+            return None;
         }
-        count += coordinates;
+        count += group.count;
+        curvature += group.count * group.stiffness;
         let add = |sum: &mut [f64; 2], continuous: f64, discrete: f64| {
-            sum[0] += coordinates * continuous;
-            sum[1] += coordinates * continuous * discrete;
+            sum[0] += group.count * continuous;
+            sum[1] += group.count * continuous * discrete;
         };
-        add(&mut potential, 0.5 * kt, (4.0 - b) / margin);
+        if group.stiffness > 0.0 {
+            add(&mut potential, 0.5 * kt, (4.0 - b) / margin);
+            add(&mut gradient, kt * group.stiffness, (4.0 - b) / margin);
+        }
         if step.remembers() {
             let discrete = step.coupling / step.continuous_coupling * (4.0 - w) / margin;
             add(&mut energy, 0.5 * kt, discrete);
@@ -50,15 +69,62 @@ pub(super) fn means(model: &Model) -> Vec<ExactMean> {
         ("potential_energy", potential),
         ("total_energy", sum(&[kinetic, potential])),
         ("temperature", [kt; 2]),
-        ("configurational_temperature", part(potential, 0.5 * count)),
+        ("configurational_temperature", part(gradient, curvature)),
     ];
     if bath.memory {
         means.push(("bath_energy", energy));
         means.push(("extended_energy", sum(&[kinetic, potential, energy])));
         means.push(("bath_square", part(squares, count)));
     }
-    let means = means.into_iter();
-    means.map(|(column, [continuous, discrete])| ExactMean { column, continuous, discrete }).collect()
+    let mean = |(column, [continuous, discrete]): (&'static str, [f64; 2])| ExactMean {
+        column,
+        continuous,
+        discrete: Some(discrete),
+    };
+    Some(means.into_iter().map(mean).collect())
+}
+
+/// The coordinates of all that moves, alike ones together; none where there is no spring, or where modes are not known.
+fn coordinates(model: &Model, particles: &Particles) -> Option<Vec<Coordinates>> {
+    let dimension = model.units.dimension as f64;
+    let tether = particles.tether.unwrap_or(0.0);
+    let mobile = || model.species.iter().enumerate().filter(|(_, species)| !species.fixed && species.count > 0);
+    let Some(bonds) = particles.bonds.as_ref() else {
+        let alike = |(species, found): (usize, &Species)| Coordinates {
+            count: found.count as f64 * dimension,
+            stiffness: tether,
+            species,
+        };
+        return (tether > 0.0).then(|| mobile().map(alike).collect());
+    };
+    let (species, of_all) = mobile().next()?;
+    if model.species.iter().any(|other| other.count > 0 && other.name != of_all.name) {
+        return None;
+    }
+    let modes = normal_modes::stiffnesses(bonds, of_all.count)?;
+    let coordinates = modes.into_iter();
+    Some(
+        coordinates
+            .map(|(stiffness, count)| Coordinates {
+                count: count as f64 * dimension,
+                stiffness: tether + stiffness,
+                species,
+            })
+            .collect(),
+    )
+}
+
+/// ⟨s²⟩ = kT λ of the continuous motion, whatever the forces: in equilibrium baths are independent of all coordinates.
+fn mean_bath_square(model: &Model) -> Option<ExactMean> {
+    let mut remembering = conservation::baths(model).into_iter().map(|(step, _)| step).filter(|step| step.remembers());
+    let first = remembering.find(|step| step.coupling > 0.0)?;
+    let forgets = |step: &BathStep| step.persistence < 1.0;
+    let alike = forgets(&first) && remembering.all(|step| step.continuous_coupling == first.continuous_coupling);
+    (alike && conservation::has_thermostat(model)).then_some(ExactMean {
+        column: "bath_square",
+        continuous: model.temperature * first.continuous_coupling,
+        discrete: None,
+    })
 }
 
 #[cfg(test)]
@@ -85,12 +151,12 @@ mod tests {
         let of = |column: &str| means.iter().find(|mean| mean.column == column).unwrap();
         let (potential, square) = (of("potential_energy"), of("bath_square"));
         // (4 - 2/3)/(4 - 2/3 - 1) = 10/7, and 2/3 · 3/(7/3) = 6/7.
-        assert!((potential.continuous - 1.5).abs() < 1e-12 && (potential.discrete - 15.0 / 7.0).abs() < 1e-12);
-        assert!((square.continuous - 1.0).abs() < 1e-12 && (square.discrete - 6.0 / 7.0).abs() < 1e-12);
-        assert!((of("bath_energy").discrete - 9.0 / 7.0).abs() < 1e-12);
-        assert!((of("extended_energy").discrete - 1.5 - 15.0 / 7.0 - 9.0 / 7.0).abs() < 1e-12);
-        assert!((of("configurational_temperature").discrete - 10.0 / 7.0).abs() < 1e-12);
-        assert_eq!((of("temperature").continuous, of("temperature").discrete), (1.0, 1.0));
+        assert!((potential.continuous - 1.5).abs() < 1e-12 && (potential.discrete.unwrap() - 15.0 / 7.0).abs() < 1e-12);
+        assert!((square.continuous - 1.0).abs() < 1e-12 && (square.discrete.unwrap() - 6.0 / 7.0).abs() < 1e-12);
+        assert!((of("bath_energy").discrete.unwrap() - 9.0 / 7.0).abs() < 1e-12);
+        assert!((of("extended_energy").discrete.unwrap() - 1.5 - 15.0 / 7.0 - 9.0 / 7.0).abs() < 1e-12);
+        assert!((of("configurational_temperature").discrete.unwrap() - 10.0 / 7.0).abs() < 1e-12);
+        assert_eq!((of("temperature").continuous, of("temperature").discrete.unwrap()), (1.0, 1.0));
     }
 
     #[test]
@@ -98,20 +164,59 @@ mod tests {
         let white = r#"interactions.1.bath={"type":"white"}"#;
         for changes in [&["time.step=1e-4"][..], &["time.step=1e-4", white]] {
             for mean in found(changes) {
-                assert!((mean.discrete / mean.continuous - 1.0).abs() < 1e-3, "{mean:?}");
+                assert!((mean.discrete.unwrap() / mean.continuous - 1.0).abs() < 1e-3, "{mean:?}");
             }
         }
         assert!(found(&[white]).iter().all(|mean| mean.column != "bath_square"));
-        // A tied pair, no noise, no friction, no spring.
+        // Repulsion, no noise, no friction.
         for change in [
             r#"interactions=[{"type":"tether","stiffness":1},{"type":"langevin","friction":1},{"type":"dpd","repulsion":1}]"#,
             "temperature=0",
             "interactions.1.friction=0",
-            "interactions.0.stiffness=0",
         ] {
             assert_eq!(found(&[change]), [], "{change}");
         }
         let fluid = Model::new(&scene::load("dpd-fluid", &[]).unwrap());
         assert_eq!(fluid.physics().exact_means(&fluid), []);
+    }
+
+    #[test]
+    fn what_baths_remember_is_known_whatever_the_forces() {
+        let square = |value| [ExactMean { column: "bath_square", continuous: value, discrete: None }];
+        let means = |scene: &str, changes: &[&str]| {
+            let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+            let model = Model::new(&scene::load(scene, &changes).unwrap());
+            model.physics().exact_means(&model)
+        };
+        assert_eq!(means("edpd-fluid", &["temperature=2"]), square(2.0 * 4.5 * 10.0));
+        assert_eq!(means("gle-oscillator", &["interactions.0.stiffness=0"]), square(1.0));
+        // At another temperature than the other bath; what never forgets.
+        assert_eq!(means("gle-oscillator", &["interactions.0.stiffness=0", "interactions.1.bath.temperature=2"]), []);
+        let held = r#"interactions.0={"type":"dpd","repulsion":25,"bath":{"type":"memory","rate":0,"coupling":3}}"#;
+        assert_eq!(means("edpd-fluid", &[held]), []);
+    }
+
+    /// A pair joined by a spring of stiffness 1 has modes of stiffness 0 and 2.
+    #[test]
+    fn a_pair_on_a_spring_is_two_oscillators() {
+        let bond = r#"interactions.0={"type":"bonds","potential":{"type":"harmonic","stiffness":1},"pairs":[[0,1]]}"#;
+        let pair = found(&["particles.0.count=2", bond, "time.step=0.5"]);
+        let tether = ["particles.0.count=1", "interactions.0.stiffness=2", "time.step=0.5"];
+        let of = |means: &[ExactMean], column: &str| *means.iter().find(|mean| mean.column == column).unwrap();
+        let tied = found(&tether);
+        for column in ["potential_energy", "configurational_temperature"] {
+            let [one, other] = [of(&pair, column), of(&tied, column)];
+            assert!((one.discrete.unwrap() - other.discrete.unwrap()).abs() < 1e-12, "{column}");
+        }
+        // The other mode is free: B/4 alone stands in the way of ⟨s²⟩ = kT λₑ.
+        let free = |means: &[ExactMean]| of(means, "bath_energy").discrete.unwrap();
+        let step = model_step();
+        let b = step.coupling * 0.25;
+        let alone = 1.5 * step.coupling / step.continuous_coupling * 4.0 / (4.0 - b);
+        assert!((free(&pair) - free(&tied) - alone).abs() < 1e-12);
+    }
+
+    fn model_step() -> BathStep {
+        BathStep::with_memory(scene::BathScheme::Exponential, 1.0, 1.0, 0.5)
     }
 }

@@ -1,0 +1,138 @@
+//! The normal modes of networks of springs without a length.
+
+use super::model::Bonds;
+use crate::document::BondPotential;
+use nalgebra::DMatrix;
+use std::collections::HashMap;
+
+/// Bonds that are looked at.
+const MOST_BONDS: u64 = 1_000_000;
+
+/// Particles of one network: the work of its modes grows with the third power.
+const LARGEST_NETWORK: usize = 256;
+
+/// Stiffnesses of all modes of so many particles, with how many modes have them; one particle has one mode along each axis. None
+/// where bonds are no springs without a length, have baths of their own, or join too many particles.
+pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64)>> {
+    let springs: Option<Vec<f64>> = bonds
+        .kinds
+        .iter()
+        .map(|kind| match kind.potential {
+            Some(BondPotential::Harmonic { stiffness, length: 0.0 }) if kind.bath.is_none() => Some(stiffness),
+            _ => None,
+        })
+        .collect();
+    let springs = springs?;
+    if bonds.count() > MOST_BONDS {
+        return None;
+    }
+    let mut networks = Networks::default();
+    for bond in bonds.iter() {
+        networks.join(bond.ends);
+    }
+    let mut parts: HashMap<u32, Vec<([u32; 2], u32)>> = HashMap::new();
+    for bond in bonds.iter() {
+        parts.entry(networks.root(bond.ends[0])).or_default().push((bond.ends, bond.kind));
+    }
+    // Networks alike in the order of their particles have the same modes.
+    let mut alike: HashMap<Vec<([usize; 2], u32)>, (usize, u64)> = HashMap::new();
+    let mut bonded = 0_u64;
+    for part in parts.into_values() {
+        let mut members: Vec<u32> = part.iter().flat_map(|(ends, _)| *ends).collect();
+        members.sort_unstable();
+        members.dedup();
+        if members.len() > LARGEST_NETWORK {
+            return None;
+        }
+        bonded += members.len() as u64;
+        let place = |end: u32| members.partition_point(|member| *member < end);
+        let shape = part.iter().map(|(ends, kind)| (ends.map(place), *kind)).collect();
+        alike.entry(shape).or_insert((members.len(), 0)).1 += 1;
+    }
+    let mut modes = vec![(0.0, particles.checked_sub(bonded)?)];
+    for (shape, (size, copies)) in alike {
+        let mut matrix = DMatrix::<f64>::zeros(size, size);
+        for ([a, b], kind) in shape {
+            let spring = springs[kind as usize];
+            matrix[(a, a)] += spring;
+            matrix[(b, b)] += spring;
+            matrix[(a, b)] -= spring;
+            matrix[(b, a)] -= spring;
+        }
+        let mut found: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+        found.sort_by(f64::total_cmp);
+        // The network as a whole is held by nothing.
+        found[0] = 0.0;
+        modes.extend(found.into_iter().map(|stiffness| (stiffness, copies)));
+    }
+    modes.retain(|(_, count)| *count > 0);
+    modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(modes)
+}
+
+/// Which particles bonds join, directly or not.
+#[derive(Debug, Default)]
+struct Networks {
+    parents: HashMap<u32, u32>,
+}
+
+impl Networks {
+    fn root(&mut self, particle: u32) -> u32 {
+        let mut root = particle;
+        while let Some(parent) = self.parents.get(&root).copied() {
+            root = parent;
+        }
+        // The way is short the next time.
+        let mut next = particle;
+        while next != root {
+            next = self.parents.insert(next, root).unwrap_or(root);
+        }
+        root
+    }
+
+    fn join(&mut self, ends: [u32; 2]) {
+        let [a, b] = ends.map(|end| self.root(end));
+        if a != b {
+            self.parents.insert(a.max(b), a.min(b));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use crate::families::Model;
+    use crate::scene;
+    use std::f64::consts::PI;
+
+    fn modes(potential: &str, pairs: &str) -> Option<Vec<(f64, u64)>> {
+        let bonds = format!(r#"{{"type":"bonds","potential":{potential},"pairs":{pairs}}}"#);
+        let set = [
+            r#"particles=[{"species":"bead","count":12}]"#.to_owned(),
+            format!(r#"interactions=[{{"type":"langevin","friction":1}},{bonds}]"#),
+        ];
+        let model = Model::new(&scene::load("gle-oscillator", &set).unwrap());
+        super::stiffnesses(model.particles().bonds.as_ref().unwrap(), 12)
+    }
+
+    /// Chains have 2K (1 - cos πk/n), as everybody knows since Rouse; what is not bonded has none.
+    #[test]
+    fn modes_of_chains_are_those_of_rouse() {
+        let found = modes(r#"{"type":"harmonic","stiffness":2}"#, "[[0,1],[1,2],[2,3],[6,7],[7,8],[8,9]]").unwrap();
+        let expected = [0, 1, 2, 3].map(|mode| 4.0 * (1.0 - (PI * f64::from(mode) / 4.0).cos()));
+        assert_eq!(found.len(), 5);
+        assert_eq!(found[..2], [(0.0, 4), (0.0, 2)]);
+        for (found, expected) in found[2..].iter().zip(&expected[1..]) {
+            assert!((found.0 - expected).abs() < 1e-12 && found.1 == 2, "{found:?} {expected}");
+        }
+    }
+
+    #[test]
+    fn springs_with_a_length_have_no_modes_that_stay() {
+        for other in
+            [r#"{"type":"harmonic","stiffness":2,"length":1}"#, r#"{"type":"fene","stiffness":2,"extent":100}"#]
+        {
+            assert_eq!(modes(other, "[[0,1]]"), None);
+        }
+    }
+}
