@@ -4,7 +4,7 @@ use super::verdict::{Verdict, verdict};
 use crate::gpu::{AdapterChoice, GpuError};
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::Scene;
-use crate::tradeoff::{self, Deviation, ENERGY_DRIFT, Measured, Reference, References, error_in_words};
+use crate::tradeoff::{self, Deviation, Measured, Reference, References, error_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -146,13 +146,11 @@ fn run(
 
 /// How far measures are off, and which are not numbers.
 fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Vec<Deviation>, Option<String>) {
-    let means = trial.means();
+    let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in comparison.measures {
         let Some(reference) = reference(measure, scene, comparison.references) else { continue };
-        let measured = if measure == ENERGY_DRIFT {
-            tradeoff::energy_drift(&trial.table())
-        } else {
+        let mean = || {
             let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
             estimate.map(|found| Measured {
                 measure: measure.clone(),
@@ -161,6 +159,7 @@ fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Ve
                 fluctuates: true,
             })
         };
+        let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
         match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {
             Some(error) => errors.push(error),
             None => lost.push(format!("`{measure}`")),

@@ -7,7 +7,7 @@ use crate::output::Id;
 use crate::run;
 use crate::scene::{self, Scene, SceneError, StateFiles, nearest};
 use crate::study::{LENGTHS, Setting, ShortKeys, StudyError};
-use crate::tradeoff::{ENERGY_DRIFT, References, Stretch};
+use crate::tradeoff::{References, Stretch};
 use serde::{Deserialize, Serialize};
 
 /// The key that is varied where nobody says which.
@@ -17,7 +17,7 @@ const STEP: &str = "time.step";
 const USUAL: ([f64; 2], usize) = ([0.25, 16.0], 7);
 
 /// Measures that are compared where nobody says which, if a law says what they should be.
-const COMPARED: [&str; 3] = ["temperature", "configurational_temperature", ENERGY_DRIFT];
+const COMPARED: [&str; 2] = ["temperature", "configurational_temperature"];
 
 /// Steps that means are taken over, at least.
 const FEWEST_STEPS: f64 = 256.0;
@@ -206,7 +206,7 @@ impl Request {
 
     fn known_measures(&self) -> Vec<String> {
         let columns = run::quantities(&Model::new(&self.base)).into_iter().map(str::to_owned);
-        columns.chain(crate::tradeoff::drifts(&self.base).then(|| ENERGY_DRIFT.to_owned())).collect()
+        columns.chain(crate::tradeoff::names_of_table(&self.base).into_iter().map(str::to_owned)).collect()
     }
 
     /// The measures that are compared.
@@ -214,9 +214,10 @@ impl Request {
         let Arguments { measures, references, .. } = &self.arguments;
         let known = self.known_measures();
         let usual = || {
-            let usual = COMPARED.iter().filter(|name| known.iter().any(|known| known == *name));
+            let usual = COMPARED.into_iter().filter(|name| known.iter().any(|known| known == name));
             usual
-                .map(|name| (*name).to_owned())
+                .chain(crate::tradeoff::names_of_table(&self.base))
+                .map(str::to_owned)
                 .filter(|name| crate::tradeoff::predicted(name, &self.base).is_some())
                 .collect()
         };
@@ -369,5 +370,9 @@ mod tests {
         assert!(text.contains("did you mean `pressure`?") && text.contains("--reference pressure=VALUE"), "{text}");
         assert_eq!(measures(&["temperature"]).unwrap().measures(), ["temperature"]);
         assert_eq!(request(&[]).unwrap().measures(), ["temperature", "configurational_temperature"]);
+        let cells = Request::load("voronoi-energy", &[], &[]).unwrap();
+        assert_eq!(cells.measures(), ["limited_exchange_share"]);
+        let water = Request::load("shallow-water", &[], &[]).unwrap();
+        assert_eq!(water.measures(), ["energy_drift"]);
     }
 }

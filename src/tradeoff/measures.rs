@@ -11,13 +11,16 @@ use crate::table::Table;
 use serde::{Deserialize, Serialize};
 
 /// How far the total energy has gone from its first value at most, as a part of it.
-pub(crate) const ENERGY_DRIFT: &str = "energy_drift";
+pub(super) const ENERGY_DRIFT: &str = "energy_drift";
 
 /// How far the circulation of a material loop has gone from its first value at most, as a part of it.
 pub(super) const CIRCULATION_DRIFT: &str = "circulation_drift";
 
-/// How many exchanges through the faces of Voronoi cells the limit has cut, a cell and unit of time.
-pub(super) const LIMITED_EXCHANGES: &str = "limited_exchange_rate";
+/// How often the limit has cut an exchange, over faces of Voronoi cells and steps.
+pub(super) const LIMITED_EXCHANGES: &str = "limited_exchange_share";
+
+/// Faces of a cell in a periodic plane, each shared by two.
+const FACES_A_CELL: f64 = 3.0;
 
 /// Columns that are assessed where nobody says which, if a run has them.
 const USUAL: [&str; 4] = ["temperature", "configurational_temperature", "pressure", "potential_energy"];
@@ -43,17 +46,31 @@ pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory)
         .map(|(measure, value, standard_error)| Measured { measure, value, standard_error, fluctuates: true })
         .collect();
     let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
-    if drifts(scene) {
-        measured.extend(energy_drift(&table));
-    }
+    measured.extend(of_table(&table, scene));
     measured.extend(run::circulation_change(summary).map(|change| certain(CIRCULATION_DRIFT, change)));
-    let cut = table.column(column::LIMITED_EXCHANGES).unwrap_or_default();
-    let cell_time = summary.particles as f64 * summary.steps as f64 * scene.time.step;
-    if let (Some([first, .., last]), true) = (cut.get(..), cell_time > 0.0) {
-        measured.push(certain(LIMITED_EXCHANGES, (last - first) / cell_time));
-    }
     measured.extend(fields::from_exact(scene, directory)?);
     Ok(measured)
+}
+
+/// What a table of energies says beside the means of its columns, named as [`names_of_table`] says.
+pub(crate) fn of_table(table: &Table, scene: &Scene) -> Vec<Measured> {
+    let drift = if drifts(scene) { energy_drift(table) } else { None };
+    drift.into_iter().chain(limited_exchange_share(table, scene)).collect()
+}
+
+/// The names of what the table of energies of a scene says beside the means of its columns.
+pub(crate) fn names_of_table(scene: &Scene) -> Vec<&'static str> {
+    let is_limited = run::quantities(&Model::new(scene)).contains(&column::LIMITED_EXCHANGES);
+    let there = [(ENERGY_DRIFT, drifts(scene)), (LIMITED_EXCHANGES, is_limited)];
+    there.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect()
+}
+
+fn limited_exchange_share(table: &Table, scene: &Scene) -> Option<Measured> {
+    let [cut, times] = [column::LIMITED_EXCHANGES, "time"].map(|name| table.column(name));
+    let change = |values: Vec<f64>| Some(values.last()? - values.first()?);
+    let (cut, steps) = (change(cut?)?, change(times?)? / scene.time.step);
+    let faces = FACES_A_CELL * Model::new(scene).particle_count() as f64;
+    (steps > 0.0 && faces > 0.0).then(|| certain(LIMITED_EXCHANGES, cut / (faces * steps)))
 }
 
 /// What has no statistical error.
@@ -62,7 +79,7 @@ fn certain(measure: &str, value: f64) -> Measured {
 }
 
 /// How far the total energy of a table has gone from its first value; none where that is zero or one is not a number.
-pub(crate) fn energy_drift(table: &Table) -> Option<Measured> {
+fn energy_drift(table: &Table) -> Option<Measured> {
     let energies = table.column("total_energy")?;
     let first = energies.first().copied().filter(|first| *first != 0.0)?;
     if energies.iter().any(|energy| !energy.is_finite()) {
@@ -73,7 +90,7 @@ pub(crate) fn energy_drift(table: &Table) -> Option<Measured> {
 }
 
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.
-pub(crate) fn drifts(scene: &Scene) -> bool {
+fn drifts(scene: &Scene) -> bool {
     let model = Model::new(scene);
     let columns = run::quantities(&model);
     columns.contains(&"total_energy") && model.physics().is_conservative(&model)
@@ -85,19 +102,14 @@ pub(super) fn names(scene: &Scene) -> Vec<String> {
     let model = Model::new(scene);
     let columns = run::quantities(&model);
     let loops = model.physics().material_loops(&model).is_some_and(|found| !found.loops.is_empty());
-    let further = [
-        (ENERGY_DRIFT, drifts(scene)),
-        (CIRCULATION_DRIFT, loops),
-        (LIMITED_EXCHANGES, columns.contains(&column::LIMITED_EXCHANGES)),
-    ];
-    let further = further.into_iter().filter(|(_, there)| *there).map(|(name, _)| name);
+    let further = names_of_table(scene).into_iter().chain(loops.then_some(CIRCULATION_DRIFT));
     let known = columns.iter().copied().chain(further).map(str::to_owned);
     known.chain(fields::names_from_exact(scene, &model)).collect()
 }
 
-/// Whether a measure without unit says how large an error is, as a part of something: a drift or a distance.
+/// Whether a measure without unit says how large an error is, as a part of something: a drift, a distance or a share.
 pub(super) fn is_part(measure: &str) -> bool {
-    [ENERGY_DRIFT, CIRCULATION_DRIFT].contains(&measure)
+    [ENERGY_DRIFT, CIRCULATION_DRIFT, LIMITED_EXCHANGES].contains(&measure)
         || [fields::DISTANCE, fields::FROM_EXACT].iter().any(|end| measure.ends_with(end))
 }
 

@@ -55,7 +55,7 @@ pub use cost::Cost;
 pub use deviation::Deviation;
 pub use length::Length;
 pub use measures::Measured;
-pub(crate) use measures::{ENERGY_DRIFT, drifts, energy_drift};
+pub(crate) use measures::{names_of_table, of_table};
 pub(crate) use reference::predicted;
 pub use reference::{Reference, References, Source};
 pub use request::Request;

@@ -408,17 +408,17 @@ fn limited_exchanges_are_counted() {
         "interactions": [{"type": "voronoi", "form": "consistent", "exchange_limit": 0.02}],
         "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}, "snapshot": {"width": 100, "height": 80}},
     }));
-    let further = ["--vary", "time.step=0.02,0.08", "--measure", "limited_exchange_rate", "--quiet"];
+    let further = ["--vary", "time.step=0.02,0.08", "--measure", "limited_exchange_share", "--quiet"];
     succeeds(&borrowed(&arguments(&place, &further)));
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
-    let rates: Vec<f64> =
-        summary.choices.iter().map(|choice| choice.error("limited_exchange_rate").unwrap().error).collect();
-    assert!(rates[0] < rates[1] && rates[1] > 0.0, "{rates:?}");
-    for (choice, rate) in summary.choices.iter().zip(&rates) {
+    let shares: Vec<f64> =
+        summary.choices.iter().map(|choice| choice.error("limited_exchange_share").unwrap().error).collect();
+    assert!(shares[0] < shares[1] && shares[1] > 0.0, "{shares:?}");
+    for (choice, share) in summary.choices.iter().zip(&shares) {
         let table = read_table(&place.path("out").join(&choice.name).join(run_files::ENERGIES)).unwrap();
         let cut = table.column("limited_exchanges").unwrap();
-        let cell_time = 196.0 * choice.steps as f64 * choice.time_step;
-        assert!((rate * cell_time - cut.last().unwrap()).abs() < 1e-6 * cell_time, "{rate} {cut:?}");
+        let faces = 3.0 * 196.0 * choice.steps as f64;
+        assert!((share * faces - cut.last().unwrap()).abs() < 1e-6 * faces, "{share} {cut:?}");
     }
 }
 
