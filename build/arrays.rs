@@ -124,6 +124,8 @@ pub const ARRAYS: &[Array] = &[
     stand_in("speed_count_samples", "samples", "histograms of speeds waiting to be read"),
     stand_in("acceleration_counts", "histogram", "accelerations: counts of each bin and sums of powers"),
     stand_in("acceleration_count_samples", "samples", "histograms of accelerations waiting to be read"),
+    stand_in("layer_sums", "histogram", "sums over the particles of each layer across an axis"),
+    stand_in("layer_samples", "samples", "sums over layers waiting to be read"),
     // Particles of shallow water.
     either("particle_masses", "masses and ids of the particles"),
     either("tidied", "particles in order of cells, for a moment"),

@@ -2,7 +2,7 @@
 
 use super::{
     Axis, ChainOutput, Checkpoint, CorrelatedQuantity, CountedQuantity, DecayFit, Energies, Fields, Frame, Neighbours,
-    PlotStyle, ShearWave, Snapshot, Trajectory,
+    PlotStyle, ProfiledQuantity, ShearWave, Snapshot, Trajectory,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -49,6 +49,9 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
     pub histograms: Vec<Histogram>,
+    /// Profiles of density, velocity and temperature along an axis of the box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profiles: Option<Profiles>,
     /// The numbers of neighbours of Voronoi cells, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<Neighbours>,
@@ -71,6 +74,7 @@ impl Output {
             (AnalysisId::Chain, self.chain.is_some()),
             (AnalysisId::Neighbours, self.neighbours.is_some()),
             (AnalysisId::ShearWave, self.shear_wave.is_some()),
+            (AnalysisId::Profiles, self.profiles.is_some()),
         ];
         let asked = keys.into_iter().filter(|(_, asked)| *asked).map(|(id, _)| id);
         let correlated = self.autocorrelations.iter().map(|asked| AnalysisId::Autocorrelation(asked.quantity));
@@ -179,6 +183,33 @@ pub struct Histogram {
     pub frame: Option<Frame>,
 }
 
+/// Averages over the particles in bins of equal width along an axis of the box, and over time.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Profiles {
+    /// The axis along which the bins follow each other.
+    pub axis: Axis,
+    /// Number of bins.
+    #[serde(default = "forty_bins")]
+    #[schemars(range(min = 1, max = 1024))]
+    pub bins: u32,
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// What is averaged, each quantity at most once.
+    #[serde(default = "all_profiles")]
+    #[schemars(length(min = 1, max = 16))]
+    pub quantities: Vec<ProfiledQuantity>,
+}
+
+fn forty_bins() -> u32 {
+    40
+}
+
+fn all_profiles() -> Vec<ProfiledQuantity> {
+    ProfiledQuantity::ALL.to_vec()
+}
+
 /// What a run can measure in addition to the observables, in the order in which their files are listed.
 ///
 /// ```
@@ -209,6 +240,8 @@ pub enum AnalysisId {
     Neighbours,
     /// The decay of a shear wave.
     ShearWave,
+    /// Profiles along an axis.
+    Profiles,
 }
 
 /// A table that an analysis writes, and its plot.
@@ -232,7 +265,7 @@ macro_rules! names {
 
 impl AnalysisId {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::RadialDistribution,
         Self::Diffusion,
         Self::ChainSizes,
@@ -246,6 +279,7 @@ impl AnalysisId {
         Self::Chain,
         Self::Neighbours,
         Self::ShearWave,
+        Self::Profiles,
     ];
 
     const fn names(self) -> (&'static str, &'static [AnalysisTable]) {
@@ -265,6 +299,7 @@ impl AnalysisId {
             }
             Self::Neighbours => names!("neighbours"),
             Self::ShearWave => names!("shear_wave"),
+            Self::Profiles => names!("profiles"),
         }
     }
 

@@ -1,4 +1,4 @@
-//! What autocorrelations and histograms are of.
+//! What autocorrelations, histograms and profiles are of.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -74,6 +74,33 @@ impl CountedQuantity {
     }
 }
 
+/// What profiles along an axis show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ProfiledQuantity {
+    /// Particles per volume (area in two dimensions), of each species and in all.
+    Density,
+    /// The velocity of the centre of mass of a bin, by components.
+    Velocity,
+    /// The kinetic temperature of the velocities relative to that of the centre of mass of the bin.
+    Temperature,
+}
+
+impl ProfiledQuantity {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Density, Self::Velocity, Self::Temperature];
+
+    /// The name in a scene.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Density => "density",
+            Self::Velocity => "velocity",
+            Self::Temperature => "temperature",
+        }
+    }
+}
+
 /// An axis of the box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -84,4 +111,16 @@ pub enum Axis {
     Y,
     /// The third.
     Z,
+}
+
+impl Axis {
+    /// The name in a scene.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Averages, fields and derived quantities from raw sums.
 
+pub mod blocks;
 pub mod correlation;
 pub mod diffusion;
 pub mod equilibration;

@@ -49,6 +49,7 @@ mod periodic_curve;
 mod pipelines;
 mod points;
 mod presets;
+mod profile_charts;
 mod quantities;
 mod readback;
 mod renderer;
@@ -77,6 +78,7 @@ pub use presets::{
     autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, mesh_energies_chart,
     radial_distribution_chart,
 };
+pub use profile_charts::{ProfiledSpecies, profiles_chart};
 pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;

@@ -289,6 +289,17 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
             refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
         }
     }
+    if let Some(asked) = &output.profiles {
+        for (index, quantity) in asked.quantities.iter().enumerate() {
+            if asked.quantities[..index].contains(quantity) {
+                let found = format!("found \"{}\" again", quantity.name());
+                refuse(format!("output.profiles.quantities[{index}]"), found, once);
+            }
+        }
+        if asked.axis as usize >= scene.space.lengths.len() {
+            refuse("output.profiles.axis".to_owned(), format!("found \"{}\"", asked.axis.name()), "an axis of the box");
+        }
+    }
     for (index, asked) in output.histograms.iter().enumerate() {
         let path = format!("output.histograms[{index}]");
         let name = asked.quantity.name();
@@ -306,8 +317,7 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
                 "no `axis`: a speed has none",
             );
         } else if axis as usize >= scene.space.lengths.len() {
-            let name = ["x", "y", "z"][axis as usize];
-            refuse(format!("{path}.axis"), format!("found \"{name}\""), "an axis of the box");
+            refuse(format!("{path}.axis"), format!("found \"{}\"", axis.name()), "an axis of the box");
         }
     }
 }

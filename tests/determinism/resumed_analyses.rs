@@ -102,6 +102,7 @@ const EVERYTHING: &[&str] = &[
         {"quantity":"force","every":2,"window":5}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":1},{"quantity":"speed","every":5,"bins":5},
         {"quantity":"acceleration","every":2}]"#,
+    r#"output.profiles={"axis":"y","bins":3,"every":2}"#,
     r#"output.trajectory={"every":6,"format":"extended-xyz"}"#,
 ];
 

@@ -306,6 +306,23 @@ fn lengths_and_durations() {
 }
 
 #[test]
+fn profiles_have_an_axis_of_the_box_and_quantities_once() {
+    let profiles = |more: &str| format!(r#"output.profiles={{"every":1,"axis":"z"{more}}}"#);
+    FLUID.parse(&[&profiles("")]).unwrap();
+    FLUID.refused_with(
+        &[&profiles(""), "space.box=[10,10]"],
+        &["output.profiles.axis: found \"z\"; accepted: an axis of the box"],
+    );
+    FLUID.refused_with(
+        &[&profiles(r#","quantities":["velocity","density","velocity"]"#)],
+        &["output.profiles.quantities[2]: found \"velocity\" again; accepted: every quantity at most once"],
+    );
+    FLUID.refused_with(&[&profiles(r#","quantities":[]"#)], &["output.profiles.quantities"]);
+    FLUID.refused_with(&[&profiles(r#","bins":0"#)], &["output.profiles.bins: found 0"]);
+    FLUID.refused_with(&["output.profiles.every=5"], &["output.profiles.axis"]);
+}
+
+#[test]
 fn steps_that_take_particles_too_far_are_refused() {
     FLUID.parse(&["temperature=9900", "interactions.0.friction=0"]).unwrap();
     FLUID.refused_with(

@@ -12,5 +12,6 @@ mod couplings;
 mod edpd;
 mod fluid;
 mod harmonic_chain;
+mod profiles;
 mod shallow_water;
 mod voronoi;

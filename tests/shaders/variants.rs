@@ -37,6 +37,7 @@ const SAMPLERS: &[&str] = &[
     r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
         {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
+    r#"output.profiles={"axis":"x","every":2}"#,
 ];
 
 fn plan_of(scene: &Scene, options: Options) -> Plan {
@@ -403,6 +404,7 @@ const VORONOI_SAMPLERS: &[&str] = &[
     r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},
         {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
+    r#"output.profiles={"axis":"y","every":2}"#,
 ];
 
 /// The same of shallow water.

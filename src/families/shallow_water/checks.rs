@@ -146,6 +146,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
         ("viscosity", output.viscosity.is_some()),
         ("autocorrelations", !output.autocorrelations.is_empty()),
         ("histograms", !output.histograms.is_empty()),
+        ("profiles", output.profiles.is_some()),
     ];
     for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
         let path = format!("output.{name}");

@@ -32,7 +32,7 @@ impl Descriptor for Autocorrelation {
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         match self.0 {
             CorrelatedQuantity::Velocity => &[Need::Particles, Need::Momenta],
             CorrelatedQuantity::Force => &[Need::Particles, Need::Forces],

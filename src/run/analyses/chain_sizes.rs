@@ -9,7 +9,7 @@ use crate::families::{ChainGroup, Model};
 use crate::measure::statistics::estimate;
 use crate::plan::{Need, Words};
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::{AnalysisId, Output, Scene};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ impl Descriptor for ChainSizes {
         Some(Sampling::after_equilibration(scene, scene.output.chain_sizes.as_ref()?.every))
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         &[Need::Particles]
     }
 

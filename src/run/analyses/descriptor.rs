@@ -6,7 +6,7 @@ use crate::families::Model;
 use crate::numbers::grouped;
 use crate::plan::{Need, Plan, Sampler};
 use crate::plot::Chart;
-use crate::scene::Scene;
+use crate::scene::{Output, Scene};
 use crate::state::State;
 use crate::table::Table;
 use serde_json::Value;
@@ -16,8 +16,9 @@ pub(super) trait Descriptor {
     /// How a scene asks for it; none if it does not.
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling>;
 
-    /// What a report has to leave for its sampler.
-    fn needs(&self) -> &'static [Need] {
+    /// What a report has to leave for its sampler, if a scene asks for it.
+    fn needs(&self, output: &Output) -> &'static [Need] {
+        let _ = output;
         &[]
     }
 

@@ -10,7 +10,7 @@ use crate::measure::correlation::WindowedAverage;
 use crate::measure::diffusion::{diffusion_from_displacement, diffusion_from_velocity};
 use crate::plan::{Need, Window};
 use crate::plot::{Chart, diffusion_chart};
-use crate::scene::{self, AnalysisId, Scene};
+use crate::scene::{self, AnalysisId, Output, Scene};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ impl Descriptor for Diffusion {
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         &[Need::Particles]
     }
 

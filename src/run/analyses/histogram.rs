@@ -46,7 +46,7 @@ impl Descriptor for Histogram {
         Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         match self.0 {
             CountedQuantity::Velocity | CountedQuantity::Speed => &[Need::Particles, Need::Momenta],
             CountedQuantity::Acceleration => &[Need::Particles, Need::Forces],

@@ -14,6 +14,7 @@ mod histogram_range;
 mod neighbours;
 mod pair_histogram;
 mod planner;
+mod profiles;
 mod radial_distribution;
 mod results;
 mod shear_wave;
@@ -51,12 +52,13 @@ fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
         AnalysisId::Chain => Box::new(chain::Chain),
         AnalysisId::Neighbours => Box::new(neighbours::Neighbours),
         AnalysisId::ShearWave => Box::new(shear_wave::ShearWave),
+        AnalysisId::Profiles => Box::new(profiles::Profiles),
     }
 }
 
 /// What reports have to leave for the analyses that a scene asks for.
 pub(super) fn needs(output: &Output) -> Vec<Need> {
-    output.analyses().into_iter().flat_map(|id| describe(id).needs()).copied().collect()
+    output.analyses().into_iter().flat_map(|id| describe(id).needs(output)).copied().collect()
 }
 
 /// Adds the samplers of the analyses that a scene asks for, in its order, and then of those that come with the model.

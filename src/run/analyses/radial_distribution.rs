@@ -8,7 +8,7 @@ use crate::engine::Sample;
 use crate::families::Model;
 use crate::plan::{Need, Sampler};
 use crate::plot::{Chart, radial_distribution_chart};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Output, Scene};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -27,7 +27,7 @@ impl Descriptor for RadialDistribution {
         Some(Sampling::after_equilibration(scene, scene.output.radial_distribution.as_ref()?.every))
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         &[Need::Order]
     }
 

@@ -9,7 +9,7 @@ use crate::families::Model;
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
 use crate::plan::Need;
 use crate::plot::{Chart, Found, viscosity_chart};
-use crate::scene::{self, AnalysisId, Scene};
+use crate::scene::{self, AnalysisId, Output, Scene};
 use crate::shaders::{Array, Choices, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ impl Descriptor for Viscosity {
         Some(Sampling::after_equilibration(scene, scene.output.viscosity.as_ref()?.every))
     }
 
-    fn needs(&self) -> &'static [Need] {
+    fn needs(&self, _: &Output) -> &'static [Need] {
         &[Need::Particles]
     }
 

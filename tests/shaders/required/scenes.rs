@@ -369,7 +369,7 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
 }
 
 const LISTS: [&str; 2] = ["autocorrelations", "histograms"];
-const ANALYSES: [&str; 9] = [
+const ANALYSES: [&str; 10] = [
     "trajectory",
     "radial_distribution",
     "diffusion",
@@ -378,5 +378,6 @@ const ANALYSES: [&str; 9] = [
     "chain",
     "neighbours",
     "shear_wave",
+    "profiles",
     "fields",
 ];

@@ -1,0 +1,105 @@
+//! Charts of profiles along an axis of the box.
+
+use super::chart::{Axis, AxisFit, Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::quantities::TEMPERATURE;
+use crate::numbers::short;
+use crate::table::Table;
+
+/// With more bins than this, markers and their error bars would run into each other.
+const MOST_MARKERS: usize = 60;
+
+/// A species whose density has a column of its own.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ProfiledSpecies {
+    /// Its name.
+    pub name: String,
+    /// The name of its column.
+    pub column: String,
+}
+
+/// Profiles of density, velocity and temperature along an axis, with error bars; a column that is not in the table leaves its panel
+/// out.
+///
+/// The columns are `position`, `number_density`, those of the species, `velocity_x` and so on, and `temperature`, each but the first
+/// with another whose name ends in `_error`. `temperature` is that of the bath, if there is one.
+///
+/// ```
+/// use mesoscope::plot::profiles_chart;
+/// use mesoscope::table::Table;
+///
+/// let columns = ["position", "velocity_x", "velocity_x_error"];
+/// let table = Table::new(columns, vec![vec![0.5, 0.9, 0.1], vec![1.5, -0.9, 0.1]]);
+/// let chart = profiles_chart("Two streams", "y", &table, &[], Some(1.0));
+/// assert_eq!(chart.panels.len(), 1);
+/// assert_eq!(chart.panels[0].x.label, "Position along y (length units)");
+/// assert_eq!(chart.panels[0].series[0].errors, Some(vec![0.1, 0.1]));
+/// ```
+#[must_use]
+pub fn profiles_chart(
+    title: &str,
+    axis: &str,
+    table: &Table,
+    species: &[ProfiledSpecies],
+    temperature: Option<f64>,
+) -> Chart {
+    let positions = table.values("position");
+    let few = positions.len() <= MOST_MARKERS;
+    let series = |column: &str, name: &str| {
+        let values = table.column(column)?;
+        let points = positions.iter().zip(values).map(|(x, y)| [*x, y]).collect();
+        let style = if few { SeriesStyle::LineMarkers } else { SeriesStyle::Band };
+        let errors = table.values(&format!("{column}_error"));
+        let series = Series { style, ..Series::line(name, points) };
+        let known = errors.iter().any(|error| error.is_finite());
+        Some(if known { series.with_errors(errors) } else { series })
+    };
+    let along = format!("Position along {axis} (length units)");
+    let panel = |label: &str, columns: &[(&str, &str)]| {
+        let mut panel = Panel::new(&along, label);
+        panel.series = columns.iter().filter_map(|(column, name)| series(column, name)).collect();
+        panel
+    };
+    let mut densities: Vec<(&str, &str)> = vec![("number_density", "all particles")];
+    densities.extend(species.iter().map(|species| (species.column.as_str(), species.name.as_str())));
+    let density = panel("Number density (particles/unit volume)", &densities);
+    let velocities = [("velocity_x", "v_{x}"), ("velocity_y", "v_{y}"), ("velocity_z", "v_{z}")];
+    let velocity = panel("Velocity (length units/time unit)", &velocities);
+    let mut thermal = panel(TEMPERATURE, &[("temperature", "about the velocity of the bin")]);
+    thermal.y = Axis { fit: AxisFit::Settled, ..Axis::linear(TEMPERATURE) };
+    if let Some(temperature) = temperature {
+        thermal = thermal.with_reference(&format!("kT = {}", short(temperature)), temperature);
+    }
+    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
+    for mut panel in [density, velocity, thermal] {
+        if !panel.series.is_empty() {
+            for (number, series) in panel.series.iter_mut().enumerate() {
+                series.ink = SeriesInk::Numbered(number);
+            }
+            chart.panels.push(panel);
+        }
+    }
+    chart.subtitle = "means over time after equilibration, with standard errors".to_owned();
+    chart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::series_look::assert_all_told_apart;
+    use super::*;
+
+    #[test]
+    fn columns_decide_the_panels() {
+        let columns = ["position", "number_density", "number_density_0", "number_density_1", "temperature"];
+        let table = Table::new(columns, (0..80).map(|bin| vec![f64::from(bin), 3.0, 1.0, 2.0, 1.0]).collect());
+        let species = ["A", "B"].map(str::to_owned).into_iter().enumerate();
+        let species: Vec<ProfiledSpecies> = species
+            .map(|(number, name)| ProfiledSpecies { name, column: format!("number_density_{number}") })
+            .collect();
+        let chart = profiles_chart("a mixture", "z", &table, &species, None);
+        let shown: Vec<usize> = chart.panels.iter().map(|panel| panel.series.len()).collect();
+        assert_eq!(shown, [3, 1]);
+        assert_eq!(chart.panels[0].series[2].name, "B");
+        assert!(chart.panels[0].series[0].errors.is_none() && chart.panels[1].references.is_empty());
+        assert_all_told_apart(&chart);
+    }
+}

@@ -1,0 +1,342 @@
+//! Profiles of density, velocity and temperature along an axis of the box.
+
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
+    printed_mean,
+};
+use crate::engine::Sample;
+use crate::families::Model;
+use crate::measure::blocks::BlockSums;
+use crate::measure::statistics::Estimate;
+use crate::numbers::grouped;
+use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
+use crate::plan::{Need, Sampler, SamplerId};
+use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
+use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity, Scene};
+use crate::shaders::analyses::Layered;
+use crate::shaders::{Array, Choices, Constant, Entry};
+use crate::table::Table;
+use serde_json::{Value, json};
+
+/// Names of columns, and of the mean in the result.
+const POSITION: &str = "position";
+const DENSITY: &str = "number_density";
+const VELOCITIES: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
+const TEMPERATURE: &str = "temperature";
+
+/// Profiles along an axis.
+pub(super) struct Profiles;
+
+fn shows(asked: &scene::Profiles, quantity: ProfiledQuantity) -> bool {
+    asked.quantities.contains(&quantity)
+}
+
+fn has_motion(asked: &scene::Profiles) -> bool {
+    shows(asked, ProfiledQuantity::Velocity) || shows(asked, ProfiledQuantity::Temperature)
+}
+
+impl Descriptor for Profiles {
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        let asked = scene.output.profiles.as_ref()?;
+        let detail = Some(format!("{} bins along {}", grouped(asked.bins.into()), asked.axis.name()));
+        Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
+    }
+
+    fn needs(&self, output: &Output) -> &'static [Need] {
+        match &output.profiles {
+            Some(asked) if has_motion(asked) => &[Need::Particles, Need::Momenta],
+            _ => &[Need::Particles],
+        }
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = &planner.output.profiles else { return };
+        let sums = Sums::of(planner.model, asked);
+        let mut constants = vec![
+            (Constant::Layers, f64::from(asked.bins)),
+            (Constant::LayeredAxis, asked.axis as usize as f64),
+            (Constant::LayerSums, sums.sampled() as f64),
+            (Constant::LayeredSpecies, sums.species as f64),
+        ];
+        let mut choices = Choices::new();
+        if sums.motion {
+            let (velocities, _) = planner.velocities(Some(Frame::Box));
+            choices = velocities.with(Layered::Motion);
+            let energy = planner.model.units.momentum.powi(2) / planner.plan.quanta.energy;
+            constants.push((Constant::LayeredMass, 1.0 / mass_quantum(planner.model)));
+            constants.push((Constant::LayeredKinetic, energy));
+        }
+        let renamed = [(Array::Histogram, Array::LayerSums)];
+        let name = AnalysisId::Profiles.name();
+        let kernel = planner.kernel_of_particles(name, Entry::SumLayers, &choices, planner.groups(), &renamed);
+        let Some(kernel) = kernel else { return };
+        let entries = u64::from(asked.bins) * sums.sampled() as u64;
+        let plan = &mut *planner.plan;
+        let sum = plan.add_kernel(kernel.with(constants));
+        let rows = vec![(Array::Histogram, Array::LayerSums), (Array::Samples, Array::LayerSamples)];
+        let record = plan.add_kernel(record_histogram(entries).renamed(rows));
+        // About a mebibyte, or sixteen rows.
+        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
+        plan.add_buffer(Array::LayerSums, 8 * entries);
+        plan.add_buffer(Array::LayerSamples, 8 * (1 + capacity * (1 + entries)));
+        plan.samplers.push(Sampler {
+            id: SamplerId::Analysis(AnalysisId::Profiles),
+            first: planner.equilibration,
+            every: asked.every,
+            kernels: vec![sum, record],
+            samples: Array::LayerSamples,
+            quantities: entries as usize,
+            capacity,
+            needs_report: true,
+            window: None,
+        });
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Layers::new(setting, setting.scene.output.profiles.as_ref()?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        let names = drawn.result["species"].as_array().map(Vec::as_slice).unwrap_or_default();
+        let species: Vec<ProfiledSpecies> = names
+            .iter()
+            .enumerate()
+            .map(|(number, name)| ProfiledSpecies {
+                name: name.as_str().unwrap_or_default().to_owned(),
+                column: density_of(number),
+            })
+            .collect();
+        let axis = drawn.scene.output.profiles.as_ref().map_or("x", |asked| asked.axis.name());
+        let temperature = Some(drawn.scene.temperature).filter(|temperature| *temperature > 0.0);
+        profiles_chart(drawn.title(), axis, drawn.table, &species, temperature)
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let temperature = printed_mean(&result[TEMPERATURE]);
+        temperature.map(|mean| ("temperature about the flow".to_owned(), mean)).into_iter().collect()
+    }
+
+    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
+        let Some(asked) = &scene.output.profiles else { return 0 };
+        let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
+        8 * BlockSums::blocks_after(samples) * u64::from(asked.bins) * Sums::of(model, asked).kept() as u64
+    }
+}
+
+fn density_of(species: usize) -> String {
+    format!("{DENSITY}_{species}")
+}
+
+fn with_error(name: &str) -> [String; 2] {
+    [name.to_owned(), format!("{name}_error")]
+}
+
+fn total_mass(model: &Model) -> f64 {
+    model.species.iter().map(|species| species.mass * species.count as f64).sum()
+}
+
+/// The value of one unit of the sums of masses: all together are less than 2^62 of them.
+fn mass_quantum(model: &Model) -> f64 {
+    let total = total_mass(model);
+    if total > 0.0 { total.log2().ceil().exp2() * 2_f64.powi(-61) } else { 1.0 }
+}
+
+/// What is summed of every layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Sums {
+    species: usize,
+    dimension: usize,
+    motion: bool,
+}
+
+impl Sums {
+    fn of(model: &Model, asked: &scene::Profiles) -> Self {
+        let species = model.species.len().max(1);
+        Self { species, dimension: model.units.dimension, motion: has_motion(asked) }
+    }
+
+    /// Sums of a layer in a sample: particles of each species, mass, momentum, twice the kinetic energy.
+    fn sampled(self) -> usize {
+        self.species + if self.motion { self.dimension + 2 } else { 0 }
+    }
+
+    /// Sums of a layer that are kept: particles of each species, mass, momentum, twice the kinetic energy relative to the centre of
+    /// mass of the layer, and the degrees of freedom that it belongs to.
+    fn kept(self) -> usize {
+        self.species + if self.motion { self.dimension + 3 } else { 0 }
+    }
+}
+
+/// A number of a layer.
+type Number<'a> = Box<dyn Fn(usize) -> Option<Estimate> + 'a>;
+
+/// Sums of all layers, one after the other.
+struct Layers {
+    asked: scene::Profiles,
+    sums: Sums,
+    names: Vec<String>,
+    /// Whether particles of a species move.
+    moves: Vec<bool>,
+    length: f64,
+    /// Volume of a layer.
+    volume: f64,
+    mass: f64,
+    momentum: f64,
+    energy: f64,
+    blocks: BlockSums,
+}
+
+impl Layers {
+    fn new(setting: &Setting<'_>, asked: &scene::Profiles) -> Self {
+        let (model, plan) = (setting.model, setting.plan);
+        let sums = Sums::of(model, asked);
+        Self {
+            asked: asked.clone(),
+            sums,
+            names: model.species.iter().map(|species| species.name.clone()).collect(),
+            moves: model.species.iter().map(|species| !species.fixed).collect(),
+            length: model.units.lengths[asked.axis as usize],
+            volume: model.units.volume() / f64::from(asked.bins),
+            mass: mass_quantum(model),
+            momentum: model.units.momentum,
+            energy: plan.quanta.energy,
+            blocks: BlockSums::new(asked.bins as usize * sums.kept()),
+        }
+    }
+
+    /// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
+    fn kept(&self, sums: &[i64]) -> Vec<f64> {
+        let Sums { species, dimension, motion } = self.sums;
+        let mut row: Vec<f64> = sums.iter().take(species).map(|count| *count as f64).collect();
+        if !motion {
+            return row;
+        }
+        let moving: f64 = row.iter().zip(&self.moves).filter(|(_, moves)| **moves).map(|(count, _)| count).sum();
+        let mass = sums[species] as f64 * self.mass;
+        let momentum: Vec<f64> = sums[species + 1..][..dimension].iter().map(|p| *p as f64 * self.momentum).collect();
+        let energy = sums[species + 1 + dimension] as f64 * self.energy;
+        let of_centre = if mass > 0.0 { momentum.iter().map(|p| p * p).sum::<f64>() / mass } else { 0.0 };
+        row.push(mass);
+        row.extend(momentum);
+        // A single particle has none, but for rounding.
+        let freedom = dimension as f64 * (moving - 1.0).max(0.0);
+        row.push(if freedom > 0.0 { energy - of_centre } else { 0.0 });
+        row.push(freedom);
+        row
+    }
+
+    /// The mean over samples of a sum of a layer over its volume.
+    fn density(&self, of: impl Fn(&[f64]) -> f64, layer: usize) -> Option<Estimate> {
+        let first = layer * self.sums.kept();
+        self.blocks.mean(|row| of(&row[first..]) / self.volume)
+    }
+
+    /// The ratio of two sums of a layer.
+    fn ratio(&self, numerator: usize, denominator: usize, layer: usize) -> Option<Estimate> {
+        let first = layer * self.sums.kept();
+        self.blocks.ratio(|row| row[first + numerator], |row| row[first + denominator])
+    }
+
+    /// Columns of the table with their numbers in a layer.
+    fn columns(&self) -> Vec<(String, Number<'_>)> {
+        let Sums { species, dimension, .. } = self.sums;
+        let mut columns: Vec<(String, Number<'_>)> = Vec::new();
+        if shows(&self.asked, ProfiledQuantity::Density) {
+            let all = move |row: &[f64]| row[..species].iter().sum();
+            columns.push((DENSITY.to_owned(), Box::new(move |layer| self.density(all, layer))));
+            for number in (0..species).filter(|_| species > 1) {
+                let of = move |row: &[f64]| row[number];
+                columns.push((density_of(number), Box::new(move |layer| self.density(of, layer))));
+            }
+        }
+        if shows(&self.asked, ProfiledQuantity::Velocity) {
+            for (axis, name) in VELOCITIES.into_iter().take(dimension).enumerate() {
+                let ratio = move |layer| self.ratio(species + 1 + axis, species, layer);
+                columns.push((name.to_owned(), Box::new(ratio)));
+            }
+        }
+        if shows(&self.asked, ProfiledQuantity::Temperature) {
+            let [thermal, freedom] = [1, 2].map(|place| species + dimension + place);
+            columns.push((TEMPERATURE.to_owned(), Box::new(move |layer| self.ratio(thermal, freedom, layer))));
+        }
+        columns
+    }
+
+    /// The temperature of all layers together.
+    fn temperature(&self) -> Option<Estimate> {
+        let (width, last) = (self.sums.kept(), self.sums.kept().checked_sub(2)?);
+        let sum = move |place: usize| move |row: &[f64]| row.iter().skip(place).step_by(width).sum::<f64>();
+        self.blocks.ratio(sum(last), sum(last + 1))
+    }
+}
+
+impl OfSamples for Layers {
+    fn add(&mut self, sample: &Sample) {
+        let width = self.sums.sampled();
+        if sample.sums.len() == self.asked.bins as usize * width {
+            let row: Vec<f64> = sample.sums.chunks_exact(width).flat_map(|sums| self.kept(sums)).collect();
+            self.blocks.add(&row);
+        }
+    }
+}
+
+impl Analysis for Layers {
+    fn section(&self) -> Vec<u8> {
+        bytes(self.blocks.sums().iter().copied())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        BlockSums::blocks_after(samples).saturating_mul(u64::from(self.asked.bins) * self.sums.kept() as u64)
+    }
+
+    fn restore(&mut self, numbers: &[f64], samples: u64) {
+        self.blocks = BlockSums::of(self.asked.bins as usize * self.sums.kept(), samples, numbers);
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let columns = self.columns();
+        let names = columns.iter().flat_map(|(name, _)| with_error(name));
+        let names: Vec<String> = std::iter::once(POSITION.to_owned()).chain(names).collect();
+        let width = self.length / f64::from(self.asked.bins);
+        let rows = (0..self.asked.bins as usize).map(|layer| {
+            let found = columns.iter().flat_map(|(_, column)| {
+                let found = column(layer);
+                let error = found.and_then(|found| found.standard_error);
+                [found.map_or(f64::NAN, |found| found.mean), error.unwrap_or(f64::NAN)]
+            });
+            std::iter::once((layer as f64 + 0.5) * width).chain(found).collect()
+        });
+        let table = Table::new(names, rows.collect());
+        let result = if self.blocks.samples() == 0 {
+            Err(NO_SAMPLE.to_owned())
+        } else {
+            let mut result = json!({
+                "axis": self.asked.axis.name(),
+                "bins": self.asked.bins,
+                "samples": self.blocks.samples(),
+                "species": self.names,
+            });
+            if shows(&self.asked, ProfiledQuantity::Temperature) {
+                result[TEMPERATURE] = json!(self.temperature());
+            }
+            Ok(result)
+        };
+        // Some errors settle late by chance.
+        let bins = self.asked.bins as usize;
+        let is_unsettled = |column: &Number<'_>| {
+            let unsettled = |layer: &usize| column(*layer).is_some_and(|found| !found.converged);
+            (0..bins).filter(unsettled).count() * 5 > bins
+        };
+        let unsettled: Vec<&str> =
+            columns.iter().filter(|(_, column)| is_unsettled(column)).map(|(name, _)| name.as_str()).collect();
+        let warnings = if unsettled.is_empty() {
+            Vec::new()
+        } else {
+            let names = unsettled.join(", ");
+            vec![format!(
+                "the errors in the profiles of {names} are lower bounds: the run is short against correlations"
+            )]
+        };
+        Conclusion { warnings, ..Conclusion::new(table, result) }
+    }
+}
