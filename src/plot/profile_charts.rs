@@ -78,7 +78,7 @@ pub fn profiles_chart(
             chart.panels.push(panel);
         }
     }
-    chart.subtitle = "means over time after equilibration, with standard errors".to_owned();
+    "means over time after equilibration, with standard errors".clone_into(&mut chart.subtitle);
     chart
 }
 

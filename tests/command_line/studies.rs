@@ -167,7 +167,7 @@ fn a_study_of_an_earlier_version_goes_on_as_it_is() {
             }
         });
         for name in listing(&out) {
-            if name.ends_with(".png") {
+            if Path::new(&name).extension().is_some_and(|extension| extension == "png") {
                 fs::remove_file(out.join(name)).unwrap();
             } else if out.join(&name).is_dir() {
                 fs::remove_dir_all(out.join(name)).unwrap();

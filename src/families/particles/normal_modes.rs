@@ -11,6 +11,9 @@ const MOST_BONDS: u64 = 1_000_000;
 /// Particles of one network: the work of its modes grows with the third power.
 const LARGEST_NETWORK: usize = 256;
 
+/// Bonds of a network, between places among its particles, and their kinds.
+type Shape = Vec<([usize; 2], u32)>;
+
 /// Stiffnesses of all modes of so many particles, with how many modes have them; one particle has one mode along each axis. None
 /// where bonds are no springs without a length, have baths of their own, or join too many particles.
 pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64)>> {
@@ -35,7 +38,7 @@ pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64
         parts.entry(networks.root(bond.ends[0])).or_default().push((bond.ends, bond.kind));
     }
     // Networks alike in the order of their particles have the same modes.
-    let mut alike: HashMap<Vec<([usize; 2], u32)>, (usize, u64)> = HashMap::new();
+    let mut alike: HashMap<Shape, (usize, u64)> = HashMap::new();
     let mut bonded = 0_u64;
     for part in parts.into_values() {
         let mut members: Vec<u32> = part.iter().flat_map(|(ends, _)| *ends).collect();
@@ -46,7 +49,7 @@ pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64
         }
         bonded += members.len() as u64;
         let place = |end: u32| members.partition_point(|member| *member < end);
-        let shape = part.iter().map(|(ends, kind)| (ends.map(place), *kind)).collect();
+        let shape: Shape = part.iter().map(|(ends, kind)| (ends.map(place), *kind)).collect();
         alike.entry(shape).or_insert((members.len(), 0)).1 += 1;
     }
     let mut modes = vec![(0.0, particles.checked_sub(bonded)?)];

@@ -116,7 +116,7 @@ fn coordinates(model: &Model, particles: &Particles) -> Option<Vec<Coordinates>>
 
 /// ⟨s²⟩ = kT λ of the continuous motion, whatever the forces: in equilibrium baths are independent of all coordinates.
 fn mean_bath_square(model: &Model) -> Option<ExactMean> {
-    let mut remembering = conservation::baths(model).into_iter().map(|(step, _)| step).filter(|step| step.remembers());
+    let mut remembering = conservation::baths(model).into_iter().map(|(step, _)| step).filter(BathStep::remembers);
     let first = remembering.find(|step| step.coupling > 0.0)?;
     let forgets = |step: &BathStep| step.persistence < 1.0;
     let alike = forgets(&first) && remembering.all(|step| step.continuous_coupling == first.continuous_coupling);
