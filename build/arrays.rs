@@ -87,6 +87,7 @@ pub const ARRAYS: &[Array] = &[
     array("tethers", "array<vec4<u32>>", "where each particle is tied to, by id"),
     array("holds", "array<Hold>", "random force on each particle and when it changes, by id"),
     array("account", "array<vec2<u32>>", "momentum and work that body forces have given, a row a workgroup"),
+    array("wall_impulses", "array<u32>", "momentum that each wall has taken up, low and high word of every component"),
     // Reports and samples.
     array("reported", "array<Particle>", "particles of the last report, by id"),
     array("reported_forces", "array<vec4<i32>>", "impulses on each particle at a report, by id"),

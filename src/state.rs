@@ -5,19 +5,26 @@
 /// ```
 /// use mesoscope::state::Units;
 ///
-/// let units = Units { dimension: 3, lengths: [8.0, 8.0, 8.0], momentum: 0.5 };
+/// let units = Units { dimension: 3, lengths: [8.0, 8.0, 8.0], gaps: [0.0; 3], momentum: 0.5 };
 /// // Positions are taken modulo the box, and displacements the shortest way.
 /// let [left, right] = [[-0.5, 0.0, 0.0], [1.0, 0.0, 0.0]].map(|position| units.fraction(position));
 /// assert_eq!(units.position(left), [7.5, 0.0, 0.0]);
 /// assert_eq!(units.displacement(right, left), [1.5, 0.0, 0.0]);
 /// assert_eq!(units.momentum([3, 0, -1]), [1.5, 0.0, -0.5]);
+/// // Between walls across z, 6 apart, positions have a period of 8.
+/// let walled = Units { gaps: [0.0, 0.0, 2.0], ..units };
+/// assert_eq!((walled.edges(), walled.volume(), walled.ends()), ([8.0, 8.0, 6.0], 384.0, [0, 0, 3 << 30]));
+/// assert_eq!(walled.position(walled.between_walls([0, 0, 1 << 31])), [0.0, 0.0, 3.0]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
     /// Number of dimensions, 2 or 3.
     pub dimension: usize,
-    /// Box edge lengths; the third is 1 in two dimensions.
+    /// Lengths after which positions repeat: those of the box and of the gap behind its walls; the third is 1 in two dimensions.
     pub lengths: [f64; 3],
+    /// Empty space behind the walls across each axis, which keeps what is at one of them from what is at the other; zero without walls.
+    /// The box lies between 0 and the rest of the length.
+    pub gaps: [f64; 3],
     /// Value of one unit of integer momentum; a power of two. Of velocity in shallow water.
     pub momentum: f64,
 }
@@ -58,10 +65,50 @@ impl Units {
         self.lengths.iter().take(self.dimension).copied().fold(f64::INFINITY, f64::min)
     }
 
+    /// Edge lengths of the box, between its walls where it has any; the third is 1 in two dimensions.
+    #[must_use]
+    pub fn edges(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| self.lengths[axis] - self.gaps[axis])
+    }
+
     /// The volume of the box (area in two dimensions).
     #[must_use]
     pub fn volume(&self) -> f64 {
-        self.lengths.iter().product()
+        self.edges().iter().product()
+    }
+
+    /// Number of integer places between the walls across each axis, from 0 on; zero without walls.
+    #[must_use]
+    pub fn ends(&self) -> [u32; 3] {
+        let edges = self.edges();
+        std::array::from_fn(|axis| {
+            let part = edges[axis] / self.lengths[axis];
+            if self.gaps[axis] > 0.0 { (part * 4_294_967_296.0).floor() as u32 } else { 0 }
+        })
+    }
+
+    /// The integer position at fractions of the box, which are those of the period but between walls.
+    #[must_use]
+    pub fn between_walls(&self, fraction: [u32; 3]) -> [u32; 3] {
+        let ends = self.ends();
+        std::array::from_fn(|axis| match ends[axis] {
+            0 => fraction[axis],
+            end => ((u64::from(fraction[axis]) * u64::from(end)) >> 32) as u32,
+        })
+    }
+
+    /// A real position in the box as an integer one: between walls the nearest place there.
+    #[must_use]
+    pub fn place(&self, position: [f64; 3]) -> [u32; 3] {
+        let ends = self.ends();
+        let folded = self.fraction(position);
+        std::array::from_fn(|axis| match ends[axis] {
+            0 => folded[axis],
+            end => {
+                let places = position[axis] / self.lengths[axis] * 4_294_967_296.0;
+                places.clamp(0.0, f64::from(end - 1)).floor() as u32
+            }
+        })
     }
 }
 
@@ -110,6 +157,8 @@ pub struct State {
     pub tethers: Vec<[u32; 3]>,
     /// What body forces have given so far, one element in scenes with any; else empty.
     pub account: Vec<Account>,
+    /// What each wall has taken up so far, the lower before the upper of an axis; empty without walls.
+    pub walls: Vec<WallImpulse>,
     /// How often each particle has gone round the box along every axis, where a trajectory is written; else empty. The way
     /// since the start is the difference of positions and so many boxes.
     pub images: Vec<[i32; 3]>,
@@ -142,13 +191,15 @@ pub enum StateArray {
     Tethers,
     /// [`State::account`].
     Account,
+    /// [`State::walls`].
+    Walls,
     /// [`State::images`].
     Images,
 }
 
 impl StateArray {
     /// All of them, in the order of a checkpoint.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Predicted,
         Self::Masses,
         Self::Energies,
@@ -161,6 +212,7 @@ impl StateArray {
         Self::Holds,
         Self::Tethers,
         Self::Account,
+        Self::Walls,
         Self::Images,
     ];
 
@@ -180,6 +232,7 @@ impl StateArray {
             Self::Holds => "holds",
             Self::Tethers => "tethers",
             Self::Account => "account",
+            Self::Walls => "walls",
             Self::Images => "images",
         }
     }
@@ -193,13 +246,17 @@ impl StateArray {
             Self::PairBaths => size_of::<PairBath>() / 4,
             Self::Holds => size_of::<Hold>() / 4,
             Self::Account => size_of::<Account>() / 4,
+            Self::Walls => size_of::<WallImpulse>() / 4,
         }
     }
 
     /// Whether it has an element for every particle, if any.
     #[must_use]
     pub const fn is_of_particles(self) -> bool {
-        !matches!(self, Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths | Self::Account)
+        !matches!(
+            self,
+            Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths | Self::Account | Self::Walls
+        )
     }
 }
 
@@ -291,6 +348,34 @@ impl Account {
     }
 }
 
+/// The momentum that a wall has taken up from all particles that met it, up to the positions of a state.
+///
+/// ```
+/// use mesoscope::state::WallImpulse;
+///
+/// assert_eq!(WallImpulse::new([3, -1, i64::MIN]).momentum(), [3, -1, i64::MIN]);
+/// ```
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct WallImpulse {
+    /// Low and high words of three sums.
+    words: [[u32; 2]; 3],
+}
+
+impl WallImpulse {
+    /// Momentum in units of the state.
+    #[must_use]
+    pub fn new(momentum: [i64; 3]) -> Self {
+        Self { words: momentum.map(|sum| [sum as u32, (sum >> 32) as u32]) }
+    }
+
+    /// Momentum in units of the state.
+    #[must_use]
+    pub fn momentum(&self) -> [i64; 3] {
+        self.words.map(|[low, high]| (u64::from(high) << 32 | u64::from(low)).cast_signed())
+    }
+}
+
 impl State {
     /// The words of an array.
     #[must_use]
@@ -308,6 +393,7 @@ impl State {
             StateArray::Holds => bytemuck::cast_slice(&self.holds),
             StateArray::Tethers => bytemuck::cast_slice(&self.tethers),
             StateArray::Account => bytemuck::cast_slice(&self.account),
+            StateArray::Walls => bytemuck::cast_slice(&self.walls),
             StateArray::Images => bytemuck::cast_slice(&self.images),
         }
     }
@@ -355,6 +441,7 @@ impl State {
             StateArray::Holds => self.holds = elements(array, words)?,
             StateArray::Tethers => self.tethers = elements(array, words)?,
             StateArray::Account => self.account = elements(array, words)?,
+            StateArray::Walls => self.walls = elements(array, words)?,
             StateArray::Images => self.images = elements(array, words)?,
         }
         Ok(())
@@ -385,7 +472,7 @@ impl State {
         self.positions.is_empty()
     }
 
-    /// Total momentum less what body forces have put in, in integer units.
+    /// Total momentum with what walls have taken up, less what body forces have put in, in integer units.
     ///
     /// ```
     /// use mesoscope::state::{Account, State};
@@ -397,7 +484,8 @@ impl State {
     #[must_use]
     pub fn exchanged_momentum(&self) -> [i64; 3] {
         let (total, put_in) = (self.total_momentum(), self.account.first().copied().unwrap_or_default().momentum());
-        std::array::from_fn(|axis| total[axis] - put_in[axis])
+        let taken = |axis: usize| self.walls.iter().map(|wall| wall.momentum()[axis]).sum::<i64>();
+        std::array::from_fn(|axis| total[axis] - put_in[axis] + taken(axis))
     }
 
     /// Total momentum in integer units.

@@ -18,7 +18,8 @@ fn sum_layers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     add_layered(first + LAYERED_SPECIES, id, particle);
 }
 
-// The integer part of LAYERS times the fraction of the box, exactly; LAYERS is at most 2^16.
+// Slot analyses/layers: the layer of a particle. The plan chooses `between_walls` for an axis with walls.
+// Default: the integer part of LAYERS times the fraction of the box, exactly; LAYERS is at most 2^16.
 fn layer_of(fraction: u32) -> u32 {
     return ((fraction >> 16u) * LAYERS + (((fraction & 0xffffu) * LAYERS) >> 16u)) >> 16u;
 }

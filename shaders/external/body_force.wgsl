@@ -15,14 +15,6 @@ fn impulse_in_step(impulse: Impulse, step: u32) -> Steps {
     return impulse.whole + select(Steps(0), Steps(1), before > ~impulse.rest);
 }
 
-// The high word of a product.
-fn high_of_product(a: u32, b: u32) -> u32 {
-    let low = (a & 0xffffu) * (b & 0xffffu);
-    let first = (a >> 16u) * (b & 0xffffu) + (low >> 16u);
-    let second = (a & 0xffffu) * (b >> 16u) + (first & 0xffffu);
-    return (a >> 16u) * (b >> 16u) + (first >> 16u) + (second >> 16u);
-}
-
 // The sine of half a turn at most, in 2^-32, from an angle in 2^-32 of a turn: its series, off by less than 2e-9.
 fn sine_of_half_turn(angle: u32) -> u32 {
     let part = min(min(angle, 0x80000000u - angle), 0x3fffffffu) << 2u; // of a quarter of a turn
@@ -50,6 +42,15 @@ fn part_of_impulse(impulse: Impulse, part: u32) -> Impulse {
     return scaled;
 }
 
+// Slot external/drifted: the impulses at both ends of the drift that has ended, times its momenta. The drift began with an impulse in its
+// first place and ends with one in its last.
+// Default: along a straight way. The plan chooses `between_walls` if the scene has walls.
+fn work_of_drift(me: Particle, kick: Steps, step: u32) -> f32 {
+    let before = fraction_of(me.position) - unsigned(drift_steps(me.momentum));
+    let both = kick + external_kick_at(before, species_of(me), step - 1u);
+    return dot(Vector(both), Vector(steps_of(me.momentum)));
+}
+
 // Sums of a row of the account: three of momentum and one of work, all given up to the report point of this step; then what the impulses
 // of this step add, of which the opening half counts in the next.
 const ACCOUNT: u32 = 8u;
@@ -70,11 +71,7 @@ fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         given[0] = sum64_add(given[0], sum64_of_i32(word.x));
         given[1] = sum64_add(given[1], sum64_of_i32(word.y));
         given[2] = sum64_add(given[2], sum64_of_i32(word.z));
-        // The drift that has ended here began with an impulse in its first place and ends with one in its last.
-        let before = fraction - unsigned(drift_steps(me.momentum));
-        let both = kick + external_kick_at(before, species, step - 1u);
-        let work = dot(Vector(both), Vector(steps_of(me.momentum))) * (2.0 * kinetic_of(species));
-        given[3] = sum64_add(given[3], sum64_of_signed(work));
+        given[3] = sum64_add(given[3], sum64_of_signed(work_of_drift(me, kick, step) * (2.0 * kinetic_of(species))));
     }
     let row = group * ACCOUNT;
     var kept: array<vec2<u32>, 4>;

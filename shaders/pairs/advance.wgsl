@@ -11,6 +11,9 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
+// Slot pairs/advance: how a particle drifts. The plan chooses `between_walls` if the scene has walls.
+// Default: across the periodic box.
+//
 // Stores a particle after its opening kick and drift, and counts it. `momentum` and `kick` are in integer momentum units.
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
     check_particle(momentum, species_of(me), strain);
@@ -34,4 +37,17 @@ fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     let fraction = fraction_of(particle.position) + unsigned(half_drift_steps(particle.momentum));
     particles[index].position = position_word(fraction, particle.position.w);
     put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+}
+
+// The second half of a drift between walls that a report has interrupted. One invocation a stored particle; updates it, adds to
+// `counts` and `wall_impulses`, writes `ranks`.
+@compute @workgroup_size(WORKGROUP)
+fn drift_rest_between_walls(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (index >= PARTICLES) { return; }
+    let me = particles[index];
+    let flight = fly(Flight(fraction_of(me.position), steps_of(me.momentum), Steps(1), 1), species_of(me));
+    particles[index].position = position_word(flight.place, me.position.w);
+    particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
+    put_rank(index, atomicAdd(&counts[row_of(flight.place) * CELLS_X + column_of(flight.place)], 1u));
 }

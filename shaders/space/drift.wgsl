@@ -24,3 +24,6 @@ fn all_within(v: Vector, limit: f32) -> bool {
 fn drift_steps(momentum: vec4<i32>) -> Steps {
     return Steps(round(Vector(steps_of(momentum)) * (drift_of(species_in(momentum)) / unit_lengths())));
 }
+// The equal parts of which a drift is made, and one of them.
+fn drift_parts() -> i32 { return 1; }
+fn part_of_drift(momentum: vec4<i32>) -> Steps { return drift_steps(momentum); }

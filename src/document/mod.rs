@@ -21,6 +21,7 @@ mod shallow_water;
 mod species_names;
 mod state;
 mod voronoi;
+mod walls;
 
 pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
@@ -43,3 +44,4 @@ pub(crate) use species_names::SpeciesNames;
 pub(crate) use state::number_of_copies;
 pub use state::{StateFile, StateVelocities};
 pub use voronoi::*;
+pub use walls::{Reflection, WallPair, Walls};

@@ -2,7 +2,7 @@
 
 use super::{
     FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Output, ParticleGroup, StateFile,
-    StateVelocities,
+    StateVelocities, Walls,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -147,7 +147,7 @@ fn current_version() -> u32 {
     1
 }
 
-/// An orthogonal periodic box.
+/// An orthogonal box, periodic but for axes with walls.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Space {
@@ -155,6 +155,9 @@ pub struct Space {
     #[serde(rename = "box")]
     #[schemars(length(min = 1, max = 3), extend("items" = serde_json::json!({"type": "number", "exclusiveMinimum": 0})))]
     pub lengths: Vec<f64>,
+    /// Plane walls at the faces of the box.
+    #[serde(default, skip_serializing_if = "Walls::is_empty")]
+    pub walls: Walls,
 }
 
 /// Time step and duration.

@@ -73,3 +73,46 @@ pub(crate) fn put_in(dimension: usize) -> impl Iterator<Item = Column> {
     let work = column("body_force_work", |row, _| row.put_in.work);
     MOMENTUM_PUT_IN.into_iter().take(dimension).chain([work])
 }
+
+/// Momentum that each wall has taken up: by the axis that it crosses, lower before upper.
+const MOMENTUM_OF_WALLS: [[Column; 3]; 6] = [
+    [
+        column("wall_x_lower_momentum_x", |row, _| row.on_walls.momentum[0][0]),
+        column("wall_x_lower_momentum_y", |row, _| row.on_walls.momentum[0][1]),
+        column("wall_x_lower_momentum_z", |row, _| row.on_walls.momentum[0][2]),
+    ],
+    [
+        column("wall_x_upper_momentum_x", |row, _| row.on_walls.momentum[1][0]),
+        column("wall_x_upper_momentum_y", |row, _| row.on_walls.momentum[1][1]),
+        column("wall_x_upper_momentum_z", |row, _| row.on_walls.momentum[1][2]),
+    ],
+    [
+        column("wall_y_lower_momentum_x", |row, _| row.on_walls.momentum[2][0]),
+        column("wall_y_lower_momentum_y", |row, _| row.on_walls.momentum[2][1]),
+        column("wall_y_lower_momentum_z", |row, _| row.on_walls.momentum[2][2]),
+    ],
+    [
+        column("wall_y_upper_momentum_x", |row, _| row.on_walls.momentum[3][0]),
+        column("wall_y_upper_momentum_y", |row, _| row.on_walls.momentum[3][1]),
+        column("wall_y_upper_momentum_z", |row, _| row.on_walls.momentum[3][2]),
+    ],
+    [
+        column("wall_z_lower_momentum_x", |row, _| row.on_walls.momentum[4][0]),
+        column("wall_z_lower_momentum_y", |row, _| row.on_walls.momentum[4][1]),
+        column("wall_z_lower_momentum_z", |row, _| row.on_walls.momentum[4][2]),
+    ],
+    [
+        column("wall_z_upper_momentum_x", |row, _| row.on_walls.momentum[5][0]),
+        column("wall_z_upper_momentum_y", |row, _| row.on_walls.momentum[5][1]),
+        column("wall_z_upper_momentum_z", |row, _| row.on_walls.momentum[5][2]),
+    ],
+];
+
+/// Work that moving walls have done on the particles.
+pub(crate) const WALL_WORK: Column = column("wall_work", |row, _| row.on_walls.work);
+
+/// Momentum that the walls across some axes have taken up.
+pub(crate) fn on_walls(axes: impl Iterator<Item = usize>, dimension: usize) -> impl Iterator<Item = Column> {
+    axes.flat_map(|axis| [2 * axis, 2 * axis + 1])
+        .flat_map(move |wall| MOMENTUM_OF_WALLS[wall].into_iter().take(dimension))
+}

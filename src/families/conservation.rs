@@ -13,6 +13,10 @@ pub enum KeptQuantity {
     Momentum,
     /// Of all particles, less what body forces have put in.
     MomentumButForForces,
+    /// Of all particles, with what walls have taken up.
+    MomentumWithWalls,
+    /// Both.
+    MomentumWithWallsButForForces,
     /// Kinetic and internal energy together.
     Energy,
 }
@@ -26,6 +30,10 @@ impl KeptQuantity {
             Self::MeshMass => "mass on the mesh",
             Self::Momentum => "total momentum",
             Self::MomentumButForForces => "total momentum less what body forces have put in",
+            Self::MomentumWithWalls => "total momentum with what walls have taken up",
+            Self::MomentumWithWallsButForForces => {
+                "total momentum with what walls have taken up, less what body forces have put in"
+            }
             Self::Energy => "total energy",
         }
     }
@@ -44,6 +52,9 @@ pub struct KeptSum {
     pub unit: f64,
     /// The place of the sum of what is put in from outside, which does not count.
     pub put_in: Option<usize>,
+    /// The place of the sum of what the first wall has taken up, which counts too, and the number of walls, whose sums follow each other at
+    /// every third place.
+    pub walls: Option<(usize, usize)>,
     /// In a state.
     pub total: i64,
 }
@@ -54,12 +65,23 @@ impl KeptSum {
         Self { quantity: KeptQuantity::MomentumButForForces, put_in: Some(place), ..self }
     }
 
+    /// The same of a component of momentum, with what so many walls have taken up: the place of the sum of the first.
+    pub(super) fn with_walls(self, place: usize, number: usize) -> Self {
+        let quantity = match self.quantity {
+            KeptQuantity::MomentumButForForces => KeptQuantity::MomentumWithWallsButForForces,
+            _ => KeptQuantity::MomentumWithWalls,
+        };
+        Self { quantity, walls: Some((place, number)), ..self }
+    }
+
     /// What is kept, among the sums of a report.
     #[must_use]
     pub fn of(&self, sums: &[i64]) -> Option<i64> {
         let found = sums.get(self.place)?;
         let put_in = self.put_in.map_or(Some(0), |place| sums.get(place).copied())?;
-        Some(found.wrapping_sub(put_in))
+        let (first, number) = self.walls.unwrap_or_default();
+        let taken = (0..number).try_fold(0_i64, |sum, wall| Some(sum.wrapping_add(*sums.get(first + 3 * wall)?)))?;
+        Some(found.wrapping_sub(put_in).wrapping_add(taken))
     }
 }
 
@@ -72,6 +94,7 @@ pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64)
         place: first + axis,
         unit,
         put_in: None,
+        walls: None,
         total,
     };
     directions.take(dimension).map(component).collect()
@@ -80,7 +103,7 @@ pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64)
 /// The sum of all masses.
 pub(super) fn mass(state: &State, quantity: KeptQuantity, place: usize, unit: f64) -> KeptSum {
     let total = state.masses.iter().map(|mass| i64::from(*mass)).sum();
-    KeptSum { quantity, direction: "", place, unit, put_in: None, total }
+    KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total }
 }
 
 /// Why the energy of forces is not kept exactly.

@@ -35,12 +35,13 @@ pub use field::{Field, FieldError};
 pub use instability::Instability;
 pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
-pub use observables::{CellObservables, Observables, PutIn};
+pub use observables::{CellObservables, Observables, OnWalls, PutIn};
 pub use particles::Particles;
+pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
-    HarmonicChain, Jump, Likeness, PairForce, PositionBath, SpringChain, Strand,
+    HarmonicChain, Jump, Likeness, PairForce, PlaneWalls, PositionBath, SpringChain, Strand,
 };
 pub use pictures::PictureKind;
 pub use registry::Family;
@@ -88,6 +89,11 @@ pub(crate) struct ExactMean {
 pub(crate) trait Physics {
     /// Value of one unit of integer momentum; a power of two.
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64;
+
+    /// Empty space behind walls on each axis, where there are any: see [`crate::state::Units::gaps`].
+    fn gaps(&self, _: &Scene) -> [f64; 3] {
+        [0.0; 3]
+    }
 
     /// How far along an axis a particle may move in a step, without which a run ends.
     fn reach(&self, model: &Model) -> f64;

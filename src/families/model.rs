@@ -76,9 +76,14 @@ impl Model {
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         let family = Family::of(scene, &mut species);
         let momentum = family.physics().momentum_unit(scene, &species);
+        let gaps = family.physics().gaps(scene);
+        let edges = lengths;
+        let lengths: [f64; 3] = std::array::from_fn(|axis| edges[axis] + gaps[axis]);
+        // The rounded sum less this is the edge again.
+        let gaps = std::array::from_fn(|axis| lengths[axis] - edges[axis]);
         let expected_velocity = speeds::expected(scene, &species, family.physics());
         let mut model = Self {
-            units: Units { dimension: scene.space.lengths.len(), lengths, momentum },
+            units: Units { dimension: scene.space.lengths.len(), lengths, gaps, momentum },
             species,
             temperature: scene.temperature,
             time_step: scene.time.step,
@@ -124,20 +129,20 @@ impl Model {
     /// themselves do not.
     #[must_use]
     pub fn conserves_momentum(&self) -> bool {
-        self.exchanges_momentum() && self.particles().body_forces.is_none()
+        self.exchanges_momentum() && self.particles().body_forces.is_none() && self.particles().walls.is_empty()
     }
 
-    /// Whether particles get momentum from each other and from body forces only, so that the total is what those have put in.
+    /// Whether particles get momentum from each other, from body forces and from walls only, so that the total is what those have put in.
     #[must_use]
     pub(crate) fn exchanges_momentum(&self) -> bool {
-        self.particles().coloured_noise.is_none() && self.measures_about_centre_of_mass()
+        self.particles().coloured_noise.is_none() && self.physics().is_free() && !self.has_fixed_particles()
     }
 
     /// Whether temperatures are about the velocity of the centre of mass: where that is constant, and where it is driven by
     /// nothing but a random force.
     #[must_use]
     pub fn measures_about_centre_of_mass(&self) -> bool {
-        self.physics().is_free() && !self.has_fixed_particles()
+        self.physics().is_free() && !self.has_fixed_particles() && self.particles().walls.is_empty()
     }
 
     /// Number of particles.

@@ -56,6 +56,8 @@ pub struct Observables {
     pub bath_square: f64,
     /// What body forces have put in since the start.
     pub put_in: PutIn,
+    /// What walls have taken up since the start.
+    pub on_walls: OnWalls,
     /// What is measured of Voronoi cells, in Voronoi DPD.
     pub cells: Option<CellObservables>,
 }
@@ -67,6 +69,29 @@ pub struct PutIn {
     pub momentum: [f64; 3],
     /// Work: force times displacement over all drifts so far.
     pub work: f64,
+}
+
+/// What walls have taken up since the start of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OnWalls {
+    /// Momentum of the lower and the upper wall across x, then y, then z.
+    pub momentum: [[f64; 3]; 6],
+    /// The work that they have done on the particles: their velocities times the momenta that they gave away.
+    pub work: f64,
+}
+
+impl OnWalls {
+    /// From the sums of the walls that a model has, in order, in units of momentum.
+    pub(crate) fn new(model: &Model, sums: impl Iterator<Item = [f64; 3]>) -> Self {
+        let mut on_walls = Self::default();
+        let walls = model.particles().walls.iter().flat_map(|pair| [0, 1].map(|upper| (pair, upper)));
+        for ((pair, upper), sum) in walls.zip(sums) {
+            let momentum = sum.map(|units| units * model.units.momentum);
+            on_walls.momentum[2 * pair.axis + upper] = momentum;
+            on_walls.work -= (0..3).map(|axis| pair.velocities[upper][axis] * momentum[axis]).sum::<f64>();
+        }
+        on_walls
+    }
 }
 
 /// What is measured of Voronoi cells.
@@ -113,6 +138,7 @@ impl Observables {
             bath_energy: 0.0,
             bath_square: 0.0,
             put_in: PutIn::default(),
+            on_walls: OnWalls::default(),
             cells: None,
         }
     }
@@ -200,6 +226,7 @@ mod tests {
         bath_energy: 0.0,
         bath_square: 0.0,
         put_in: PutIn { momentum: [0.0; 3], work: 0.0 },
+        on_walls: OnWalls { momentum: [[0.0; 3]; 6], work: 0.0 },
         cells: None,
     };
 

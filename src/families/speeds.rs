@@ -45,6 +45,9 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
     let mut most = moving(scene).map(|(_, group)| of_group(group)).fold(0.0, f64::max);
     let mobile = species.iter().filter(|species| !species.fixed && species.count > 0);
     let lightest = mobile.map(|species| species.mass).fold(f64::INFINITY, f64::min);
+    for wall in scene.space.walls.of_axes().into_iter().flatten() {
+        most = wall.velocities().iter().flatten().fold(most, |most: f64, v| most.max(v.abs()));
+    }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {
             most = most.max(noise_momentum(noise, scene.time.step) / lightest);

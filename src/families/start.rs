@@ -81,9 +81,8 @@ fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> S
     let species: Vec<u32> = start.species.iter().map(|species| u32::from(*species)).collect();
     for copy in 0..x * y * z {
         let [i, j, k] = [copy % x, copy / x % y, copy / (x * y)];
-        state
-            .positions
-            .extend(places.positions.iter().map(|[a, b, c]| [part(*a, i, x), part(*b, j, y), part(*c, k, z)]));
+        let place = |[a, b, c]: &[u32; 3]| model.units.between_walls([part(*a, i, x), part(*b, j, y), part(*c, k, z)]);
+        state.positions.extend(places.positions.iter().map(place));
         state.species.extend_from_slice(&species);
         state.tethers.extend(places.tethers.iter().zip(&places.positions).map(|(tether, position)| {
             // The point may lie beyond an end of the copy.
@@ -177,18 +176,18 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
             state.positions.extend((first..first + count).map(|id| random_position(id, model)));
         }
         Placement::Lattice { jitter } => {
-            let sites = lattice_sites(count as u64, &model.units.lengths[..dimension]);
+            let sites = lattice_sites(count as u64, &model.units.edges()[..dimension]);
             let all: u128 = sites.iter().map(|sites| u128::from(*sites)).product();
             let offset = (0.5 + shift).fract();
             let shifts = |id: usize| {
                 let shift = |word: u32| jitter * (f64::from(word) / 2_147_483_648.0 - 1.0);
-                if *jitter > 0.0 { random_position(id, model).map(shift) } else { [0.0; 3] }
+                if *jitter > 0.0 { random_words(id, model).map(shift) } else { [0.0; 3] }
             };
             state.positions.extend((0..count).map(|index| {
                 let shifts = shifts(first + index);
                 // Sites left empty are spread over the lattice instead of collecting at its end.
                 let mut site = index as u128 * all / count as u128;
-                std::array::from_fn(|axis| {
+                model.units.between_walls(std::array::from_fn(|axis| {
                     if axis >= dimension {
                         return 0;
                     }
@@ -196,19 +195,19 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
                     site /= u128::from(sites[axis]);
                     let place = (coordinate + offset + shifts[axis]) / sites[axis] as f64;
                     (place * 4_294_967_296.0).round() as i64 as u32
-                })
+                }))
             }));
         }
         Placement::Circle { center, radius } => {
             state.positions.extend((0..count).map(|index| {
                 let (sine, cosine) = (std::f64::consts::TAU * index as f64 / count as f64).sin_cos();
-                model.units.fraction([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
+                model.units.place([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
             }));
         }
         Placement::Listed { positions } => {
             state.positions.extend(positions.iter().map(|position| {
                 let position = std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0));
-                model.units.fraction(position)
+                model.units.place(position)
             }));
         }
     }
@@ -216,6 +215,11 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
 
 /// A random place in the box.
 pub(crate) fn random_position(id: usize, model: &Model) -> [u32; 3] {
+    model.units.between_walls(random_words(id, model))
+}
+
+/// Random fractions of the box.
+fn random_words(id: usize, model: &Model) -> [u32; 3] {
     let key = noise::step_key(model.seed, stream::POSITION, 0);
     let [x, y] = noise::words(Generator::Threefry2x32, key, [id as u32, 0]);
     let [z, _] = noise::words(Generator::Threefry2x32, key, [id as u32, 1]);

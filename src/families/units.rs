@@ -39,6 +39,10 @@ pub(super) fn momentum_unit(
             scale = scale.max(group.mass * amplitude.abs() / 8.0);
         }
     }
+    for wall in scene.space.walls.of_axes().into_iter().flatten() {
+        let fastest = wall.velocities().iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+        scale = scale.max(heaviest * fastest / 8.0);
+    }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {
             scale = scale.max(noise_momentum(noise, scene.time.step));

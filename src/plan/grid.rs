@@ -26,7 +26,7 @@ impl Grid {
     /// ```
     /// use mesoscope::{plan::Grid, state::Units};
     ///
-    /// let units = Units { dimension: 3, lengths: [10.0, 7.5, 2.5], momentum: 1.0 };
+    /// let units = Units { dimension: 3, lengths: [10.0, 7.5, 2.5], gaps: [0.0; 3], momentum: 1.0 };
     /// let grid = Grid::new(&units, 1.0, 500);
     /// // No cell is narrower than the cutoff, and two cells on an axis are as good as one.
     /// assert_eq!(grid.cells, [10, 7, 1]);

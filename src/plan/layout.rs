@@ -88,7 +88,7 @@ impl From<&str> for Misfit {
 /// use mesoscope::families::particles::{CoupledLayout, ParticleLayout};
 /// use mesoscope::{plan::Layout, state::State};
 ///
-/// let layout = Layout::new(ParticleLayout { dimension: 2, predicted: false, account: 0 });
+/// let layout = Layout::new(ParticleLayout { dimension: 2, predicted: false, account: 0, walls: 0 });
 /// let positions = vec![[1, 2, 0], [3, 4, 0]];
 /// let state = State { positions, momenta: vec![[-1, 1, 0]; 2], species: vec![0, 0], ..State::default() };
 /// // The order in storage is forgotten when the state is read back.

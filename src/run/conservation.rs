@@ -76,6 +76,27 @@ mod tests {
     }
 
     #[test]
+    fn walls_take_up_momentum() {
+        let told = |walls: &str, force: &str| {
+            let text = format!(
+                r#"{{"title": "test", "space": {{"box": [5, 5, 5], "walls": {walls}}}, "time": {{"step": 0.01, "steps": 1}},
+                "temperature": 1, "particles": [{{"species": "A", "count": 10}}],
+                "interactions": [{{"type": "dpd", "repulsion": 1}}{force}]}}"#
+            );
+            let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
+            (conserved(&model, &[]), not_conserved(&model, &[]))
+        };
+        let (kept, lost) = told(r#"{"z": {}}"#, "");
+        assert_eq!(kept, ["mass", "total momentum with what walls have taken up, to the last bit"]);
+        assert!(lost[0].contains(INTEGRATED) && lost[1].starts_with("total momentum: walls take it up"), "{lost:?}");
+        let force = r#", {"type": "body-force", "force": [1, 0, 0]}"#;
+        let (kept, lost) = told(r#"{"z": {"upper_velocity": [1, 0, 0]}}"#, force);
+        let both = "total momentum with what walls have taken up, less what body forces have put in, to the last bit";
+        assert_eq!(kept, ["mass", both]);
+        assert!(lost[0].contains("`body_force_work`") && lost[0].contains("`wall_work`"), "{lost:?}");
+    }
+
+    #[test]
     fn every_reason_is_told_and_none_that_is_not() {
         let cases = [
             ("", "", INTEGRATED, ""),

@@ -228,7 +228,7 @@ impl<'a> Pictures<'a> {
         };
         let picture = ParticlePicture {
             dimension: units.dimension as u32,
-            lengths: units.lengths,
+            lengths: units.edges(),
             positions: &positions,
             species: &state.species,
             species_names: &names,

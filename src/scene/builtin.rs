@@ -49,6 +49,7 @@ pub fn builtin() -> &'static [Builtin] {
         "voronoi-energy",
         "voronoi-shear",
         "poiseuille",
+        "couette",
         "diblock-copolymer",
         "surfactants"
     ]

@@ -212,10 +212,11 @@ fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut 
     let cutoff = common.fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < 2.0 * cutoff {
-            let accepted = format!(
-                "at least {}, two cutoffs of {cutoff}: in a shorter box a particle would meet two images of a neighbour",
-                2.0 * cutoff
-            );
+            let why = match scene.space.walls.of_axes()[axis] {
+                Some(_) => "walls nearer to each other leave no room for a fluid",
+                None => "in a shorter box a particle would meet two images of a neighbour",
+            };
+            let accepted = format!("at least {}, two cutoffs of {cutoff}: {why}", 2.0 * cutoff);
             problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
         }
     }

@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 13] = [
+const CASES: [Case; 14] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -92,6 +92,12 @@ const CASES: [Case; 13] = [
         scene: FLUID,
         changes: &[r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
                 {"type":"body-force","profile":"sinusoidal","force":[1,0.5,0],"axis":"y"}]"#],
+        twice: true,
+    },
+    Case {
+        name: "pairs between walls",
+        scene: FLUID,
+        changes: &[r#"space.walls={"z":{"lower_velocity":[-1,0.5,0],"upper_velocity":[1,0,0]}}"#],
         twice: true,
     },
     Case { name: "bonds and angles", scene: CHAINS, changes: &[], twice: false },
@@ -237,7 +243,11 @@ pub(crate) fn distance_from_reference(gpu: &Gpu, scene: &Scene) -> Result<f64, S
 fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     let mut sums = Vec::new();
     if model.exchanges_momentum() {
-        let name = if model.conserves_momentum() { "momentum" } else { "momentum less what body forces put in" };
+        let name = match (model.conserves_momentum(), model.particles().walls.is_empty()) {
+            (true, _) => "momentum",
+            (false, true) => "momentum less what body forces put in",
+            (false, false) => "momentum with what walls took up",
+        };
         sums.push((name, state.exchanged_momentum()));
     }
     for (name, quantity) in [("mass", Quantity::Masses), ("energy", Quantity::Energies)] {
@@ -328,6 +338,7 @@ mod tests {
             let expected: &[&str] = match case.name {
                 "coloured noise, Langevin bath and tethers" => &[],
                 "pairs and a body force" => &["momentum less what body forces put in"],
+                "pairs between walls" => &["momentum with what walls took up"],
                 "Voronoi cells" => &["momentum", "mass"],
                 "Voronoi cells with energy" => &["momentum", "mass", "energy"],
                 name if name.starts_with("shallow water") => &["mass"],

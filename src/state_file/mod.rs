@@ -270,16 +270,23 @@ impl ParticleFile {
     /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at.
     #[must_use]
     pub fn mistakes(&self, dimension: usize, lengths: [f64; 3]) -> Vec<Mistake> {
+        self.mistakes_between(dimension, lengths, [false; 3])
+    }
+
+    /// The same in a box with walls across some axes, along which nothing is periodic.
+    #[must_use]
+    pub fn mistakes_between(&self, dimension: usize, lengths: [f64; 3], walled: [bool; 3]) -> Vec<Mistake> {
         let mut mistakes = Mistakes::default();
         let mut nowhere = Tally::default();
         let mut outside = Tally::default();
-        let open: Vec<&str> = (0..dimension).filter(|axis| self.open_axes[*axis]).map(|axis| AXES[axis]).collect();
+        let open: Vec<&str> =
+            (0..dimension).filter(|axis| self.open_axes[*axis] && !walled[*axis]).map(|axis| AXES[axis]).collect();
         if let [all @ .., last] = open.as_slice() {
             let axes = if all.is_empty() { (*last).to_owned() } else { format!("{} and {last}", all.join(", ")) };
             mistakes.push(Mistake::new(
                 "",
                 format!("found a box that is not periodic along {axes}"),
-                "a box that is periodic along every axis of the scene, as all are here: `pbc=\"T T T\"`",
+                "a box that is periodic along every axis of the scene without `space.walls`: `pbc=\"T T T\"`",
             ));
         }
         for (particle, position) in self.positions.iter().enumerate() {

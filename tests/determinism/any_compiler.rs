@@ -14,8 +14,8 @@ use mesoscope::state::State;
 
 use crate::support::compiler::{Compiler, Contraction, can_contract};
 use crate::support::{
-    COTTER_REICH, ENERGY, GROOT_WARREN, INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, cells, fluid, start, totals,
-    water,
+    COTTER_REICH, ENERGY, GROOT_WARREN, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, cells, fluid, start,
+    totals, water,
 };
 
 const STEPS: u64 = 50;
@@ -66,6 +66,9 @@ fn fluids() -> Vec<Case> {
         true,
     );
     add(&[COTTER_REICH, MIXTURE, MIXTURE_FORCE, MEMORY, "time.step=0.02", TWO_DIMENSIONS], false);
+    for integrator in [SPLITTING, PREDICTED] {
+        add(&[integrator, r#"space.walls={"z":{"upper_velocity":[1,-0.3,0]}}"#], false);
+    }
     cases
 }
 
@@ -183,6 +186,11 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
                 // What they have put in is told last.
                 let put_in = &sample.sums[sample.sums.len() - 4..];
                 found.iter_mut().zip(put_in).for_each(|(found, put_in)| *found -= put_in);
+            }
+            // So is what walls have taken up, where there are no body forces.
+            let walls = 2 * model.particles().walls.len();
+            for taken in sample.sums[sample.sums.len() - 3 * walls..].chunks_exact(3) {
+                found.iter_mut().zip(taken).for_each(|(found, taken)| *found += taken);
             }
             if found != momentum {
                 lost.push(format!("report of step {}: {found:?}, not {momentum:?}", sample.step));

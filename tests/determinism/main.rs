@@ -15,3 +15,4 @@ mod resumed_analyses;
 mod shallow_water;
 mod timing;
 mod voronoi;
+mod walls;

@@ -14,3 +14,4 @@ mod scenes;
 mod shallow_water;
 mod states;
 mod voronoi;
+mod walls;

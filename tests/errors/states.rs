@@ -464,7 +464,8 @@ fn incomplete_velocities_of_lammps() {
 /// Forces act across every end of the box of a scene; a file without a box leaves it to the scene.
 #[test]
 fn boxes_that_are_not_periodic() {
-    let accepted = "accepted: a box that is periodic along every axis of the scene, as all are here: `pbc=\"T T T\"`";
+    let accepted =
+        "accepted: a box that is periodic along every axis of the scene without `space.walls`: `pbc=\"T T T\"`";
     for (periodic, axes) in [("F F F", "x, y and z"), ("F T T", "x"), ("False True False", "x and z")] {
         refused(
             &replaced(XYZ, "T T T", periodic),
@@ -474,6 +475,10 @@ fn boxes_that_are_not_periodic() {
     }
     let boxless = replaced(&replaced(XYZ, "T T T", "F F F"), "Lattice=\"4 0 0 0 5 0 0 0 6\" ", "");
     assert!(Place::of("init", boxless).load("init", &[("/space", json!({"box": [4, 4, 4]}))]).is_ok());
+    // Walls are across the open axes.
+    let walled = Place::of("init", replaced(XYZ, "T T T", "T T F"));
+    assert!(walled.load("init", &[("/space", json!({"box": [4, 5, 6], "walls": {"z": {}}}))]).is_ok());
+    assert!(walled.load("init", &[("/space", json!({"box": [4, 5, 6], "walls": {"y": {}}}))]).is_err());
     for unclear in ["T T", "T T maybe"] {
         refused(
             &replaced(XYZ, "T T T", unclear),

@@ -11,3 +11,4 @@ mod every_family;
 mod particles;
 mod shallow_water;
 mod voronoi;
+mod walls;

@@ -12,3 +12,4 @@ mod single_steps;
 mod smoothing;
 mod tessellation;
 mod voronoi;
+mod walls;

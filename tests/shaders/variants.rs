@@ -60,6 +60,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             fluid_plans,
             long_range_plans,
             driven_plans,
+            walled_plans,
             water_plans,
             coupled_plans,
             noise_plans,
@@ -206,6 +207,44 @@ fn driven_plans() -> Vec<(String, Plan)> {
                             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                         }
                     }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Pairs between walls of every kind, at rest and moving, with bonds and with a body force. Some analyses take no walls.
+fn walled_plans() -> Vec<(String, Plan)> {
+    let samplers: Vec<&str> = SAMPLERS
+        .iter()
+        .filter(|sampler| !["radial", "viscosity"].iter().any(|refused| sampler.contains(refused)))
+        .copied()
+        .collect();
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let spaces = [
+        r#"space={"box":[9,7],"walls":{"y":{"upper_velocity":[1,0]}}}"#,
+        r#"space={"box":[9,7],"walls":{"x":{"reflection":"specular"},"y":{}}}"#,
+        r#"space={"box":[9,7,8],"walls":{"z":{"upper_velocity":[1,0,0]}}}"#,
+        r#"space={"box":[9,7,8],"walls":{"x":{},"y":{"reflection":"specular"},"z":{}}}"#,
+        r#"space={"box":[9,7,8],"walls":{"x":{"reflection":"specular"},"y":{"lower_velocity":[0,0,1]}}}"#,
+        r#"space={"box":[9,7,8],"walls":{"x":{}}}"#,
+    ];
+    let bonds = r#",{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":9}}"#;
+    let mut plans = Vec::new();
+    for particles in particles {
+        for space in spaces {
+            let components = if space.contains("[9,7]") { "[1,2]" } else { "[1,2,-3]" };
+            let force = format!(r#",{{"type":"body-force","force":{components}}}"#);
+            for (first, others) in [(true, String::new()), (true, format!("{bonds}{force}")), (false, String::new())] {
+                let pairs = if first { r#"{"type":"dpd","repulsion":25,"friction":4.5}"# } else { "" };
+                let interactions = format!("interactions=[{pairs}{others}]");
+                for integrator in INTEGRATORS {
+                    let changes = [&[particles, interactions.as_str(), space, integrator], &samplers[..]].concat();
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                 }
             }
         }

@@ -13,7 +13,8 @@ use crate::state::State;
 /// `random`: an open chain is a random walk of steps of `spacing`, a closed one a regular polygon of that side in a random
 /// orientation, each from a bead at a random place. `lattice`: chains are laid out along the first axis, or folded
 /// where they are longer than the box, in cells of a lattice that are as elongated as the chains; `shift` moves it by
-/// this fraction of its spacing. On a line, a closed chain goes out and back, or round the box if it fits exactly.
+/// this fraction of its spacing. On a line, a closed chain goes out and back, or round the box if it fits exactly. Walls reflect what would lie
+/// beyond them.
 pub(crate) fn place(state: &mut State, group: &ParticleGroup, chain: &Chain, count: usize, model: &Model, shift: f64) {
     let beads = chain.beads.max(1) as usize;
     let first = state.len();
@@ -43,8 +44,17 @@ pub(crate) fn place(state: &mut State, group: &ParticleGroup, chain: &Chain, cou
 
 /// The integer position of a real one, zero on axes that the box has not.
 fn fraction(position: [f64; 3], model: &Model) -> [u32; 3] {
-    let all = model.units.fraction(position);
+    let all = model.units.place(std::array::from_fn(|axis| match model.units.ends()[axis] {
+        0 => position[axis],
+        _ => mirrored(position[axis], model.units.edges()[axis]),
+    }));
     std::array::from_fn(|axis| if axis < model.units.dimension { all[axis] } else { 0 })
+}
+
+/// A coordinate that walls at 0 and at an edge have reflected as often as it went beyond one.
+pub(crate) fn mirrored(coordinate: f64, edge: f64) -> f64 {
+    let twice = coordinate.rem_euclid(2.0 * edge);
+    if twice > edge { 2.0 * edge - twice } else { twice }
 }
 
 /// Where the first bead of every chain starts.
@@ -65,7 +75,7 @@ fn starts(
             .collect();
     }
     let extent = extent(chain, model);
-    let lengths: Vec<f64> = (0..units.dimension).map(|axis| units.lengths[axis] / extent[axis]).collect();
+    let lengths: Vec<f64> = (0..units.dimension).map(|axis| units.edges()[axis] / extent[axis]).collect();
     let sites = lattice_sites(chains as u64, &lengths);
     let all: u128 = sites.iter().map(|sites| u128::from(*sites)).product();
     (0..chains)
@@ -74,7 +84,7 @@ fn starts(
             std::array::from_fn(|axis| {
                 let coordinate = (site % u128::from(sites[axis])) as f64;
                 site /= u128::from(sites[axis]);
-                (coordinate + shift) / sites[axis] as f64 * units.lengths[axis]
+                (coordinate + shift) / sites[axis] as f64 * units.edges()[axis]
             })
         })
         .collect()
@@ -89,7 +99,7 @@ fn folds(chain: &Chain, model: &Model) -> [usize; 3] {
             return 1;
         }
         let last = axis + 1 == units.dimension;
-        let fit = ((units.lengths[axis] / chain.spacing) as usize).max(1);
+        let fit = ((units.edges()[axis] / chain.spacing) as usize).max(1);
         let beads = if last { left } else { left.min(fit) };
         left = left.div_ceil(beads);
         beads

@@ -18,6 +18,9 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     if model.particles().body_forces.is_some() {
         ways.push("put in by body forces, whose work is `body_force_work` in the table of energies");
     }
+    if model.particles().walls_move() {
+        ways.push("put in by moving walls, whose work is `wall_work` in the table of energies");
+    }
     if thermal {
         ways.push("exchanged with the heat bath");
     }
@@ -34,15 +37,21 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     ways.join(", ")
 }
 
+/// Whether something beside baths puts energy in.
+fn is_driven(model: &Model) -> bool {
+    let particles = model.particles();
+    particles.coloured_noise.is_some() || particles.body_forces.is_some() || particles.walls_move()
+}
+
 /// Whether neither a bath nor a noise exchanges energy with the particles.
 pub(super) fn is_conservative(model: &Model) -> bool {
-    let driven = model.particles().coloured_noise.is_some() || model.particles().body_forces.is_some();
+    let driven = is_driven(model);
     !driven && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
 }
 
 /// Whether baths alone, at the temperature of the model, exchange energy with the particles.
 pub(super) fn has_thermostat(model: &Model) -> bool {
-    let driven = model.particles().coloured_noise.is_some() || model.particles().body_forces.is_some();
+    let driven = is_driven(model);
     let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
     let any = acting.peek().is_some();
     !driven && any && model.temperature > 0.0 && acting.all(|(_, temperature)| temperature == model.temperature)
@@ -79,6 +88,9 @@ pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
     }
     if model.particles().body_forces.is_some() {
         reasons.push("body forces put it in, as much as `body_force_momentum` in the table of energies says");
+    }
+    if !model.particles().walls.is_empty() {
+        reasons.push("walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say");
     }
     if model.particles().position_bath.is_some() {
         reasons.push("friction and noise act on every particle by itself");

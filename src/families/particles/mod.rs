@@ -20,7 +20,7 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 use super::reference::Stepper;
 use super::{
     Angles, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model,
-    Observables, PairForce, Physics, PositionBath, Species, units,
+    Observables, PairForce, Physics, PlaneWalls, PositionBath, Species, units,
 };
 use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -41,6 +41,8 @@ pub struct Particles {
     pub tether: Option<f64>,
     /// Forces on particles from outside.
     pub body_forces: Option<BodyForces>,
+    /// Walls that reflect particles, in the order of their axes.
+    pub walls: Vec<PlaneWalls>,
     /// Groups of chains.
     pub chain_groups: Vec<ChainGroup>,
     /// Bonds, if there are any.
@@ -61,6 +63,7 @@ pub(super) static NONE: Particles = Particles {
     coloured_noise: None,
     tether: None,
     body_forces: None,
+    walls: Vec::new(),
     chain_groups: Vec::new(),
     bonds: None,
     angles: None,
@@ -128,6 +131,7 @@ impl Particles {
             coloured_noise,
             tether,
             body_forces,
+            walls: PlaneWalls::of(scene),
             chain_groups: topology::chain_groups(scene, |name| index_of(species, name)),
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
@@ -138,6 +142,11 @@ impl Particles {
 }
 
 impl Particles {
+    /// Whether a wall moves.
+    pub(crate) fn walls_move(&self) -> bool {
+        self.walls.iter().any(PlaneWalls::move_along)
+    }
+
     /// Whether there are bonds or angles.
     pub(crate) fn are_bonded(&self) -> bool {
         self.bonds.is_some() || self.angles.is_some()
@@ -147,6 +156,15 @@ impl Particles {
 impl Physics for Particles {
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
         units::momentum_unit(scene, species, self.pair_force.as_ref(), self.chains.as_ref(), 24.0)
+    }
+
+    fn gaps(&self, scene: &Scene) -> [f64; 3] {
+        let mut gaps = [0.0; 3];
+        let cutoff = self.pair_force.as_ref().map(|force| force.cutoff);
+        for walls in &self.walls {
+            gaps[walls.axis] = PlaneWalls::gap(cutoff, scene.space.lengths.get(walls.axis).copied().unwrap_or(1.0));
+        }
+        gaps
     }
 
     fn reach(&self, model: &Model) -> f64 {
@@ -185,7 +203,7 @@ impl Physics for Particles {
     }
 
     fn reaches_equilibrium(&self) -> bool {
-        self.chains.is_none() && self.body_forces.is_none()
+        self.chains.is_none() && self.body_forces.is_none() && !self.walls_move()
     }
 
     fn is_conservative(&self, model: &Model) -> bool {
@@ -214,11 +232,13 @@ impl Physics for Particles {
 
     fn may_refuse_starts(&self) -> bool {
         let kinds = self.bonds.iter().flat_map(|bonds| &bonds.kinds);
-        kinds.into_iter().any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. })))
+        let are_walled = !self.walls.is_empty() && self.bonds.is_some();
+        are_walled || kinds.into_iter().any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. })))
     }
 
     fn check_start(&self, scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
         start::check_extents(scene, model, state, problems);
+        checks::walls::check_bonds(self, model, state, problems);
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
@@ -234,7 +254,7 @@ impl Physics for Particles {
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        if self.are_coupled || options.listed {
+        if self.are_coupled || (options.listed && self.walls.is_empty()) {
             self::plan::couplings::plan(model, measured, options)
         } else {
             self::plan::pair::plan(model, measured, hardware, options)
@@ -260,10 +280,13 @@ impl Physics for Particles {
             return Vec::new();
         }
         let momentum = super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum);
-        match observables::put_in_place(model) {
-            Some(first) => momentum.into_iter().enumerate().map(|(axis, sum)| sum.but_for(first + axis)).collect(),
-            None => momentum,
-        }
+        let put_in = observables::put_in_place(model);
+        let walls = observables::walls_place(model);
+        let of_axis = |(axis, sum): (usize, KeptSum)| {
+            let sum = put_in.map_or(sum, |first| sum.but_for(first + axis));
+            walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number))
+        };
+        momentum.into_iter().enumerate().map(of_axis).collect()
     }
 
     fn never_changes(&self) -> &'static [&'static str] {

@@ -1,7 +1,7 @@
 //! From the integer sums of a report to observables of particles.
 
-use super::plan::external;
-use crate::families::{Column, Model, Observables, Particles, PutIn, column};
+use super::plan::{external, walls};
+use crate::families::{Column, Model, Observables, OnWalls, Particles, PutIn, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
@@ -9,12 +9,16 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
     let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
     let quanta = plan.quanta;
     // Energy, square and number of the baths follow, where there are any that remember; in steps that relax in two stages the
-    // virial of the first; then what body forces have put in.
+    // virial of the first; then what walls have taken up and what body forces have put in.
     let staged = model.particles().relaxes_in_two_stages(model);
-    let remembering = !staged && sums.len() as u64 - external::sums(model).min(sums.len() as u64) > 9;
+    let from_outside = walls::sums(model) + external::sums(model);
+    let remembering = !staged && sums.len() as u64 - from_outside.min(sums.len() as u64) > 9;
     let put_in = put_in_place(model).map_or_else(PutIn::default, |first| PutIn {
         momentum: [0, 1, 2].map(|axis| sum(first + axis) * model.units.momentum),
         work: sum(first + 3) * quanta.energy,
+    });
+    let on_walls = walls_place(model).map_or_else(OnWalls::default, |(first, number)| {
+        OnWalls::new(model, (0..number).map(|wall| [0, 1, 2].map(|axis| sum(first + 3 * wall + axis))))
     });
     Observables {
         step,
@@ -34,15 +38,25 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
         bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
         put_in,
+        on_walls,
         cells: None,
     }
 }
 
+/// The number of sums before those of walls and body forces.
+fn own_sums(model: &Model) -> usize {
+    9 + usize::from(model.particles().relaxes_in_two_stages(model)) + if model.has_memory() { 3 } else { 0 }
+}
+
+/// The place of the first sum of what walls have taken up, and their number, if there are any.
+pub(super) fn walls_place(model: &Model) -> Option<(usize, usize)> {
+    let number = 2 * model.particles().walls.len();
+    (number > 0).then(|| (own_sums(model), number))
+}
+
 /// The place of the first sum of what body forces have put in, if there are any.
 pub(super) fn put_in_place(model: &Model) -> Option<usize> {
-    let particles = model.particles();
-    let before = 9 + usize::from(particles.relaxes_in_two_stages(model)) + if model.has_memory() { 3 } else { 0 };
-    particles.body_forces.as_ref().map(|_| before)
+    model.particles().body_forces.as_ref().map(|_| own_sums(model) + walls::sums(model) as usize)
 }
 
 /// The columns of the table of energies.
@@ -70,5 +84,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
     if particles.body_forces.is_some() {
         columns.extend(column::put_in(model.units.dimension));
     }
+    columns.extend(column::on_walls(particles.walls.iter().map(|walls| walls.axis), model.units.dimension));
+    columns.extend(particles.walls_move().then_some(column::WALL_WORK));
     columns
 }

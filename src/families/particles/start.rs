@@ -4,7 +4,7 @@ use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
 use crate::noise::{self, stream};
-use crate::state::{Account, State};
+use crate::state::{Account, State, WallImpulse};
 use std::collections::HashSet;
 
 /// Gives particles at their places what they start with.
@@ -29,6 +29,7 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
     if particles.body_forces.is_some() {
         state.account = vec![Account::default()];
     }
+    state.walls = vec![WallImpulse::default(); 2 * particles.walls.len()];
 }
 
 /// Draws the bath variables of all coordinates from their law at rest.

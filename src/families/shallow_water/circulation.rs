@@ -19,7 +19,7 @@ use crate::state::Units;
 /// use mesoscope::state::Units;
 ///
 /// // A square of edge 2 across a corner of the box, turning at angular velocity 3: twice that times the area.
-/// let units = Units { dimension: 2, lengths: [10.0, 10.0, 1.0], momentum: 0.5 };
+/// let units = Units { dimension: 2, lengths: [10.0, 10.0, 1.0], gaps: [0.0; 3], momentum: 0.5 };
 /// let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
 /// let positions = corners.map(|[x, y]| units.fraction([x, y, 0.0]));
 /// let velocities = corners.map(|[x, y]| [(-3.0 * y / 0.5) as i32, (3.0 * x / 0.5) as i32, 0]);
@@ -66,7 +66,7 @@ pub fn circulation(units: &Units, positions: &[[u32; 3]], velocities: &[[i32; 3]
 /// ```
 /// use mesoscope::{measure::circulation::largest_gap, state::Units};
 ///
-/// let units = Units { dimension: 2, lengths: [8.0, 8.0, 1.0], momentum: 1.0 };
+/// let units = Units { dimension: 2, lengths: [8.0, 8.0, 1.0], gaps: [0.0; 3], momentum: 1.0 };
 /// // A triangle across the edge of the box.
 /// let corners = [[7.0, 1.0], [1.0, 1.0], [1.0, 2.5]].map(|[x, y]| units.fraction([x, y, 0.0]));
 /// assert_eq!(largest_gap(&units, &corners), 2.5);
@@ -86,7 +86,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    const UNITS: Units = Units { dimension: 2, lengths: [3.0, 5.0, 1.0], momentum: 1.0 / 67_108_864.0 };
+    const UNITS: Units = Units { dimension: 2, lengths: [3.0, 5.0, 1.0], gaps: [0.0; 3], momentum: 1.0 / 67_108_864.0 };
 
     fn loop_of(count: usize, point: impl Fn(f64) -> ([f64; 2], [f64; 2])) -> (Vec<[u32; 3]>, Vec<[i32; 3]>) {
         let points = (0..count).map(|index| point(TAU * index as f64 / count as f64));

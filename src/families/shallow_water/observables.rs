@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of shallow water.
 
-use crate::families::{Column, Model, Observables, PutIn, ShallowWater, column};
+use crate::families::{Column, Model, Observables, OnWalls, PutIn, ShallowWater, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
@@ -27,6 +27,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, w
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
         put_in: PutIn::default(),
+        on_walls: OnWalls::default(),
         cells: None,
         about_centre_of_mass: false,
         gradient_squared: 0.0,

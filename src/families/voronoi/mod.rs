@@ -154,7 +154,7 @@ impl Physics for Voronoi {
         if self.keeps_energy() {
             let total = state.energies.iter().map(|energy| i64::from(*energy)).sum();
             let (quantity, unit) = (KeptQuantity::Energy, self.energy_unit);
-            kept.push(KeptSum { quantity, direction: "", place: 7, unit, put_in: None, total });
+            kept.push(KeptSum { quantity, direction: "", place: 7, unit, put_in: None, walls: None, total });
         }
         kept
     }

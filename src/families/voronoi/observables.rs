@@ -2,7 +2,7 @@
 
 use crate::document::Integrator;
 use crate::families::column::column;
-use crate::families::{CellObservables, Column, Model, Observables, PutIn, Voronoi, column};
+use crate::families::{CellObservables, Column, Model, Observables, OnWalls, PutIn, Voronoi, column};
 use crate::plan::Plan;
 
 /// The residual of the solver of the friction is counted in these.
@@ -42,6 +42,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, c
         bath_energy: 0.0,
         bath_square: 0.0,
         put_in: PutIn::default(),
+        on_walls: OnWalls::default(),
         cells: Some(CellObservables {
             volume: sum(4) * quanta.length_squared,
             // Every face has two sides.

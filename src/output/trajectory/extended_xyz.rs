@@ -81,8 +81,9 @@ fn words(description: &Description) -> Vec<String> {
 }
 
 fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> std::io::Result<()> {
-    let [x, y, z] = description.units.lengths;
-    let periodic = ["T F F", "T T F", "T T T"][description.units.dimension.clamp(1, 3) - 1];
+    let [x, y, z] = description.units.edges();
+    let is_periodic = |axis: usize| axis < description.units.dimension.max(1) && description.units.gaps[axis] == 0.0;
+    let periodic = [0, 1, 2].map(|axis| if is_periodic(axis) { "T" } else { "F" }).join(" ");
     let time = state.step as f64 * description.time_step;
     let names = words(description);
     let symbols = elements::symbols(&names.iter().map(String::as_str).collect::<Vec<_>>());

@@ -182,7 +182,7 @@ fn write_masses(file: &mut GsdFile, description: &Description, state: &State) ->
 }
 
 fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
-    let mut lengths = description.units.lengths.map(|length| length as f32);
+    let mut lengths = description.units.edges().map(|length| length as f32);
     let dimension = description.units.dimension.max(2);
     if dimension == 2 {
         lengths[2] = 0.0;
@@ -214,6 +214,12 @@ fn centred(description: &Description, position: [u32; 3]) -> ([f32; 3], [i32; 3]
             return 0.0;
         }
         let length = description.units.lengths[axis];
+        if description.units.gaps[axis] > 0.0 {
+            let edge = length - description.units.gaps[axis];
+            let half = (edge as f32) / 2.0;
+            let value = f64::from(position[axis]) * length / 4_294_967_296.0 - 0.5 * edge;
+            return (value as f32).clamp(-half, half.next_down());
+        }
         let half = (length as f32) / 2.0;
         let value = (f64::from((position[axis] ^ 0x8000_0000) as i32) * length / 4_294_967_296.0) as f32;
         images[axis] = i32::from(value >= half);
@@ -461,7 +467,7 @@ mod tests {
 
     #[test]
     fn positions_stay_below_the_upper_face() {
-        let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], momentum: 1.0 };
+        let units = Units { dimension: 3, lengths: [10.0, 0.3, 7.0], gaps: [0.0; 3], momentum: 1.0 };
         let description = Description {
             run: Id::of_sweep([]),
             units,

@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn histograms_that_take_long_are_shared_and_submitted_by_themselves() {
         for (range, expected) in [(1.0, (1, false)), (5.0, (1, true)), (25.0, (15, true))] {
-            let units = Units { dimension: 3, lengths: [50.0; 3], momentum: 1.0 };
+            let units = Units { dimension: 3, lengths: [50.0; 3], gaps: [0.0; 3], momentum: 1.0 };
             let particles = 125_000;
             let grid = Grid::new(&units, 1.0, particles);
             let asked = RadialDistribution { every: 1, range, bins: 10 };
@@ -142,7 +142,7 @@ mod tests {
         for (edge, density, range) in
             [(10.0, 3.0, 3.0), (20.0, 3.0, 10.0), (69.34, 3.0, 10.0), (42.0, 1.0, 21.0), (110.0, 3.0, 55.0)]
         {
-            let units = Units { dimension: 3, lengths: [edge; 3], momentum: 1.0 };
+            let units = Units { dimension: 3, lengths: [edge; 3], gaps: [0.0; 3], momentum: 1.0 };
             let particles = (density * edge * edge * edge) as u64;
             let grid = Grid::new(&units, 1.0, particles);
             let asked = RadialDistribution { every: 1, range, bins: 10 };

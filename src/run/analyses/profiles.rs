@@ -13,7 +13,7 @@ use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
 use crate::plan::{Need, Sampler, SamplerId};
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
 use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity, Scene};
-use crate::shaders::analyses::Layered;
+use crate::shaders::analyses::{self, Layered};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -58,7 +58,11 @@ impl Descriptor for Profiles {
             (Constant::LayerSums, sums.sampled() as f64),
             (Constant::LayeredSpecies, sums.species as f64),
         ];
+        let end = planner.model.units.ends()[asked.axis as usize];
         let mut choices = Choices::new();
+        if end > 0 {
+            constants.push((Constant::LayerScale, (f64::from(asked.bins) * 2_f64.powi(46) / f64::from(end)).floor()));
+        }
         if sums.motion {
             let (velocities, _) = planner.velocities(Some(Frame::Box));
             choices = velocities.with(Layered::Motion);
@@ -66,6 +70,7 @@ impl Descriptor for Profiles {
             constants.push((Constant::LayeredMass, 1.0 / mass_quantum(planner.model)));
             constants.push((Constant::LayeredKinetic, energy));
         }
+        let choices = choices.with_if(end > 0, analyses::Layers::BetweenWalls);
         let renamed = [(Array::Histogram, Array::LayerSums)];
         let name = AnalysisId::Profiles.name();
         let kernel = planner.kernel_of_particles(name, Entry::SumLayers, &choices, planner.groups(), &renamed);
@@ -195,7 +200,7 @@ impl Layers {
             sums,
             names: model.species.iter().map(|species| species.name.clone()).collect(),
             moves: model.species.iter().map(|species| !species.fixed).collect(),
-            length: model.units.lengths[asked.axis as usize],
+            length: model.units.edges()[asked.axis as usize],
             volume: model.units.volume() / f64::from(asked.bins),
             mass: mass_quantum(model),
             momentum: model.units.momentum,

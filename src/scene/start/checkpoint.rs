@@ -78,7 +78,7 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
         types: state.species.clone(),
         masses: model.species.iter().map(|species| Some(species.mass)).collect(),
         dimension: Some(model.units.dimension),
-        lengths: Some(model.units.lengths),
+        lengths: Some(model.units.edges()),
         positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
         velocities: (0..state.len()).map(velocity).collect(),
         images: state.images.clone(),
@@ -97,7 +97,9 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
 const fn lost(array: StateArray) -> Option<&'static str> {
     match array {
         // Tethers and images are taken; neighbours are listed anew, and what is put in is counted from the start of each run.
-        StateArray::Tethers | StateArray::Images | StateArray::Anchors | StateArray::Account => None,
+        StateArray::Tethers | StateArray::Images | StateArray::Anchors | StateArray::Account | StateArray::Walls => {
+            None
+        }
         StateArray::PairBaths | StateArray::PositionBaths | StateArray::BondBaths => Some("what its baths remember"),
         StateArray::Holds => Some("its coloured noise"),
         StateArray::Predicted => Some("the momenta that its integrator predicted"),

@@ -175,7 +175,8 @@ impl Reader<'_> {
     fn adopt(&mut self, scene: &mut Scene, masses: &[bool]) {
         let Some(lengths) = self.adopt_box(scene) else { return };
         let dimension = scene.space.lengths.len();
-        refuse(self.state, self.file.mistakes(dimension, lengths), &mut self.problems);
+        let walled = scene.space.walls.of_axes().map(|walls| walls.is_some());
+        refuse(self.state, self.file.mistakes_between(dimension, lengths, walled), &mut self.problems);
         if self.state.velocities == StateVelocities::File {
             refuse(self.state, self.file.mistakes_of_velocities(dimension), &mut self.problems);
         }
@@ -206,7 +207,8 @@ impl Reader<'_> {
         }
         self.note_what_is_not_used(scene, dimension);
         self.note_missing_masses(scene, masses, &species);
-        let start = places::start(self.file, self.state, &species, dimension, lengths, SpeciesNames::of(scene).count());
+        let species_of_scene = SpeciesNames::of(scene).count();
+        let start = places::start(self.file, self.state, &species, (dimension, walled), lengths, species_of_scene);
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
         scene.kept = KeptStart::of(shared(start));

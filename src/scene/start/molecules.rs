@@ -218,6 +218,9 @@ fn add(all: &mut ParticleFile, scene: &Scene, names: &SpeciesNames<'_>, molecule
         let places = (0..starts).find_map(place).ok_or(number)?;
         all.positions.extend(places.iter().map(|place| {
             std::array::from_fn(|axis| match lengths.get(axis) {
+                Some(length) if scene.space.walls.of_axes()[axis].is_some() => {
+                    crate::families::mirrored(start[axis] + place[axis], *length).min(length.next_down())
+                }
                 // A remainder may be rounded to the edge itself.
                 Some(length) => (start[axis] + place[axis]).rem_euclid(*length).min(length.next_down()),
                 None => 0.0,

@@ -7,18 +7,21 @@ use crate::state_file::{Links, ParticleFile};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What a scene keeps of a file without mistakes, in whose box of these edges all particles are.
+/// What a scene keeps of a file without mistakes, in whose box of these edges all particles are; of the dimensions some may have walls.
 pub(super) fn start(
     file: &ParticleFile,
     state: &StateFile,
     species: &[Option<u8>],
-    dimension: usize,
+    (dimension, walled): (usize, [bool; 3]),
     lengths: [f64; 3],
     species_of_scene: usize,
 ) -> FileStart {
     let copies = state.copies();
     let folded = |point: &[f64; 3]| -> [(u32, i32); 3] {
-        let fold = |axis: usize| fold((point[axis] - file.origin[axis]) / lengths[axis]);
+        let fold = |axis: usize| match (point[axis] - file.origin[axis]) / lengths[axis] {
+            edges if walled[axis] => (fold(edges.clamp(0.0, LAST)).0, 0),
+            edges => fold(edges),
+        };
         std::array::from_fn(|axis| if axis < dimension { fold(axis) } else { (0, 0) })
     };
     let fractions = |points: &[[f64; 3]]| points.iter().map(|point| folded(point).map(|(part, _)| part)).collect();
@@ -55,6 +58,9 @@ pub(super) fn start(
         places: Some(FilePlaces { positions, velocities, images, tethers }),
     }
 }
+
+/// The last fraction of an edge that does not round to the upper face.
+const LAST: f64 = 1.0 - 1.0 / 4_294_967_296.0;
 
 /// A coordinate in edges of the box: its fraction of an edge, in units of 2⁻³², and the whole turns round the box. What rounds to the
 /// upper face is at the lower one, one turn further.

@@ -48,6 +48,15 @@ fn scattered_tracers(scene: &mut Value) {
     }
 }
 
+/// Walls of which the upper has a velocity.
+fn moving_walls(scene: &mut Value, velocity: f64) {
+    if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() {
+        let mut velocities = vec![0.0; scene["space"]["box"].as_array().unwrap().len()];
+        velocities[0] = velocity;
+        scene["space"]["walls"] = json!({"y": {"upper_velocity": velocities}});
+    }
+}
+
 fn velocities_in(frame: &str) -> Value {
     json!([{"quantity": "velocity", "every": 2, "range": 9, "frame": frame}])
 }
@@ -282,8 +291,47 @@ pub fn features() -> Vec<Feature> {
                 }
             },
             without: |scene| remove(scene, "body-force"),
-            own: Some(&["external", "account", "BODY", "FORCE_AXIS", "WAVES"]),
+            own: Some(&[
+                "_external",
+                "external/body",
+                "external/profile",
+                "external/drifted",
+                "account",
+                "BODY",
+                "FORCE_AXIS",
+                "WAVES",
+            ]),
             more: &["book_external", "push_external", "report_external", "account"],
+            instead: &[],
+            always: true,
+        },
+        Feature {
+            name: "walls",
+            // Some analyses take no walls.
+            ground: no_analyses,
+            with: |scene| {
+                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() {
+                    scene["space"]["walls"] = json!({"y": {}});
+                }
+            },
+            without: |scene| {
+                if let Some(space) = scene["space"].as_object_mut() {
+                    space.remove("walls");
+                }
+            },
+            own: Some(&["wall", "WALL", "SLIDE", "LOWER_", "UPPER_"]),
+            more: &["report_walls", "wall_impulses"],
+            // Beside a table of species the prefilter reads positions then.
+            instead: &["probes"],
+            always: true,
+        },
+        Feature {
+            name: "motion of walls",
+            ground: no_analyses,
+            with: |scene| moving_walls(scene, 1.0),
+            without: |scene| moving_walls(scene, 0.0),
+            own: Some(&["wall_motion", "LOWER_", "UPPER_"]),
+            more: &[],
             instead: &[],
             always: true,
         },

@@ -18,7 +18,7 @@ pub(super) const PARTICLE: u64 = 32;
 const WORDS: usize = PARTICLE as usize / 4;
 
 /// One array `particles` of position and id, momentum and species, with what a predicted
-/// momentum adds; and the account of body forces, where there are any.
+/// momentum adds; and the account of body forces and the momentum that walls have taken up, where there are any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParticleLayout {
     /// Number of dimensions.
@@ -27,12 +27,14 @@ pub struct ParticleLayout {
     pub predicted: bool,
     /// Rows of the account of body forces; none without any.
     pub account: usize,
+    /// Number of walls.
+    pub walls: usize,
 }
 
 impl ParticleLayout {
     /// Number of its buffers.
     fn buffer_count(&self) -> usize {
-        1 + usize::from(self.account > 0)
+        1 + usize::from(self.account > 0) + usize::from(self.walls > 0)
     }
 }
 
@@ -55,7 +57,10 @@ fn total_account(rows: &[u32]) -> Account {
 
 impl StateLayout for ParticleLayout {
     fn buffers(&self) -> Vec<Array> {
-        std::iter::once(Array::Particles).chain((self.account > 0).then_some(Array::Account)).collect()
+        std::iter::once(Array::Particles)
+            .chain((self.account > 0).then_some(Array::Account))
+            .chain((self.walls > 0).then_some(Array::WallImpulses))
+            .collect()
     }
 
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
@@ -85,6 +90,12 @@ impl StateLayout for ParticleLayout {
             account.resize(ACCOUNT * self.account, 0);
             contents.push(account);
         }
+        if self.walls > 0 {
+            if state.walls.len() != self.walls {
+                return Err("what walls have taken up is".into());
+            }
+            contents.push(state.words(StateArray::Walls).to_vec());
+        }
         Ok(contents)
     }
 
@@ -111,6 +122,10 @@ impl StateLayout for ParticleLayout {
         if self.account > 0 {
             state.account = vec![total_account(content(contents, 1))];
         }
+        if self.walls > 0 {
+            let words = content(contents, 1 + usize::from(self.account > 0));
+            state.set_words(StateArray::Walls, words.get(..StateArray::Walls.width() * self.walls).unwrap_or(words))?;
+        }
         Ok(state)
     }
 
@@ -118,6 +133,7 @@ impl StateLayout for ParticleLayout {
         vec![
             (StateArray::Predicted, Length::AfterFirstStep(if self.predicted { count } else { 0 })),
             (StateArray::Account, Length::Exactly(usize::from(self.account > 0))),
+            (StateArray::Walls, Length::Exactly(self.walls)),
         ]
     }
 }

@@ -220,7 +220,8 @@ mod tests {
         ChainTrios { pulse: CHAIN, amplitude: 5.0, width: 1.0, thermal, temperature: 1.0, spacing: 16.0 }
     }
 
-    const UNITS: Units = Units { dimension: 1, lengths: [300.0, 1.0, 1.0], momentum: 1.0 / 4_194_304.0 };
+    const UNITS: Units =
+        Units { dimension: 1, lengths: [300.0, 1.0, 1.0], gaps: [0.0; 3], momentum: 1.0 / 4_194_304.0 };
 
     #[test]
     fn every_particle_belongs_to_one_chain_and_one_species() {

@@ -13,6 +13,7 @@ mod pulse;
 mod thermal_start;
 mod time_scales;
 pub(crate) mod topology;
+mod walls;
 
 pub use angles::{Angle, Angles};
 pub use body_force::{BodyForces, FixedImpulse};
@@ -27,3 +28,4 @@ pub use thermal_start::thermal_start;
 pub(crate) use time_scales::FREQUENCY_LIMIT;
 pub(crate) use topology::Alike;
 pub use topology::ChainGroup;
+pub use walls::PlaneWalls;

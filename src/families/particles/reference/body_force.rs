@@ -1,9 +1,10 @@
 //! Body forces: their impulses of half a step, and what they give.
 //!
 //! The closing and the opening impulse of a step are those of its places. The work over a drift from r(n) to r(n+1) is
-//! (k(n) + k(n+1)) v(n+½) with the impulses k of half a step at both ends: force times displacement.
+//! (k(n) + k(n+1)) v(n+½) with the impulses k of half a step at both ends: force times displacement. Where walls reflect a particle in
+//! between, each impulse goes with the velocity at its end.
 
-use super::end_of_step;
+use super::{end_of_step, walls};
 use crate::document::ForceProfile;
 use crate::families::particles::model::{BodyForces, FixedImpulse};
 use crate::families::particles::plan::quanta::quanta;
@@ -56,11 +57,18 @@ fn work(model: &Model, state: &State, masses: &[f64], impulses: &[[i64; 3]]) -> 
     let mut work = 0.0;
     for (particle, drift) in drifts.iter().enumerate() {
         let now = state.positions[particle];
-        let before = std::array::from_fn(|axis| now[axis].wrapping_sub(drift[axis] as u32));
+        let momentum = state.momenta[particle].map(i64::from);
+        let (before, first_momentum) = if model.particles().walls.is_empty() {
+            (std::array::from_fn(|axis| now[axis].wrapping_sub(drift[axis] as u32)), momentum)
+        } else {
+            let start = walls::before(model, state, particle, parts);
+            (start.place, start.momentum)
+        };
         let first = impulse(model, forces, state.species[particle], before, state.step - 1);
         for axis in 0..3 {
-            let both = (first[axis] + impulses[particle][axis]) as f64 * model.units.momentum;
-            work += both * f64::from(state.momenta[particle][axis]) * model.units.momentum / masses[particle];
+            let sum = first[axis] as f64 * first_momentum[axis] as f64
+                + impulses[particle][axis] as f64 * momentum[axis] as f64;
+            work += sum * model.units.momentum * model.units.momentum / masses[particle];
         }
     }
     work

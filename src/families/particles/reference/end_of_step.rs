@@ -1,5 +1,6 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
+use super::walls::{self, Flight, Way};
 use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::reference::{Unstable, add, drift, narrow, whole_fractions};
@@ -21,15 +22,52 @@ pub(super) fn end(
 ) -> Result<(), Unstable> {
     add(&mut momenta, opening);
     let advanced = narrow(&momenta, state.step)?;
-    let drifts = drifts(model, masses, &advanced, parts);
-    drift(state, &drifts)?;
+    let turned = move_on(model, masses, state, &advanced, parts, parts)?;
     state.predicted = match model.integrator {
-        Integrator::GrootWarren { lambda } if lambda != 0.5 => prediction::predicted(&advanced, opening, lambda),
+        Integrator::GrootWarren { lambda } if lambda != 0.5 => {
+            let turn = |(kick, turned): (&[i64; 3], &[i64; 3])| std::array::from_fn(|axis| kick[axis] * turned[axis]);
+            let opening: Vec<[i64; 3]> = opening.iter().zip(&turned).map(turn).collect();
+            prediction::predicted(&state.momenta, &opening, lambda)
+        }
         _ => Vec::new(),
     };
-    state.momenta = advanced;
     state.step = state.step.wrapping_add(1);
     Ok(())
+}
+
+/// Gives particles momenta and moves them by some of the equal parts of a step. Gives what walls have made of a unit of momentum.
+///
+/// # Errors
+/// [`Unstable`] as [`end`].
+pub(super) fn move_on(
+    model: &Model,
+    masses: &[f64],
+    state: &mut State,
+    momenta: &[[i32; 3]],
+    parts: i64,
+    of_parts: i64,
+) -> Result<Vec<[i64; 3]>, Unstable> {
+    let whole = drifts(model, masses, momenta, of_parts);
+    let ways: Vec<[i64; 3]> = whole.iter().map(|way| way.map(|units| units / of_parts * parts)).collect();
+    if model.particles().walls.is_empty() {
+        drift(state, &ways)?;
+        state.momenta = momenta.to_vec();
+        return Ok(vec![[1; 3]; state.len()]);
+    }
+    // What is too far is so between walls too.
+    drift(&mut state.clone(), &ways)?;
+    let mut taken = vec![[0; 3]; 2 * model.particles().walls.len()];
+    let fly = |(particle, momentum): (usize, &[i32; 3])| {
+        let way = Way { species: state.species[particle], parts: of_parts, back: false };
+        let start = Flight { place: state.positions[particle], momentum: momentum.map(i64::from), turned: [1; 3] };
+        (0..parts).fold(start, |flight, _| walls::fly(model, flight, way, &mut taken))
+    };
+    let flights: Vec<Flight> = momenta.iter().enumerate().map(fly).collect();
+    let reflected: Vec<[i64; 3]> = flights.iter().map(|flight| flight.momentum).collect();
+    state.momenta = narrow(&reflected, state.step)?;
+    state.positions = flights.iter().map(|flight| flight.place).collect();
+    state.walls = walls::add(&state.walls, &taken);
+    Ok(flights.iter().map(|flight| flight.turned).collect())
 }
 
 /// dt p/m of all particles, in whole units of the box fraction, each of the equal parts rounded half to even.

@@ -9,6 +9,7 @@ mod observables;
 pub(crate) mod pairs;
 mod potential;
 mod splitting;
+mod walls;
 
 pub use couplings::CouplingsReference;
 pub use splitting::Relaxation;
@@ -16,7 +17,7 @@ pub use splitting::Relaxation;
 use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::Observables;
-use crate::families::reference::{Unstable, narrow};
+use crate::families::reference::{Unstable, add, narrow};
 use crate::state::State;
 use pairs::Pair;
 
@@ -125,15 +126,12 @@ impl Reference {
     /// # Errors
     /// As [`Self::step`].
     pub fn state_between_forces(&self) -> Result<State, Unstable> {
-        let mut ahead = self.clone();
-        ahead.step()?;
-        let mut state = self.state.clone();
-        for (position, drift) in state.positions.iter_mut().zip(ahead.drifts()) {
-            for (position, drift) in position.iter_mut().zip(drift) {
-                *position = position.wrapping_add((drift / 2) as u32);
-            }
-        }
-        Ok(State { momenta: ahead.state.momenta, predicted: Vec::new(), ..state })
+        let Report { mut momenta, kick, .. } = self.report(&self.pairs())?;
+        add(&mut momenta, &kick);
+        let momenta = narrow(&momenta, self.state.step)?;
+        let mut state = State { predicted: Vec::new(), ..self.state.clone() };
+        end_of_step::move_on(&self.model, &self.masses, &mut state, &momenta, 1, 2)?;
+        Ok(state)
     }
 
     /// Counts of unordered pairs in `bins` equal bins of distance up to `range`, which is at most half the shortest
@@ -167,11 +165,6 @@ impl Reference {
                 splitting::report(self, found)
             }
         }
-    }
-
-    /// The drifts that the momenta in the state make.
-    fn drifts(&self) -> Vec<[i64; 3]> {
-        end_of_step::drifts(&self.model, &self.masses, &self.state.momenta, self.parts_of_drift())
     }
 
     /// A split step drifts in two equal halves, between which a report may fall.

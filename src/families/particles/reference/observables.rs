@@ -3,6 +3,7 @@
 use super::body_force;
 use super::couplings::observables::of_configuration;
 use super::pairs::find_pairs;
+use super::walls;
 use super::{Reference, Report};
 use crate::families::{Model, Observables};
 use crate::state::State;
@@ -22,6 +23,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
         put_in: body_force::put_in(model, state, masses),
+        on_walls: walls::on_walls(model, state),
         ..Observables::zero(model, state)
     }
 }
@@ -30,7 +32,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
 pub(super) fn observe(reference: &Reference, configuration: &State, report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
     let motion = of_motion(model, state, &reference.masses, &report.momenta);
-    of_configuration(model, configuration, Observables { total_virial: report.total_virial, ..motion })
+    of_configuration(model, configuration, &Observables { total_virial: report.total_virial, ..motion })
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.

@@ -225,7 +225,7 @@ mod tests {
             ([40.0, 40.0, 40.0], 3),
             ([50.0, 1.0, 1.0], 1),
         ] {
-            let units = Units { dimension, lengths, momentum: 1.0 };
+            let units = Units { dimension, lengths, gaps: [0.0; 3], momentum: 1.0 };
             let positions = scattered(300, dimension);
             let mut found: Vec<_> = find_pairs(&units, &positions, 1.0);
             found.sort_by_key(|pair| (pair.second, pair.first));
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn coincident_particles_have_no_direction() {
-        let units = Units { dimension: 3, lengths: [4.0; 3], momentum: 1.0 };
+        let units = Units { dimension: 3, lengths: [4.0; 3], gaps: [0.0; 3], momentum: 1.0 };
         let pairs = find_pairs(&units, &[[5, 6, 7], [5, 6, 7]], 1.0);
         assert_eq!(pairs.len(), 1);
         assert_eq!(pairs[0].direction(), [0.0; 3]);

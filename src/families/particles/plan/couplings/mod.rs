@@ -72,6 +72,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         dimension: model.units.dimension,
         predicted,
         account: external::rows(model, options.workgroup()) as usize,
+        walls: 0,
     };
     let layout = CoupledLayout {
         particles,

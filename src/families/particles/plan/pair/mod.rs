@@ -8,6 +8,7 @@ use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
 use super::species::Species;
+use super::walls;
 use super::{
     Grid, Hardware, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, Texture,
     Traversal, deviate, texture_candidates, words,
@@ -76,7 +77,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let account = external::rows(model, options.workgroup()) as usize;
-    let layout = ParticleLayout { dimension: model.units.dimension, predicted, account };
+    let layout = ParticleLayout { dimension: model.units.dimension, predicted, account, walls: walls::count(model) };
     model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
 }
 
@@ -180,6 +181,7 @@ impl Builder<'_> {
             ]);
         }
         self.plan.constants = constants;
+        walls::add_constants(self.model, &mut self.plan);
     }
 
     /// Whether particles carry predicted momenta.
@@ -216,6 +218,7 @@ impl Builder<'_> {
             .with_if(self.is_bonded(), couplings::Gathered::Kept)
             .with_if(self.is_bonded(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
+            .and(&walls::choices(self.model))
     }
 
     fn ordering(&mut self) {
@@ -259,10 +262,11 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
-    /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside the
-    /// impulses of bonds and a table of species it would be one buffer too many.
+    /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
+    /// of the impulses of bonds, what walls take up and a table of species it would be one buffer too many.
     fn keeps_probes(&self) -> bool {
-        let crowded = self.is_bonded() && self.species.have_table();
+        let more = [self.is_bonded(), walls::count(self.model) > 0, self.species.have_table()];
+        let crowded = more.into_iter().filter(|there| *there).count() > 1;
         self.traversal != Traversal::Alone && !self.texels && !crowded
     }
 
@@ -346,10 +350,13 @@ impl Builder<'_> {
             self.plan.kernels[self.plan.before_report[0]].constants.push((Constant::Halves, 2.0));
         }
         let observables = self.observables();
-        if account > 0 {
+        let rows = u64::from(rows) + account;
+        let first = observables - external::sums(self.model) - walls::sums(self.model);
+        let of_walls = walls::add_account(self.model, &choices, rows, first, &mut self.plan);
+        if account + of_walls > 0 {
             self.plan.constants.push((Constant::Quantities, observables as f64));
         }
-        self.plan.sample_observables(self.measured.every, observables, u64::from(rows) + account);
+        self.plan.sample_observables(self.measured.every, observables, rows + of_walls);
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
@@ -363,12 +370,12 @@ impl Builder<'_> {
 
     /// Number of the sums of a report.
     fn observables(&self) -> u64 {
-        OBSERVABLES + u64::from(self.relaxes_in_two_stages()) + external::sums(self.model)
+        OBSERVABLES + u64::from(self.relaxes_in_two_stages()) + walls::sums(self.model) + external::sums(self.model)
     }
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
-        let pass = self.end_of_step().with(pairs::Pass::Leapfrog);
+        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
         let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
@@ -386,17 +393,22 @@ impl Builder<'_> {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
         self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
-        let to_the_end = self.end_of_step().with(pairs::Pass::Relax);
+        let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
-        let to_the_report = with(pairs::Pass::Relax);
+        let to_the_report = with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
         let two_stages = self.relaxes_in_two_stages();
         let added = (two_stages && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
-        let rest = self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles);
+        let rest = if walls::count(self.model) == 0 {
+            self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles)
+        } else {
+            let choices = self.choices().and(&walls::booking(self.model));
+            self.kernel("drift_rest", Entry::DriftRestBetweenWalls, choices, self.particles)
+        };
         for kernel in [find, motion, configuration] {
             self.plan.kernels[kernel].constants.push((Constant::Halves, 1.0));
         }
@@ -504,6 +516,10 @@ impl Builder<'_> {
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let copies = self.frame_capacity();
         self.plan.add_buffer(Array::Control, 64);
+        if !self.texels && self.is_bonded() && self.species.have_table() && walls::count(self.model) > 0 {
+            // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these three.
+            self.plan.storage_buffers = 9;
+        }
         self.plan.add_buffer(Array::Particles, PARTICLE * self.particles);
         if self.texels {
             let count = self.particles + copies;

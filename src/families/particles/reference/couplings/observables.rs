@@ -46,7 +46,7 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
         total_virial: evaluation.total_virial,
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
-        ..of_configuration(model, state, motion)
+        ..of_configuration(model, state, &motion)
     }
 }
 
@@ -54,7 +54,7 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
 pub(in crate::families::particles::reference) fn of_configuration(
     model: &Model,
     state: &State,
-    motion: Observables,
+    motion: &Observables,
 ) -> Observables {
     let configuration = configuration(model, state);
     let mobile = |particle: &usize| !is_fixed(model, state, *particle);
@@ -64,7 +64,7 @@ pub(in crate::families::particles::reference) fn of_configuration(
         gradient_squared: (0..state.len()).filter(mobile).map(squares).sum(),
         laplacian: (0..state.len()).filter(mobile).map(|particle| configuration.laplacians[particle]).sum(),
         conservative_virial: configuration.virial,
-        ..motion
+        ..*motion
     }
 }
 

@@ -1,0 +1,2 @@
+// Six walls have three components of momentum each.
+const REPORTED: u32 = 34u;

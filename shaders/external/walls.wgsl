@@ -1,0 +1,118 @@
+// Plane walls across an axis of the box. Particles are at the places 0 to end - 1 of the axis, and the walls half a place beyond the first
+// and the last, so that a reflected place is a place again: k steps behind the lower wall is the place k - 1. Behind the walls
+// there is a gap, wider than the cutoff, that no particle enters: pairs need to know nothing of walls.
+
+override WALL_X: u32; // places between the walls across an axis; 0 without any
+override WALL_Y: u32;
+override WALL_Z: u32;
+override SLIDE_X: i32; // what walls across an axis make of a unit of momentum along them: 1 or -1
+override SLIDE_Y: i32;
+override SLIDE_Z: i32;
+
+fn wall_ends() -> Fraction { return fraction_of(vec4<u32>(WALL_X, WALL_Y, WALL_Z, 0u)); }
+
+// What walls across an axis make of a unit of momentum along every axis.
+fn wall_signs(axis: u32) -> Steps {
+    var signs = Steps(steps_of(vec4<i32>(SLIDE_X, SLIDE_Y, SLIDE_Z, 0))[axis]);
+    signs[axis] = -1;
+    return signs;
+}
+
+// How many steps a way of less than half the period leads behind a wall.
+fn steps_behind(place: u32, way: i32, end: u32) -> u32 {
+    let length = bitcast<u32>(abs(way));
+    let room = select(end - 1u - place, place, way < 0);
+    return select(0u, length - room, (length > room) & (end > 0u));
+}
+// The place at the end of a way, or the last one in front of a wall.
+fn place_after(place: u32, way: i32, end: u32) -> u32 {
+    let last = select(end - 1u, 0u, way < 0);
+    return select(place + bitcast<u32>(way), last, steps_behind(place, way, end) > 0u);
+}
+
+// A particle that flies between walls.
+struct Flight {
+    place: Fraction,
+    momentum: Steps,
+    turned: Steps, // what has become of a unit of momentum along every axis
+    time: i32,     // 1, or -1 where a drift is followed back and walls move the other way
+}
+
+// Reflections in a part of a drift, which is shorter than the box: one, but for particles in corners.
+const MOST_REFLECTIONS: u32 = 8u;
+
+// Flies one of the equal parts of a drift. At a wall the momentum is reflected, and what is left of the time goes on with the new one.
+// Products are rounded before they are added, so that all kernels find the same on any compiler.
+fn fly(start: Flight, species: i32) -> Flight {
+    let ends = wall_ends();
+    var flight = start;
+    var way = part_of_drift(momentum_word(start.momentum, species));
+    var left = 1.0; // of the time
+    for (var reflection = 0u; reflection < MOST_REFLECTIONS; reflection++) {
+        // The wall that is met first is the one that most of the way lies behind.
+        var wall = DIMENSION;
+        var behind = 0.0;
+        for (var axis = 0u; axis < DIMENSION; axis++) {
+            let steps = steps_behind(flight.place[axis], way[axis], ends[axis]);
+            let part = (f32(steps) - 0.5) / f32(abs(way[axis]));
+            let first = (steps > 0u) & (part > behind);
+            behind = select(behind, part, first);
+            wall = select(wall, axis, first);
+        }
+        if (wall == DIMENSION) { break; }
+        left *= behind;
+        let upper = way[wall] > 0;
+        let momentum = flight.momentum;
+        let signs = wall_signs(wall);
+        flight.momentum = signs * momentum + flight.time * wall_push(wall, upper, species);
+        flight.turned *= signs;
+        note_reflection(wall, upper, momentum - flight.momentum);
+        let beyond = Steps(round(behind * Vector(way)));
+        var rest = Steps(round(left * Vector(part_of_drift(momentum_word(flight.momentum, species)))));
+        let returned = bitcast<i32>(steps_behind(flight.place[wall], way[wall], ends[wall]) - 1u);
+        rest[wall] = select(returned, -returned, upper);
+        for (var axis = 0u; axis < DIMENSION; axis++) {
+            let until = select(way[axis] - beyond[axis], way[axis], axis == wall);
+            flight.place[axis] = place_after(flight.place[axis], until, ends[axis]);
+        }
+        way = rest;
+    }
+    for (var axis = 0u; axis < DIMENSION; axis++) {
+        flight.place[axis] = place_after(flight.place[axis], way[axis], ends[axis]);
+    }
+    return flight;
+}
+
+// All parts of a drift.
+fn fly_all(start: Flight, species: i32) -> Flight {
+    var flight = start;
+    for (var part = 0; part < drift_parts(); part++) { flight = fly(flight, species); }
+    return flight;
+}
+
+// Slot external/wall_motion: the momentum that a particle of a species gains from the motion of a wall that reverses it, in integer
+// momentum units. Variant moving; the plan follows the scene.
+// Default: off, all walls are at rest.
+fn wall_push(axis: u32, upper: bool, species: i32) -> Steps { return Steps(0); }
+
+// Slot external/reflections: books the momentum that a wall takes up. The plan chooses `booked` for kernels that move particles.
+// Default: off, for kernels that follow a drift back.
+fn note_reflection(axis: u32, upper: bool, momentum: Steps) {}
+
+// The number of a wall: lower before upper, axis by axis.
+fn wall_number(axis: u32, upper: bool) -> u32 {
+    let x = select(0u, 1u, (axis > 0u) & (WALL_X > 0u));
+    let y = select(0u, 1u, (axis > 1u) & (WALL_Y > 0u));
+    return 2u * (x + y) + select(0u, 1u, upper);
+}
+
+override WALL_SUMS: u32; // place of the first sum of walls in a report
+
+// Tells a report what walls have taken up. One invocation a sum; writes the row FIRST_GROUP of `partial_sums`.
+@compute @workgroup_size(WORKGROUP)
+fn report_walls(@builtin(local_invocation_index) lane: u32) {
+    for (var sum = lane; sum < WALL_COUNT; sum += WORKGROUP) {
+        partial_sums[FIRST_GROUP * QUANTITIES + WALL_SUMS + sum] = Sum64(wall_impulses[2u * sum], wall_impulses[2u * sum + 1u]);
+    }
+}
+override WALL_COUNT: u32; // sums: three for each wall

@@ -1,0 +1,93 @@
+//! Walls: the numbers of reflections, and the kernel that tells a report what walls have taken up. Particles are reflected where they
+//! drift.
+
+use crate::document::Reflection;
+use crate::families::{Model, PlaneWalls};
+use crate::plan::{Kernel, Plan};
+use crate::shaders::{Array, Choices, Constant, Entry, core, external, pairs};
+
+/// Walls of a model.
+pub(super) fn count(model: &Model) -> usize {
+    2 * model.particles().walls.len()
+}
+
+/// Sums that a report has for walls: three components of momentum for each.
+pub(crate) fn sums(model: &Model) -> u64 {
+    3 * count(model) as u64
+}
+
+/// What kernels choose that move particles between walls, if there are any.
+pub(super) fn choices(model: &Model) -> Choices {
+    let walls = !model.particles().walls.is_empty();
+    Choices::new()
+        .with_if(walls, pairs::Advance::BetweenWalls)
+        .with_if(walls, external::Drifted::BetweenWalls)
+        .with_if(walls, core::Reported::WithWalls)
+        .with_if(model.particles().walls_move(), external::WallMotion::Moving)
+}
+
+/// What kernels choose beside, whose reflections are those of the particles.
+pub(super) fn booking(model: &Model) -> Choices {
+    Choices::new().with_if(!model.particles().walls.is_empty(), external::Reflections::Booked)
+}
+
+/// Adds the constants of the walls.
+pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
+    let walls = &model.particles().walls;
+    if walls.is_empty() {
+        return;
+    }
+    let ends = model.units.ends().map(f64::from);
+    let slide = |axis: usize| {
+        let specular = |walls: &PlaneWalls| walls.axis == axis && walls.reflection == Reflection::Specular;
+        if walls.iter().any(specular) { 1.0 } else { -1.0 }
+    };
+    // Momentum of a unit of mass that moves twice as fast as a wall.
+    let push = |axis: usize, upper: usize, along: usize| {
+        let velocity =
+            walls.iter().find(|walls| walls.axis == axis).map_or(0.0, |walls| walls.velocities[upper][along]);
+        2.0 * velocity / model.units.momentum
+    };
+    plan.constants.extend([
+        (Constant::WallX, ends[0]),
+        (Constant::WallY, ends[1]),
+        (Constant::WallZ, ends[2]),
+        (Constant::SlideX, slide(0)),
+        (Constant::SlideY, slide(1)),
+        (Constant::SlideZ, slide(2)),
+    ]);
+    if model.particles().walls_move() {
+        plan.constants.extend([
+            (Constant::LowerXY, push(0, 0, 1)),
+            (Constant::LowerXZ, push(0, 0, 2)),
+            (Constant::LowerYX, push(1, 0, 0)),
+            (Constant::LowerYZ, push(1, 0, 2)),
+            (Constant::LowerZX, push(2, 0, 0)),
+            (Constant::LowerZY, push(2, 0, 1)),
+            (Constant::UpperXY, push(0, 1, 1)),
+            (Constant::UpperXZ, push(0, 1, 2)),
+            (Constant::UpperYX, push(1, 1, 0)),
+            (Constant::UpperYZ, push(1, 1, 2)),
+            (Constant::UpperZX, push(2, 1, 0)),
+            (Constant::UpperZY, push(2, 1, 1)),
+        ]);
+    }
+}
+
+/// Adds the kernel that tells a report what walls have taken up, before anything moves on from there: into a row after the given number of
+/// them, at the given place of it. The number of rows that it adds.
+pub(super) fn add_account(model: &Model, choices: &Choices, first_row: u64, first_sum: u64, plan: &mut Plan) -> u64 {
+    let sums = sums(model);
+    if sums == 0 {
+        return 0;
+    }
+    let constants = vec![
+        (Constant::FirstGroup, first_row as f64),
+        (Constant::WallSums, first_sum as f64),
+        (Constant::WallCount, sums as f64),
+    ];
+    let report = plan.add_kernel(Kernel::new("report_walls", Entry::ReportWalls, choices.clone(), 1).with(constants));
+    plan.report.insert(0, report);
+    plan.add_buffer(Array::WallImpulses, 8 * sums);
+    1
+}

@@ -1,0 +1,70 @@
+//! Walls and the account of what they take up: the same bytes whatever changes that is not physics.
+
+use mesoscope::plan::{Options, Traversal};
+use mesoscope::scene::Scene;
+use rand::SeedableRng as _;
+
+use crate::support::bytes::{self, harvest, same};
+use crate::support::{INTEGRATORS, MIXTURE, engine, fluid, start};
+
+const STEPS: u64 = 24;
+
+const WALLS: [&str; 2] = [
+    r#"space={"box":[5,4,5],"walls":{"z":{"lower_velocity":[-1,0,0],"upper_velocity":[1,0.5,0]}}}"#,
+    r#"space={"box":[5,4,5],"walls":{"x":{"upper_velocity":[0,0,1]},"y":{"reflection":"specular"}}}"#,
+];
+const DRIVEN: &str =
+    r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[3,0.3,0.2]}]"#;
+
+fn scenes() -> Vec<Scene> {
+    let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", MIXTURE, DRIVEN];
+    let scene = |(number, integrator): (usize, &&str)| fluid(&[&base[..], &[integrator, WALLS[number % 2]]].concat());
+    INTEGRATORS.iter().enumerate().map(scene).collect()
+}
+
+#[test]
+fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
+    let mut random = rand::rngs::StdRng::seed_from_u64(3);
+    for scene in scenes() {
+        let plain = bytes::run(&scene, Options::default(), STEPS, 8);
+        assert!(plain.state.walls.iter().all(|wall| wall.momentum() != [0; 3]));
+        for changed in [
+            Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() },
+            Options { traversal: Some(Traversal::Rows), ..Options::default() },
+        ] {
+            assert!(same(&plain, &bytes::run(&scene, changed, STEPS, 5)), "{changed:?}");
+        }
+        assert!(same(&plain, &bytes::shuffled(&scene, Options::default(), STEPS, 8, &mut random)), "storage order");
+    }
+}
+
+#[test]
+fn a_resumed_run_goes_on_with_the_same_bytes() {
+    for scene in scenes() {
+        let plain = bytes::run(&scene, Options::default(), STEPS, 8);
+        for interruption in [1, STEPS - 5] {
+            let (_, state) = start(&scene);
+            let mut first = engine(&scene, &state, Options::default());
+            first.advance(interruption, 8).unwrap();
+            let kept = first.state().unwrap();
+            let mut samples = first.finish().unwrap();
+            samples.retain(|sample| sample.step < interruption);
+            let mut second = engine(&scene, &kept, Options::default());
+            second.advance(STEPS - interruption, 8).unwrap();
+            assert!(same(&plain, &harvest(second, samples)), "interrupted at {interruption}");
+        }
+    }
+}
+
+/// Reports fall between the halves of a drift, in which walls may reflect too: they change nothing.
+#[test]
+fn reports_change_nothing() {
+    for (number, integrator) in INTEGRATORS.iter().enumerate() {
+        let with_reports = |every: &str| {
+            let changes = ["time.steps=1000", "time.step=0.02", every, MIXTURE, DRIVEN, integrator, WALLS[number % 2]];
+            bytes::run(&fluid(&changes), Options::default(), STEPS, 8).state
+        };
+        let [often, seldom] = ["output.energies.every=1", "output.energies.every=1000"].map(with_reports);
+        assert!(often == seldom, "{integrator}");
+    }
+}

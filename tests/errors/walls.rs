@@ -1,0 +1,159 @@
+//! Walls with mistakes.
+
+use serde_json::{Value, json};
+
+use crate::support::mistakes::Correct;
+
+const CHANNEL: Correct = Correct(base);
+
+fn base() -> Value {
+    json!({
+        "title": "test",
+        "space": {"box": [10, 10, 10], "walls": {"z": {"upper_velocity": [1, 0, 0]}}},
+        "time": {"step": 0.01, "steps": 100},
+        "temperature": 1,
+        "particles": [{"species": "water", "count": 300}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+    })
+}
+
+#[test]
+fn the_base_is_right_and_keeps_its_integrator() {
+    let scene = CHANNEL.accepted(&[]);
+    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert_eq!(CHANNEL.warnings(&[]), Vec::<String>::new());
+}
+
+#[test]
+fn axes_and_velocities() {
+    CHANNEL.refused_with(
+        &["space.box=[10,10]", r#"space.walls={"z":{}}"#],
+        &["space.walls.z: found on an axis that the box has not", "one of the 2 axes of the box"],
+    );
+    CHANNEL.refused_with(&[r#"space.walls={"w":{}}"#], &["space.walls.w"]);
+    CHANNEL.refused_with(&[r#"space.walls.z.reflection="sticky""#], &["space.walls.z.reflection", "bounce-back"]);
+    CHANNEL.refused_with(
+        &["space.walls.z.lower_velocity=[1,0]"],
+        &["space.walls.z.lower_velocity: found 2 components", "3, one for each axis"],
+    );
+    CHANNEL.refused_with(
+        &["space.walls.z.upper_velocity=[0,0,0.5]"],
+        &["space.walls.z.upper_velocity: found 0.5 along z, across the wall", "walls move along themselves"],
+    );
+    CHANNEL.refused_with(
+        &[r#"space.walls.z.reflection="specular""#],
+        &["space.walls.z.upper_velocity: found a velocity of a wall with specular reflection", "bounce-back"],
+    );
+    CHANNEL.refused_with(
+        &["space.walls.x={}"],
+        &["space.walls.z.upper_velocity: found 1 along x, across which there are walls too", "axes without walls"],
+    );
+    CHANNEL.refused_with(
+        &["space.walls.y={}"],
+        &[
+            "space.walls.z.upper_velocity: found a wall that moves beside walls across y",
+            "or `specular` reflection across y",
+        ],
+    );
+    CHANNEL.accepted(&[r#"space.walls.y={"reflection":"specular"}"#]);
+    CHANNEL.accepted(&[r#"space.walls={"x":{"reflection":"specular","lower_velocity":[0,0,0]},"y":{}}"#]);
+}
+
+#[test]
+fn walls_are_two_cutoffs_apart() {
+    CHANNEL.refused_with(
+        &["space.box=[10,10,1.5]"],
+        &["space.box[2]: found 1.5", "at least 2, two cutoffs of 1: walls nearer to each other"],
+    );
+    CHANNEL.accepted(&["space.box=[10,10,2]"]);
+}
+
+/// A step in which a wall takes particles further than the cutoff cannot be right.
+#[test]
+fn fast_walls() {
+    CHANNEL.accepted(&["space.walls.z.upper_velocity=[20,0,0]"]);
+}
+
+/// Whatever is bound to a periodic box is refused with the reason.
+#[test]
+fn what_takes_no_walls() {
+    CHANNEL.refused_with(
+        &[r#"interactions.0.bath={"type":"memory","rate":3}"#],
+        &["space.walls: found together with a bath with memory in interactions[0]"],
+    );
+    let langevin = r#"interactions=[{"type":"langevin","friction":1}]"#;
+    CHANNEL.refused_with(&[langevin], &["space.walls: found together with a bath on every particle"]);
+    CHANNEL
+        .refused_with(&["particles.0.fixed=true"], &["space.walls: found together with particles[0], which are fixed"]);
+    for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
+        let changes = ["space.box=[10,10]", r#"space.walls={"y":{}}"#, &format!("interactions=[{other}]")];
+        let problems = CHANNEL.problems(&changes);
+        assert!(
+            problems.iter().any(|problem| problem.contains("space.walls: found in a scene of another kind")),
+            "{problems:#?}"
+        );
+    }
+    for analysis in [r#"radial_distribution={"every":10,"range":2}"#, r#"viscosity={"every":2,"window":8}"#] {
+        let name = analysis.split('=').next().unwrap();
+        let named = format!("output.{name}: found in a scene with walls");
+        CHANNEL.refused_with(&[&format!("output.{analysis}")], &[&named, "none in a scene with walls"]);
+    }
+    for profile in ["opposed", "sinusoidal"] {
+        let force = |axis: &str| {
+            format!(
+                r#"interactions=[{{"type":"dpd","repulsion":25}},
+                    {{"type":"body-force","force":[1,0,0],"profile":"{profile}","axis":"{axis}"}}]"#
+            )
+        };
+        CHANNEL.refused_with(
+            &[&force("z")],
+            &[r#"interactions[1].axis: found "z", across which there are walls"#, "uniform"],
+        );
+        CHANNEL.accepted(&[&force("y")]);
+    }
+}
+
+/// Positions that are listed lie between the walls, which a periodic axis takes modulo the box; what is at a wall is taken in.
+#[test]
+fn places_behind_walls() {
+    let listed = |position: &str| {
+        format!(r#"particles=[{{"species":"water","placement":{{"type":"listed","positions":[[1,1,1],{position}]}}}}]"#)
+    };
+    for (position, found) in [("[1,1,10.5]", "found 10.5"), ("[1,1,-0.001]", "found -0.001")] {
+        CHANNEL.refused_with(
+            &[&listed(position)],
+            &["particles[0].placement.positions[1][2]", found, "behind a wall", "0 to 10, between the walls"],
+        );
+    }
+    CHANNEL.accepted(&[&listed("[1,-5,5]")]);
+    let scene = CHANNEL.accepted(&[&listed("[1,1,10]")]);
+    let (model, state) = crate::support::start(&scene);
+    assert_eq!(state.positions[1][2], model.units.ends()[2] - 1);
+    CHANNEL.refused_with(
+        &[
+            "space.box=[10,10]",
+            r#"space.walls={"y":{}}"#,
+            r#"particles=[{"species":"water","count":9,"placement":{"type":"circle","center":[5,2],"radius":3}}]"#,
+        ],
+        &["particles[0].placement: found a circle of radius 3 that reaches behind a wall across y"],
+    );
+}
+
+/// Bonds lead through no wall.
+#[test]
+fn bonds_through_walls() {
+    let bonded = |positions: &str| {
+        [
+            format!(r#"particles=[{{"species":"water","placement":{{"type":"listed","positions":{positions}}}}}]"#),
+            r#"interactions=[{"type":"dpd","repulsion":25},{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":2}}]"#
+                .to_owned(),
+        ]
+    };
+    let [particles, interactions] = bonded("[[1,1,0.25],[1,1,9.75]]");
+    CHANNEL.refused_with(
+        &[&particles, &interactions],
+        &["space.walls.z: found a bond between particles 0 and 1, 9.5000 apart along z", "lead through no wall"],
+    );
+    let [particles, interactions] = bonded("[[1,0.25,4],[1,9.75,4.5]]");
+    CHANNEL.accepted(&[&particles, &interactions]);
+}

@@ -1,0 +1,248 @@
+//! Walls on the device: against the float64 reference, step by step, and against what is exact.
+
+use mesoscope::plan::Options;
+use mesoscope::scene::Scene;
+use mesoscope::state::State;
+use serde_json::{Value, json};
+
+use crate::support::{
+    Device, INTEGRATORS, Implementation, engine, largest_difference, observables, predictions_agree,
+    reference_of_particles, same_energies, start, units_of_a_step,
+};
+
+fn read(document: &Value) -> Scene {
+    crate::support::scene(&document.to_string())
+}
+
+/// A fluid of two species between walls, whose interactions are followed by others.
+fn fluid(edges: &[f64], walls: &Value, integrator: &str, others: &[Value]) -> Value {
+    let volume: f64 = edges.iter().product();
+    let integrator: Value = serde_json::from_str(integrator.strip_prefix("integrator=").unwrap()).unwrap();
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let interactions = [&[dpd], others].concat();
+    json!({
+        "title": "channel",
+        "seed": 5,
+        "space": {"box": edges, "walls": walls},
+        "time": {"step": 0.02, "steps": 1},
+        "temperature": 1,
+        "integrator": integrator,
+        "particles": [
+            {"species": "light", "count": (2.0 * volume) as u64, "placement": {"type": "random"}},
+            {"species": "heavy", "count": volume as u64, "mass": 2.5}],
+        "interactions": interactions,
+        "output": {"energies": {"every": 1}},
+    })
+}
+
+/// Moving walls that reverse velocities; walls of both kinds that meet in corners.
+fn channels() -> Vec<(Vec<f64>, Value)> {
+    vec![
+        (vec![9.0, 7.0], json!({"y": {"lower_velocity": [-2.0, 0], "upper_velocity": [3.0, 0]}})),
+        (vec![9.0, 7.0], json!({"x": {"reflection": "specular"}, "y": {}})),
+        (vec![5.0, 4.0, 4.5], json!({"z": {"lower_velocity": [-1.0, 0.5, 0], "upper_velocity": [1.0, 0, 0]}})),
+        (vec![5.0, 4.0, 4.5], json!({"x": {"upper_velocity": [0, 0, -1.0]}, "y": {"reflection": "specular"}})),
+    ]
+}
+
+/// That every particle is between the walls, to the last place.
+fn between_walls(scene: &Scene, state: &State) {
+    let ends = start(scene).0.units.ends();
+    for (axis, end) in ends.into_iter().enumerate().filter(|(_, end)| *end > 0) {
+        let behind = state.positions.iter().position(|position| position[axis] >= end);
+        assert_eq!(behind, None, "step {}: behind a wall across axis {axis}", state.step);
+    }
+}
+
+/// Steps that agree are compared with the momenta that walls have got, of which every meeting may be as many units off as the momentum of
+/// its particle.
+fn agree(document: &Value) {
+    const STEPS: i64 = 5;
+    let scene = read(document);
+    let (model, state) = start(&scene);
+    let mut device = engine(&scene, &state, Options::default());
+    let mut reference = reference_of_particles(model.clone(), state.clone());
+    let units = units_of_a_step(false);
+    for step in 1..=STEPS {
+        device.advance(1, 1).unwrap();
+        reference.step(1);
+        let found = device.state().unwrap();
+        let expected = reference.state();
+        let (momentum, position) = largest_difference(&found, &expected);
+        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units\n{document:#}");
+        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units\n{document:#}");
+        between_walls(&scene, &found);
+        assert_eq!(found.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
+        assert_eq!(expected.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
+        assert_eq!(found.walls.len(), expected.walls.len());
+        for (a, b) in found.walls.iter().zip(&expected.walls) {
+            for (a, b) in a.momentum().into_iter().zip(b.momentum()) {
+                assert!((a - b).abs() <= units * step * state.len() as i64, "step {step}: {a} {b}\n{document:#}");
+            }
+        }
+        if !found.predicted.is_empty() {
+            predictions_agree(&found, &expected);
+            reference = reference_of_particles(model.clone(), found);
+        }
+    }
+    let measured = observables(&mut device, &scene);
+    let expected = reference.observe();
+    same_energies(&measured, &expected, 0.0, &format!("{document:#}"));
+    let scale = (state.len() as f64 * model.units.momentum) * (units * STEPS) as f64;
+    for (a, b) in measured.on_walls.momentum.as_flattened().iter().zip(expected.on_walls.momentum.as_flattened()) {
+        assert!((a - b).abs() <= scale, "{a} {b}\n{document:#}");
+    }
+    let touched = measured.on_walls.momentum.as_flattened().iter().map(|sum| sum.abs()).fold(0.0, f64::max);
+    assert!(touched > 1.0, "{touched}: too few meetings with walls to say something\n{document:#}");
+    // Velocities of walls are a few units.
+    assert!((measured.on_walls.work - expected.on_walls.work).abs() <= 20.0 * scale);
+    // Work is a sum in single precision of impulses times velocities of a few units.
+    let [a, b] = [measured.put_in.work, expected.put_in.work];
+    let strongest = 10.0 * model.time_step * STEPS as f64 * state.len() as f64;
+    assert!((a - b).abs() <= 1e-5 * strongest, "work: {a}, {b}\n{document:#}");
+}
+
+#[test]
+fn walls_agree_with_the_reference() {
+    for integrator in INTEGRATORS {
+        for (edges, walls) in channels() {
+            agree(&fluid(&edges, &walls, integrator, &[]));
+        }
+    }
+}
+
+/// With bonds and with a body force, whose work over a drift that a wall has reflected is that of both its momenta.
+#[test]
+fn walls_beside_others_agree_with_the_reference() {
+    let bonds = json!({"type": "bonds", "pairs": [[0, 1], [1, 2]], "potential": {"type": "harmonic", "stiffness": 40}});
+    for (number, integrator) in INTEGRATORS.iter().enumerate() {
+        let (edges, walls) = &channels()[number % 4];
+        let force = json!({"type": "body-force", "force": &[30.0, -1.0, 4.0][..edges.len()]});
+        let mut document = fluid(edges, walls, integrator, &[force, bonds.clone()]);
+        let last = edges.len() - 1;
+        let near = |shift: f64| {
+            (0..edges.len()).map(|axis| if axis == last { 2.0 + shift } else { 1.0 }).collect::<Vec<f64>>()
+        };
+        document["particles"][0]["placement"] = json!({"type": "lattice"});
+        document["particles"].as_array_mut().unwrap().insert(
+            0,
+            json!({"species": "light", "placement": {"type": "listed", "positions": [near(0.0), near(0.6), near(-0.6)]}}),
+        );
+        agree(&document);
+    }
+}
+
+/// A particle alone in a box with specular walls is where it would be in a row of mirrored boxes, to the last place.
+#[test]
+fn a_free_particle_is_mirrored() {
+    for integrator in INTEGRATORS {
+        for edges in [vec![7.0, 3.0], vec![7.0, 3.0, 5.0]] {
+            let walls = json!({"x": {"reflection": "specular"}, "y": {"reflection": "specular"}});
+            let mut document = fluid(&edges, &walls, integrator, &[]);
+            let (place, velocity) = (&[3.0, 0.25, 2.5][..edges.len()], &[1.75, -23.5, 3.25][..edges.len()]);
+            document["interactions"] = json!([]);
+            document["temperature"] = json!(0);
+            document["particles"] = json!([{"species": "one",
+                "placement": {"type": "listed", "positions": [place]},
+                "velocities": {"type": "listed", "velocities": [velocity]}}]);
+            let scene = read(&document);
+            let (model, state) = start(&scene);
+            let ends = model.units.ends();
+            let implementations: [Box<dyn Implementation>; 2] =
+                [Box::new(Device::new(&scene)), reference_of_particles(model.clone(), state.clone())];
+            let drift = |axis: usize| {
+                let momentum = f64::from(state.momenta[0][axis]) * model.units.momentum;
+                (momentum * model.time_step / model.units.lengths[axis] * 4_294_967_296.0).round_ties_even() as i64
+            };
+            for mut implementation in implementations {
+                for step in 1..=60_i64 {
+                    implementation.step(1);
+                    let found = implementation.state();
+                    between_walls(&scene, &found);
+                    for axis in 0..edges.len() {
+                        let unfolded = i64::from(state.positions[0][axis]) + step * drift(axis);
+                        let expected = match i64::from(ends[axis]) {
+                            0 => unfolded.rem_euclid(1 << 32),
+                            end if unfolded.rem_euclid(2 * end) < end => unfolded.rem_euclid(2 * end),
+                            end => 2 * end - 1 - unfolded.rem_euclid(2 * end),
+                        };
+                        let off = (i64::from(found.positions[0][axis]) - expected).abs();
+                        // Single precision rounds drifts, the same way in every step.
+                        let allowed = if implementation.name() == "device" {
+                            step * (1 + drift(axis).abs() / (1 << 22))
+                        } else {
+                            0
+                        };
+                        assert!(off <= allowed, "{} step {step} axis {axis}: {off} off", implementation.name());
+                    }
+                    assert_eq!(found.exchanged_momentum(), state.total_momentum());
+                    let speed = |axis: usize| found.momenta[0][axis].abs();
+                    assert!((0..3).all(|axis| speed(axis) == state.momenta[0][axis].abs()));
+                }
+            }
+        }
+    }
+}
+
+/// A wall that moves gives twice its momentum to what it reverses, and takes up the rest, to the last bit.
+#[test]
+fn a_moving_wall_reverses_velocities_relative_to_its_own() {
+    for integrator in INTEGRATORS {
+        let walls = json!({"z": {"upper_velocity": [1.5, -0.5, 0]}});
+        let mut document = fluid(&[5.0, 5.0, 5.0], &walls, integrator, &[]);
+        document["interactions"] = json!([]);
+        document["temperature"] = json!(0);
+        document["particles"] = json!([{"species": "one", "mass": 2,
+            "placement": {"type": "listed", "positions": [[1.0, 2.0, 4.95]]},
+            "velocities": {"type": "listed", "velocities": [[1.0, 0.25, 5.0]]}}]);
+        let scene = read(&document);
+        let (model, state) = start(&scene);
+        let implementations: [Box<dyn Implementation>; 2] =
+            [Box::new(Device::new(&scene)), reference_of_particles(model.clone(), state.clone())];
+        for mut implementation in implementations {
+            implementation.step(1);
+            let found = implementation.state();
+            let name = implementation.name();
+            let velocity = found.momenta[0].map(|units| f64::from(units) * model.units.momentum / 2.0);
+            assert_eq!(velocity, [2.0 * 1.5 - 1.0, 2.0 * -0.5 - 0.25, -5.0], "{name}");
+            // Half of the drift of .1 is over when the particle meets the wall.
+            let place = model.units.position(found.positions[0]);
+            let expected = [1.0 + 0.01 * (1.0 + 2.0), 2.0 + 0.01 * (0.25 - 1.25), 4.95];
+            for axis in 0..3 {
+                assert!((place[axis] - expected[axis]).abs() < 1e-7, "{name} {axis}: {place:?}");
+            }
+            let taken = found.walls[1].momentum().map(|units| units as f64 * model.units.momentum);
+            assert_eq!(taken, [2.0 * (1.0 - 2.0), 2.0 * (0.25 + 1.25), 2.0 * 10.0], "{name}");
+            assert_eq!(found.walls[0].momentum(), [0; 3], "{name}");
+        }
+    }
+}
+
+/// Without friction the energy of a fluid changes by the work of walls and forces, as far as the leapfrog scheme keeps energies: a part of a
+/// thousand here.
+#[test]
+fn energy_is_the_work_that_was_done() {
+    let force = json!({"type": "body-force", "force": [2.0, 0, 0]});
+    let walls = json!({"z": {"lower_velocity": [-1.0, 0, 0], "upper_velocity": [1.0, 0, 0]}});
+    for integrator in [&INTEGRATORS[0], &INTEGRATORS[1], &INTEGRATORS[3]] {
+        let mut document = fluid(&[5.0, 4.0, 4.5], &walls, integrator, std::slice::from_ref(&force));
+        document["interactions"][0]["friction"] = json!(0);
+        document["particles"][0]["placement"] = json!({"type": "lattice"});
+        document["time"]["step"] = json!(0.002);
+        document["output"]["energies"]["every"] = json!(100);
+        let scene = read(&document);
+        let (model, state) = start(&scene);
+        let implementations: [Box<dyn Implementation>; 2] =
+            [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
+        for mut implementation in implementations {
+            let first = implementation.observe();
+            implementation.step(500);
+            let last = implementation.observe();
+            let gained = last.total_energy() - first.total_energy();
+            let [walls, forces] = [last.on_walls.work, last.put_in.work];
+            let name = implementation.name();
+            assert!(walls.abs() > 20.0 && forces.abs() > 5.0, "{walls}, {forces}: too little to say something");
+            assert!((gained - walls - forces).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {walls} {forces}");
+        }
+    }
+}
