@@ -12,7 +12,7 @@ pub struct Grid {
     pub cells: [u32; 3],
     /// On each axis, the prefilter sees the box divided by two to this power.
     pub windows: [u32; 3],
-    /// Length of a window unit on each axis, relative to x; 0 on an axis with a single cell.
+    /// Length of a window unit on each axis, relative to x; 0 where the prefilter does not look: on another axis with three cells or one.
     pub ratios: [f64; 3],
     /// Square of the prefilter's reach in window units of x.
     pub reach_squared: f64,
@@ -54,7 +54,9 @@ impl Grid {
             std::array::from_fn(|axis| (cells[axis] / if axis == 0 { 8 } else { 4 }).max(1).ilog2());
         let unit: [f64; 3] = std::array::from_fn(|axis| units.lengths[axis] / 2_f64.powi(32 + windows[axis] as i32));
         let ratios: [f64; 3] = std::array::from_fn(|axis| {
-            if axis < dimension && (axis == 0 || cells[axis] > 1) { unit[axis] / unit[0] } else { 0.0 }
+            // Across three cells, the neighbours of a row are as wide as the box: rounding would take what is at one of their ends to the
+            // other.
+            if axis < dimension && (axis == 0 || cells[axis] > 3) { unit[axis] / unit[0] } else { 0.0 }
         });
         let diagonal: f64 =
             (0..dimension).map(|axis| (2_f64.powi(32 - bits[axis] as i32) * ratios[axis]).powi(2)).sum::<f64>().sqrt();

@@ -617,3 +617,26 @@ fn room_for_copies_is_exact_for_a_fluid_too() {
         }
     }
 }
+
+/// In a box of three cells across rows, both ends of a pair at the far ends of two cells see each other: momentum is kept.
+#[test]
+fn pairs_at_the_ends_of_cells_see_each_other() {
+    for (box_, [first, second]) in [
+        ("space.box=[3,3,3]", ["[1.5,1.0001,1.5]", "[1.5,0.0015,1.5]"]),
+        ("space.box=[3,3,3]", ["[1.5,1.5,2.0001]", "[1.5,1.5,1.0015]"]),
+        ("space.box=[4,3]", ["[1.5,1.0001]", "[1.5,0.0015]"]),
+    ] {
+        let particles = format!(
+            r#"particles=[{{"species":"A","placement":{{"type":"listed","positions":[{first},{second}]}},"velocities":{{"type":"rest"}}}}]"#
+        );
+        let scene = fluid(&[box_, &particles, "temperature=0", "time.step=0.02"]);
+        let (_, state) = start(&scene);
+        for traversal in traversals() {
+            let mut engine = engine(&scene, &state, Options { traversal: Some(traversal), ..Options::default() });
+            engine.advance(30, 10).unwrap();
+            let last = engine.state().unwrap();
+            assert_ne!(last.momenta[0], [0; 3], "{box_}: they do not meet");
+            assert_eq!(last.total_momentum(), [0; 3], "{box_}");
+        }
+    }
+}
