@@ -125,7 +125,9 @@ impl From<StudyError> for Failure {
             StudyError::Scene(error) => error.into(),
             StudyError::Gpu(error) => error.into(),
             StudyError::Common(error) => error.into(),
-            StudyError::Interrupted { .. } => Self::interrupted(error.to_string()),
+            StudyError::Interrupted { .. } | StudyError::InterruptedShard { .. } => {
+                Self::interrupted(error.to_string())
+            }
             StudyError::Variants { .. } => Self::usage(format!(
                 "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
             )),

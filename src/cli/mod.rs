@@ -5,6 +5,7 @@ mod adapters;
 mod check;
 mod failure;
 mod interruption;
+mod launcher;
 mod plot;
 mod print;
 mod progress;
@@ -74,9 +75,29 @@ enum Command {
     Adapters(adapters::Arguments),
 }
 
+impl Command {
+    /// Refuses to be one of several copies, unless these write nothing or know of each other.
+    fn check_alone(&self) -> Result<(), Failure> {
+        match self {
+            Self::Sweep(arguments) if arguments.is_shard() => Ok(()),
+            Self::Run(_)
+            | Self::Resume(_)
+            | Self::Sweep(_)
+            | Self::Tradeoff(_)
+            | Self::Stability(_)
+            | Self::Plot(_) => launcher::refuse_copies(),
+            Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
+        }
+    }
+}
+
 /// Reads the command line, executes the command and turns a failure into a message and an exit code.
 pub fn main() -> ExitCode {
     let command = Arguments::parse().command;
+    if let Err(failure) = command.check_alone() {
+        line(&format!("{}{failure}", failure.prefix()));
+        return ExitCode::from(failure.exit_code());
+    }
     if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
         prepare_environment();
     }

@@ -96,12 +96,23 @@ impl StudyArguments {
         runs: impl Fn(usize) -> String,
         execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
     ) -> Result<O, Failure> {
-        let adapter = self.how.adapter.choice();
+        self.execute_on(&self.how.adapter.choice(), study, title, runs, execute)
+    }
+
+    /// The same on an adapter that is not the one of the arguments.
+    pub fn execute_on<R: Record, O>(
+        &self,
+        adapter: &AdapterChoice,
+        study: StudyRun<R>,
+        title: &str,
+        runs: impl Fn(usize) -> String,
+        execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
+    ) -> Result<O, Failure> {
         let executed = if self.how.quiet {
-            execute(study, &adapter, &mut |_| {})
+            execute(study, adapter, &mut |_| {})
         } else {
             let mut reporter = Reporter::new(title, R::KIND);
-            let executed = execute(study, &adapter, &mut |event| reporter.show(&event, &runs));
+            let executed = execute(study, adapter, &mut |event| reporter.show(&event, &runs));
             reporter.clear();
             executed
         };

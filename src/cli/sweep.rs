@@ -1,10 +1,11 @@
 //! `mesoscope sweep`: runs of one scene that differ in a few values.
 
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::printable;
 use mesoscope::run::RunError;
-use mesoscope::sweep::{Look, Sweep, SweepOutcome, SweepRun};
+use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
 
-use super::{Failure, StudyArguments, VariantArguments, print, sweep_report, whole_number};
+use super::{Failure, StudyArguments, VariantArguments, launcher, print, sweep_report, whole_number};
 
 /// Run variants of a scene, and compare them in one table and one plot per quantity
 #[derive(Debug, clap::Args)]
@@ -16,9 +17,11 @@ Examples:
   mesoscope sweep dpd-fluid --vary interactions.0.friction=1,4.5 --also interactions.0.friction=0,temperature=0
   mesoscope sweep --resume dpd-fluid-sweep               finish a sweep that was interrupted
   mesoscope sweep --resume dpd-fluid-sweep --relative    the same plots, every quantity over its first value
+  mesoscope sweep dpd-fluid --vary seed=1,2,3,4 --shard 1/2    its first half: seeds 1 and 3; 2/2 is the other
 
 Every variant has a directory of its own, `friction=4.5`, which `mesoscope resume` and `mesoscope plot` understand.
-A variant that becomes unstable does not stop the others; the exit code is then 4.")]
+A variant that becomes unstable does not stop the others; the exit code is then 4. Shards run at the same time, on several
+machines if they share the directory; `mesoscope sweep --resume DIR` gathers what they left, and runs what is missing.")]
 pub struct Arguments {
     #[command(flatten)]
     variants: VariantArguments,
@@ -39,12 +42,53 @@ pub struct Arguments {
     #[arg(long, value_name = "QUANTITY,…", value_delimiter = ',')]
     plot: Vec<String>,
 
+    /// Run one of several parts of the variants: of 16 shards, 3/16 has variants 3, 19, 35, … in their order, counted from 1.
+    /// `auto` takes the numbers from Slurm, Grid Engine or a launcher of MPI. Shards leave no table and no plots
+    #[arg(long, value_name = "I/N|auto", value_parser = shard, conflicts_with_all = ["resume", "force"])]
+    shard: Option<ShardArgument>,
+
     #[command(flatten)]
     study: StudyArguments,
 }
 
+/// Which shard.
+#[derive(Debug, Clone, Copy)]
+enum ShardArgument {
+    /// This one.
+    Given(Shard),
+    /// The one that the environment says.
+    Auto,
+}
+
+fn shard(text: &str) -> Result<ShardArgument, String> {
+    match text {
+        "auto" => Ok(ShardArgument::Auto),
+        text => Shard::parse(text).map(ShardArgument::Given).map_err(|accepted| format!("{accepted}, or `auto`")),
+    }
+}
+
+impl Arguments {
+    /// Whether it may be one of several copies.
+    pub fn is_shard(&self) -> bool {
+        self.shard.is_some()
+    }
+
+    /// The adapter of a shard: copies on one machine take different ones, where there are several.
+    fn adapter(&self) -> AdapterChoice {
+        match (self.study.how.adapter.choice(), launcher::local_rank()) {
+            (AdapterChoice::Best, Some(rank)) => AdapterChoice::Share(rank),
+            (choice, _) => choice,
+        }
+    }
+}
+
 /// Runs the variants.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let shard = match arguments.shard {
+        None => None,
+        Some(ShardArgument::Given(shard)) => Some(shard),
+        Some(ShardArgument::Auto) => Some(launcher::shard()?),
+    };
     let Arguments { variants: VariantArguments { vary, also }, study, .. } = arguments;
     let mut run: SweepRun = study.study(|scene| {
         let seed = arguments.seed.map(|seed| format!("seed={seed}"));
@@ -56,28 +100,37 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         run = run.with_look(look);
     }
     let (sweep, directory, quiet) = (run.request().clone(), printable::path(run.directory()), study.how.quiet);
+    let is_own = |place: usize| shard.is_none_or(|shard| shard.has(place));
+    let variants: Vec<&Variant> =
+        sweep.variants().iter().enumerate().filter(|(place, _)| is_own(*place)).map(|(_, variant)| variant).collect();
     if !quiet {
-        sweep_report::warn(&sweep);
+        sweep_report::warn(&variants);
     }
     let title = sweep.variants().first().map_or("", |variant| &variant.scene.title);
-    let outcome = study.execute(run, title, |waiting| in_words(&sweep, waiting), SweepRun::execute)?;
+    let in_words = |waiting| in_words(&sweep, shard, variants.len(), waiting);
+    let outcome = match shard {
+        None => study.execute(run, title, in_words, SweepRun::execute)?,
+        Some(shard) => study.execute_on(&arguments.adapter(), run, title, in_words, |run, adapter, observer| {
+            run.execute_shard(shard, adapter, observer)
+        })?,
+    };
     if !quiet {
-        sweep_report::warn_of_results(&sweep, &outcome);
+        sweep_report::warn_of_results(&variants, &outcome);
         print(&sweep_report::results(&outcome, &directory))?;
     }
     failures(&outcome)
 }
 
 /// How many variants there are, and of what.
-fn in_words(sweep: &Sweep, waiting: usize) -> String {
+fn in_words(sweep: &Sweep, shard: Option<Shard>, all: usize, waiting: usize) -> String {
     let keys: Vec<&str> = sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
-    let all = sweep.variants().len();
     let count = if waiting == all {
         format!("{all} variant{}", if all == 1 { "" } else { "s" })
     } else {
         format!("{waiting} of {all} variants left")
     };
-    format!("{count} of {}", keys.join(", "))
+    let part = shard.map_or_else(String::new, |shard| format!(", shard {shard}"));
+    format!("{count} of {}{part}", keys.join(", "))
 }
 
 /// What failed, with the exit code of the worst.

@@ -3,7 +3,7 @@
 use mesoscope::families;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::run::printed_mean;
-use mesoscope::sweep::{Sweep, SweepOutcome, VariantState};
+use mesoscope::sweep::{SweepOutcome, Variant, VariantState};
 use serde_json::{Map, Value};
 
 use super::line;
@@ -34,9 +34,9 @@ impl<'a> Texts<'a> {
 }
 
 /// Warnings about the scenes.
-pub fn warn(sweep: &Sweep) {
+pub fn warn(variants: &[&Variant]) {
     let mut texts = Texts::default();
-    for variant in sweep.variants() {
+    for variant in variants {
         for notice in &variant.notices {
             texts.add(format!("note: {notice}"), &variant.name);
         }
@@ -44,13 +44,13 @@ pub fn warn(sweep: &Sweep) {
             texts.add(format!("warning: {warning}"), &variant.name);
         }
     }
-    texts.print(sweep.variants().len());
+    texts.print(variants.len());
 }
 
 /// What the runs themselves gave rise to; means that include the way to equilibrium are marked in the table.
-pub fn warn_of_results(sweep: &Sweep, outcome: &SweepOutcome) {
+pub fn warn_of_results(variants: &[&Variant], outcome: &SweepOutcome) {
     let mut texts = Texts::default();
-    for (variant, summary) in sweep.variants().iter().zip(&outcome.summary.variants) {
+    for (variant, summary) in variants.iter().zip(&outcome.summary.variants) {
         let of_scene = families::warnings(&variant.scene);
         let before = variant.notices.iter().chain(&of_scene).map(ToString::to_string);
         let known: Vec<String> = before.chain(summary.unequilibrated.as_ref().map(ToString::to_string)).collect();
@@ -58,7 +58,7 @@ pub fn warn_of_results(sweep: &Sweep, outcome: &SweepOutcome) {
             texts.add(format!("warning: {warning}"), &variant.name);
         }
     }
-    texts.print(sweep.variants().len());
+    texts.print(variants.len());
 }
 
 /// The table at the end and the files written.

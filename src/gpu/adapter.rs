@@ -8,6 +8,9 @@ pub enum AdapterChoice {
     /// The best available: a discrete GPU before an integrated one before any other; software last.
     #[default]
     Best,
+    /// One of those that are as good as the best, for a process that shares a machine with others: the one of this number, from 0, and
+    /// from the first again beyond the last.
+    Share(usize),
     /// A software adapter.
     Software,
     /// The adapter with this number in [`list_adapters`], or the first whose name contains this text, ignoring case.
@@ -128,6 +131,12 @@ pub fn list_adapters() -> Vec<AdapterDescription> {
     adapters().iter().map(|adapter| AdapterDescription::new(&adapter.get_info())).collect()
 }
 
+/// The place of an adapter among those of the kind of the first. One that two backends offer is counted once.
+fn share<K: PartialEq>(kinds: &[K], number: usize) -> Option<usize> {
+    let alike: Vec<usize> = (0..kinds.len()).filter(|place| kinds[*place] == kinds[0]).collect();
+    alike.get(number.checked_rem(alike.len())?).copied()
+}
+
 pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> {
     let adapters = adapters();
     if adapters.is_empty() {
@@ -136,6 +145,11 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
     let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     let position = match choice {
         AdapterChoice::Best => Some(0),
+        AdapterChoice::Share(number) => {
+            let kinds: Vec<_> =
+                adapters.iter().map(wgpu::Adapter::get_info).map(|info| (rank(&info), info.backend)).collect();
+            share(&kinds, *number)
+        }
         AdapterChoice::Software => {
             adapters.iter().position(|adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu)
         }
@@ -157,4 +171,18 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
             .collect::<Vec<_>>()
             .join(", "),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::share;
+
+    #[test]
+    fn processes_of_a_machine_share_the_adapters_of_the_best_kind() {
+        let kinds = [(0, "vulkan"), (0, "vulkan"), (0, "dx12"), (0, "vulkan"), (4, "vulkan")];
+        let found: Vec<_> = (0..5).map(|number| share(&kinds, number)).collect();
+        assert_eq!(found, [0, 1, 3, 0, 1].map(Some));
+        assert_eq!(share(&[0], 7), Some(0));
+        assert_eq!(share::<u8>(&[], 0), None);
+    }
 }

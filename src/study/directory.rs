@@ -2,6 +2,7 @@
 
 use super::kind::{KINDS, Kind};
 use super::record::Record;
+use super::shard_places;
 use crate::output::{OutputError, RunDirectory};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -16,6 +17,7 @@ use std::path::{Component, Path, PathBuf};
 pub(super) fn create<R: Record>(path: &Path, study: &R, force: bool) -> Result<RunDirectory, OutputError> {
     let in_the_way = check(path, study, force)?;
     let directory = RunDirectory::make(path)?;
+    shard_places::check_idle(path, |_| true)?;
     let earlier = KINDS.into_iter().flat_map(|kind| runs_of(kind, path));
     let names = earlier.chain(study.runs().into_iter().map(str::to_owned));
     let of_runs = names.filter(|name| is_plain(name)).map(|name| path.join(name));
@@ -23,6 +25,7 @@ pub(super) fn create<R: Record>(path: &Path, study: &R, force: bool) -> Result<R
     // Nothing is removed where a run is under way.
     let of_runs = of_runs.into_iter().map(RunDirectory::claim).collect::<Result<Vec<_>, _>>()?;
     directory.clear(force)?;
+    shard_places::clear(path)?;
     for run in of_runs {
         run.clear(true)?;
         let path = run.path().to_path_buf();

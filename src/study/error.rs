@@ -1,6 +1,7 @@
 //! What can go wrong with a study as a whole.
 
 use super::kind::Kind;
+use super::shard::Shard;
 use crate::gpu::GpuError;
 use crate::output::OutputError;
 use crate::printable;
@@ -87,6 +88,28 @@ pub enum StudyError {
         progress: String,
         /// Its directory.
         directory: PathBuf,
+    },
+    /// A shard was asked to stop before its end.
+    #[error("interrupted after {finished} of {all} variants of shard {shard}; the same command goes on with it")]
+    InterruptedShard {
+        /// The shard.
+        shard: Shard,
+        /// Its variants that are finished.
+        finished: usize,
+        /// All of its variants.
+        all: usize,
+    },
+    /// The directory holds a study that was asked for in another way than this shard.
+    #[error(
+        "`{}` is of another {} than this shard: give all shards the same scene and options, or choose another directory with --out",
+        printable::path(path),
+        kind.noun
+    )]
+    OtherStudy {
+        /// The kind of study.
+        kind: &'static Kind,
+        /// The summary in the directory.
+        path: PathBuf,
     },
     /// The adapter cannot be used.
     #[error(transparent)]

@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use super::kind::Kind;
+use super::shard_places;
 use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, write_atomically};
 use crate::state_file::checkpoint::Fnv;
@@ -122,15 +123,11 @@ pub(crate) fn load<R: Record>(directory: &Path) -> Result<R, StudyError> {
     })
 }
 
-/// Opens the directory of a study, which belongs to this process from then on: its summary and what it was asked for.
+/// Refuses a summary that a later version of the program wrote.
 ///
 /// # Errors
-/// [`StudyError`] if there is none, if another process writes there, and if the summary or a picture is not of this study.
-pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunDirectory), StudyError> {
-    // Nothing is written where there is no study, no lock either.
-    load::<R>(directory)?;
-    let claimed = RunDirectory::claim(directory)?;
-    let record: R = load(directory)?;
+/// [`StudyError::Later`], [`StudyError::Changed`] where it names no version.
+pub(crate) fn check_version<R: Record>(record: &R, directory: &Path) -> Result<(), StudyError> {
     let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
     let Some(version) = Version::parse(record.version()) else {
         return Err(StudyError::Changed { kind, path, reasons: vec!["has a `mesoscope_version` that is no version"] });
@@ -138,6 +135,21 @@ pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version.is_later(&own)) {
         return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
     }
+    Ok(())
+}
+
+/// Opens the directory of a study, which belongs to this process from then on: its summary and what it was asked for.
+///
+/// # Errors
+/// [`StudyError`] if there is none, if another process or a shard of it writes there, and if the summary or a picture is not of this study.
+pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunDirectory), StudyError> {
+    // Nothing is written where there is no study, no lock either.
+    load::<R>(directory)?;
+    let claimed = RunDirectory::claim(directory)?;
+    let record: R = load(directory)?;
+    shard_places::check_idle(directory, |_| true)?;
+    check_version(&record, directory)?;
+    let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
     let is_as_asked = is_as_asked(kind, &path)?;
     let request = match record.request() {
         Err(_) if !is_as_asked => return Err(StudyError::Changed { kind, path, reasons: vec![ASKS_ELSE] }),

@@ -9,6 +9,8 @@
 //! adapter, each with a device of its own. Means over time are plotted against what is varied (`sweep-means.png`); where the
 //! seed is among the keys, they are means over seeds, with errors from their scatter, and stand in `sweep-averages.csv` too.
 //!
+//! A [`Shard`] is a part of the variants for a process of its own ([`SweepRun::execute_shard`]), on another machine perhaps.
+//!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::sweep::{self, Look, Sweep, SweepRun};
@@ -37,11 +39,12 @@ mod means_chart;
 mod observables;
 mod plots;
 mod run;
+mod shard;
 mod summary;
 mod table;
 mod variant;
 
-pub use crate::study::{Setting, Sweep, Variant, Variation};
+pub use crate::study::{Setting, Shard, Sweep, Variant, Variation};
 pub use averages::SeedAverage;
 pub use look::Look;
 pub(crate) use observables::numbers_of;

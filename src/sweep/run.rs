@@ -52,7 +52,7 @@ impl StudyRun<SweepSummary> {
         }
         self.summarise()?;
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });
-        let failures = self.run_all(&waiting, jobs, adapter, observer)?;
+        let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
         observer(StudyEvent::Finishing);
         let style = plots::style(&self.request);
         let drawn = plots::draw(&place, &self.request, &self.summary, &style, &gpu, &|| self.proceed())?;
@@ -63,7 +63,7 @@ impl StudyRun<SweepSummary> {
     }
 
     /// Opens an adapter with the capacity for the largest of these variants, and says how many are to run at once.
-    fn open_adapter(&self, adapter: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, usize), StudyError> {
+    pub(super) fn open_adapter(&self, adapter: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, usize), StudyError> {
         let scenes = waiting.iter().map(|number| &self.request.variants()[*number].scene);
         let Some(scene) = study::largest(scenes) else {
             // Nothing to run: plots take little room.
@@ -74,12 +74,14 @@ impl StudyRun<SweepSummary> {
         Ok((gpu, jobs))
     }
 
-    fn run_all(
+    /// Runs variants; `note` writes down after each how far the sweep is.
+    pub(super) fn run_all(
         &mut self,
         waiting: &[usize],
         jobs: usize,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, SweepSummary>,
+        note: &dyn Fn(&mut Self) -> Result<(), StudyError>,
     ) -> Result<Vec<(usize, RunError)>, StudyError> {
         let member = |number: &usize| {
             let variant = self.request.variants()[*number].clone();
@@ -98,7 +100,7 @@ impl StudyRun<SweepSummary> {
                     failures.push((number, error));
                 }
             }
-            let saved = sweep.summarise();
+            let saved = note(sweep);
             let ended = &sweep.summary.variants[number];
             observer(StudyEvent::Ended { run: &ended.name, ended });
             saved

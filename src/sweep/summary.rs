@@ -1,7 +1,6 @@
 //! The summary of a sweep, `sweep.json`.
 
 use super::averages::{SeedAverage, averages};
-use super::files;
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use crate::output::summary::AdapterSummary;
@@ -65,6 +64,20 @@ impl SweepSummary {
     pub(super) fn waiting(&self) -> Vec<usize> {
         let variants = self.variants.iter().enumerate();
         variants.filter(|(_, variant)| variant.state != VariantState::Finished).map(|(number, _)| number).collect()
+    }
+
+    /// Whether it was asked for in the same way as another one, which this version of the program made, and has its runs.
+    pub(super) fn is_of(&self, other: &Self) -> bool {
+        let asked = |summary: &Self| {
+            let Self { vary, also, set, steps, base, .. } = summary;
+            (vary.clone(), also.clone(), set.clone(), *steps, base.clone())
+        };
+        // Where no scene has a file, only one that was not read from its own summary knows where files would be.
+        let have_none = self.state_files.is_empty() && other.state_files.is_empty();
+        let same_files = have_none || self.state_files == other.state_files;
+        let same_names = self.variants.iter().map(|v| &v.name).eq(other.variants.iter().map(|v| &v.name));
+        let same_ids = !self.is_of_this_version() || self.ids().eq(other.ids());
+        asked(self) == asked(other) && same_files && same_names && same_ids && self.sweep_id == Id::of_sweep(self.ids())
     }
 
     fn ids(&self) -> impl Iterator<Item = Id> {
@@ -132,11 +145,7 @@ impl Record for SweepSummary {
         (new.sweep_id, new.adapter, new.plots) = (self.sweep_id, self.adapter, self.plots);
         for ((entry, earlier), variant) in new.variants.iter_mut().zip(self.variants).zip(sweep.variants()) {
             entry.run_id = earlier.run_id;
-            if let Some(run) =
-                study::finished(&directory.file(&variant.name), &variant.scene, entry.run_id, files::SUMMARY)
-            {
-                entry.finish(&run);
-            }
+            entry.take_up(&directory.file(&variant.name), &variant.scene);
         }
         new
     }

@@ -1,11 +1,14 @@
 //! What came out of one variant of a sweep.
 
+use super::files;
 use crate::output::summary::Unequilibrated;
 use crate::output::{Id, Summary};
-use crate::study::{Setting, Variant};
+use crate::scene::Scene;
+use crate::study::{self, Setting, Variant};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::fmt;
+use std::path::Path;
 
 /// What came out of one variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -120,6 +123,13 @@ impl VariantSummary {
         self.results.clone_from(&run.results);
         self.unequilibrated.clone_from(&run.unequilibrated);
         self.warnings.clone_from(&run.warnings);
+    }
+
+    /// Takes over what its run in a directory says, if it is finished.
+    pub(super) fn take_up(&mut self, directory: &Path, scene: &Scene) {
+        if let Some(run) = study::finished(directory, scene, self.run_id, files::SUMMARY) {
+            self.finish(&run);
+        }
     }
 
     /// Notes a failure.

@@ -14,6 +14,7 @@ mod output;
 mod particles;
 mod schema;
 mod shallow_water;
+mod shards;
 mod stability;
 mod states;
 mod studies;
