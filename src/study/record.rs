@@ -12,8 +12,8 @@ use serde_json::Value;
 use std::fmt::{Debug, Display};
 use std::path::Path;
 
-/// What a summary says that is not what was asked for when it was written.
-pub(crate) const ASKS_ELSE: &str = "asks for something else than what its id stands for";
+/// What is said of a summary whose request was edited.
+pub(crate) const ASKS_ELSE: &str = "asks for something else than at its beginning";
 
 /// The key of the checksum of what was asked for.
 const CHECKSUM: &str = "request_checksum";
@@ -157,7 +157,7 @@ pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     };
     let mut reasons = record.misfits(&request);
     if !is_as_asked && !reasons.contains(&ASKS_ELSE) {
-        reasons.insert(0, ASKS_ELSE);
+        reasons.push(ASKS_ELSE);
     }
     if !reasons.is_empty() {
         return Err(StudyError::Changed { kind, path, reasons });
