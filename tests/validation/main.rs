@@ -5,6 +5,7 @@
 mod support;
 
 mod channels;
+mod phases;
 mod published;
 mod readers;
 mod states;
