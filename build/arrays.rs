@@ -92,6 +92,7 @@ pub const ARRAYS: &[Array] = &[
     array("reported", "array<Particle>", "particles of the last report, by id"),
     array("reported_forces", "array<vec4<i32>>", "impulses on each particle at a report, by id"),
     array("reported_momenta", "array<vec4<i32>>", "momenta where the temperature is measured, by id"),
+    array("reported_stresses", "array<i32>", "virials of each particle at a report, two tensors by id"),
     array("partial_sums", "array<vec2<u32>>", "sums of each workgroup at a report"),
     array(
         "samples",
@@ -127,6 +128,8 @@ pub const ARRAYS: &[Array] = &[
     stand_in("acceleration_count_samples", "samples", "histograms of accelerations waiting to be read"),
     stand_in("layer_sums", "histogram", "sums over the particles of each layer across an axis"),
     stand_in("layer_samples", "samples", "sums over layers waiting to be read"),
+    stand_in("stress_sums", "partial_sums", "sums of stresses of each workgroup"),
+    stand_in("stress_samples", "samples", "rows of sums of stresses waiting to be read"),
     // Particles of shallow water.
     either("particle_masses", "masses and ids of the particles"),
     either("tidied", "particles in order of cells, for a moment"),

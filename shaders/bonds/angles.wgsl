@@ -58,7 +58,8 @@ fn laplacian_of_cosine(corner: Corner) -> f32 {
 }
 
 // Slot bonds/angle_report: `note_angle` gets each angle and the impulses on its ends, `finish_angles` ends the workgroup.
-// Default: off, a step without a report. The plan chooses `observed` for reports.
+// Default: off, a step without a report. The plan chooses `observed` for reports,
+// `stress` for an analysis of the stress.
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {}
 fn finish_angles(group: u32, lane: u32) {}
 

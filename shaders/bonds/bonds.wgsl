@@ -87,7 +87,7 @@ fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = sel
 
 // Slot bonds/bond_report: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
 // Default: off, a step without a report. Plans choose `observed` for reports; of split steps `motion` where the motion is
-// measured, and `configuration` half a drift later.
+// measured, and `configuration` half a drift later; for an analysis of the stress `stress`.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
 fn finish_bonds(group: u32, lane: u32) {}
 

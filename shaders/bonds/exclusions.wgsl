@@ -14,13 +14,13 @@ fn visit_excluded(index: u32) {
     let impulse = Steps(round(repulsion.impulse * contact.direction));
     add_kick(slot, -impulse);
     add_kick(other_slot, impulse);
-    note_excluded(repulsion, contact);
+    note_excluded(pair, repulsion, contact);
 }
 
-// Slot bonds/exclusion_report: `note_excluded` gets the repulsion of each pair, `finish_exclusions` ends the workgroup.
+// Slot bonds/exclusion_report: `note_excluded` gets each pair, by id, and its repulsion, `finish_exclusions` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports; of split steps `motion` where the motion is
-// measured, and `configuration` half a drift later.
-fn note_excluded(repulsion: Repulsion, contact: Contact) {}
+// measured, and `configuration` half a drift later; for an analysis of the stress `stress`.
+fn note_excluded(pair: vec2<u32>, repulsion: Repulsion, contact: Contact) {}
 fn finish_exclusions(group: u32, lane: u32) {}
 
 fn note_virial_of_excluded(repulsion: Repulsion, contact: Contact) {

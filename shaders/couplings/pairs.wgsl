@@ -46,7 +46,8 @@ fn visit_pairs_of(slot: u32) {
 fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients { return c; }
 
 // Slot couplings/pair_report: `note_pair` gets each pair with its coefficients and the impulse of all forces, `finish_pairs` ends the
-// workgroup. Default: off, a step without a report. The plan chooses `observed` for reports.
+// workgroup. Default: off, a step without a report. The plan chooses `observed` for reports,
+// `stress` for an analysis of the stress.
 fn note_pair(slot: u32, other_slot: u32, c: Coefficients, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 

@@ -49,6 +49,9 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
     pub histograms: Vec<Histogram>,
+    /// The pressure tensor and what follows from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<Stress>,
     /// Profiles of density, velocity and temperature along an axis of the box.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profiles: Option<Profiles>,
@@ -75,6 +78,7 @@ impl Output {
             (AnalysisId::Neighbours, self.neighbours.is_some()),
             (AnalysisId::ShearWave, self.shear_wave.is_some()),
             (AnalysisId::Profiles, self.profiles.is_some()),
+            (AnalysisId::Stress, self.stress.is_some()),
         ];
         let asked = keys.into_iter().filter(|(_, asked)| *asked).map(|(id, _)| id);
         let correlated = self.autocorrelations.iter().map(|asked| AnalysisId::Autocorrelation(asked.quantity));
@@ -183,6 +187,23 @@ pub struct Histogram {
     pub frame: Option<Frame>,
 }
 
+/// The pressure tensor: the momentum that particles carry, and the virials of the conservative forces and of friction and noise.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stress {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// The axis across two flat interfaces, those of a slab: their surface tension follows. Left out, none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Axis>,
+    /// Largest lag of the autocorrelation of the shear stress, in samples: the shear viscosity follows, by Green and Kubo. Left out,
+    /// none. With friction that has no memory, samples have to be those of every step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 2, max = 100_000))]
+    pub window: Option<u64>,
+}
+
 /// Averages over the particles in bins of equal width along an axis of the box, and over time.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -242,6 +263,8 @@ pub enum AnalysisId {
     ShearWave,
     /// Profiles along an axis.
     Profiles,
+    /// The pressure tensor.
+    Stress,
 }
 
 /// A table that an analysis writes, and its plot.
@@ -265,7 +288,7 @@ macro_rules! names {
 
 impl AnalysisId {
     /// All of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::RadialDistribution,
         Self::Diffusion,
         Self::ChainSizes,
@@ -280,6 +303,7 @@ impl AnalysisId {
         Self::Neighbours,
         Self::ShearWave,
         Self::Profiles,
+        Self::Stress,
     ];
 
     const fn names(self) -> (&'static str, &'static [AnalysisTable]) {
@@ -300,6 +324,7 @@ impl AnalysisId {
             Self::Neighbours => names!("neighbours"),
             Self::ShearWave => names!("shear_wave"),
             Self::Profiles => names!("profiles"),
+            Self::Stress => names!("stress": "stress", "stress_correlation"),
         }
     }
 

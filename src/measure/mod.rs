@@ -5,6 +5,7 @@ pub mod correlation;
 pub mod diffusion;
 pub mod equilibration;
 pub mod fit;
+pub mod green_kubo;
 pub mod harmonic_chain;
 pub mod histogram;
 mod line;
@@ -12,6 +13,7 @@ pub mod neighbours;
 pub mod shear_viscosity;
 pub mod shear_wave;
 pub mod statistics;
+pub mod stress;
 mod sums;
 
 pub use crate::families::shallow_water::{circulation, flow::MeshFlow};

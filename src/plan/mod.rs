@@ -78,6 +78,8 @@ pub struct Plan {
     pub time_step: f64,
     /// The force of one unit in the buffer of forces that a report leaves by id; zero where no analysis asks for them.
     pub force_unit: f64,
+    /// The virial of one unit in the buffer of stresses that a report leaves by id; zero where no analysis asks for them.
+    pub stress_unit: f64,
     /// A time step worth trying where this one turns out to be unstable.
     pub suggested_step: f64,
     /// All kernels.
@@ -129,6 +131,7 @@ impl Plan {
             seed_key: [0; 2],
             time_step: 0.0,
             force_unit: 0.0,
+            stress_unit: 0.0,
             suggested_step: 0.0,
             kernels: Vec::new(),
             constants: Vec::new(),

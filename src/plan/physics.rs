@@ -12,6 +12,8 @@ pub(crate) enum Need {
     Momenta,
     /// The forces on them.
     Forces,
+    /// The virials of what acts on them.
+    Stresses,
     /// The particles in order of cells, for pairs within a distance.
     Order,
 }

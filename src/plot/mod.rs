@@ -58,6 +58,7 @@ mod series_path;
 mod snapshot_page;
 mod species_colours;
 mod sphere_renderer;
+mod stress_charts;
 mod text;
 mod ticks;
 mod transport_charts;
@@ -82,6 +83,7 @@ pub use profile_charts::{ProfiledSpecies, profiles_chart};
 pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
+pub use stress_charts::{stress_chart, stress_correlation_chart};
 pub use text::missing_glyphs;
 pub use transport_charts::{ChainKind, Found, chain_sizes_chart, diffusion_chart, viscosity_chart};
 

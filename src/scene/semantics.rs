@@ -249,10 +249,11 @@ fn check_windows(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
     let diffusion = output.diffusion.iter().map(|asked| ("diffusion".to_owned(), asked.every, asked.window));
     let viscosity = output.viscosity.iter().map(|asked| ("viscosity".to_owned(), asked.every, asked.window));
+    let stress = output.stress.iter().filter_map(|asked| Some(("stress".to_owned(), asked.every, asked.window?)));
     let autocorrelations = output.autocorrelations.iter().enumerate();
     let autocorrelations =
         autocorrelations.map(|(index, asked)| (format!("autocorrelations[{index}]"), asked.every, asked.window));
-    for (name, every, window) in diffusion.chain(viscosity).chain(autocorrelations) {
+    for (name, every, window) in diffusion.chain(viscosity).chain(stress).chain(autocorrelations) {
         let needed = u128::from(every) * u128::from(window);
         if needed > u128::from(measured) {
             let found = format!("found {window} samples of {every} steps, {needed} steps in all");
@@ -289,6 +290,11 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
         if asked.frame.is_some() && asked.quantity == CorrelatedQuantity::Force {
             refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
         }
+    }
+    if let Some(axis) = output.stress.as_ref().and_then(|asked| asked.normal)
+        && axis as usize >= scene.space.lengths.len()
+    {
+        refuse("output.stress.normal".to_owned(), format!("found \"{}\"", axis.name()), "an axis of the box");
     }
     if let Some(asked) = &output.profiles {
         for (index, quantity) in asked.quantities.iter().enumerate() {

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::Warning;
 
 /// Analyses with windows, and the fewest samples that the schema accepts in one of them.
-const WINDOWED: [(&str, u64); 3] = [("diffusion", 2), ("viscosity", 8), ("autocorrelations", 2)];
+const WINDOWED: [(&str, u64); 4] = [("diffusion", 2), ("viscosity", 8), ("stress", 2), ("autocorrelations", 2)];
 
 /// Sets the number of steps of a scene, shortens what no longer fits and returns what that was. Values that `overrides` set stay; the
 /// checks may refuse them.

@@ -103,6 +103,7 @@ const EVERYTHING: &[&str] = &[
     r#"output.histograms=[{"quantity":"velocity","every":1},{"quantity":"speed","every":5,"bins":5},
         {"quantity":"acceleration","every":2}]"#,
     r#"output.profiles={"axis":"y","bins":3,"every":2}"#,
+    r#"output.stress={"every":3,"normal":"z"}"#,
     r#"output.trajectory={"every":6,"format":"extended-xyz"}"#,
 ];
 

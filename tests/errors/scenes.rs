@@ -323,6 +323,31 @@ fn profiles_have_an_axis_of_the_box_and_quantities_once() {
 }
 
 #[test]
+fn stresses_are_those_between_particles() {
+    let stress = |more: &str| format!(r#"output.stress={{"every":2{more}}}"#);
+    FLUID.parse(&[&stress(r#","normal":"y""#), "space.box=[10,10]"]).unwrap();
+    FLUID.refused_with(&[&stress(r#","normal":"z""#), "space.box=[10,10]"], &["output.stress.normal: found \"z\""]);
+    let fixed = r#"particles=[{"species":"A","count":3000},{"species":"B","count":9,"fixed":true}]"#;
+    FLUID.refused_with(&[&stress(""), fixed], &["output.stress: found in a scene with fixed particles"]);
+    let tethers = r#"interactions=[{"type":"tether","stiffness":1}]"#;
+    FLUID.refused_with(&[&stress(""), tethers], &["output.stress: found in a scene with tethers"]);
+    let line = [r#"particles=[{"species":"A","count":9}]"#, "interactions=[]", "space.box=[10]"];
+    FLUID.refused_with(
+        &[&[&stress("") as &str], &line[..]].concat(),
+        &["output.stress: found in a scene of one dimension"],
+    );
+    // Noise that is not sampled is missing.
+    FLUID.refused_with(&[&stress(r#","window":9"#)], &["output.stress.every: found 2; accepted: 1 with a `window`"]);
+    FLUID.parse(&[&stress(r#","window":9"#), "interactions.0.friction=0"]).unwrap();
+    FLUID.parse(&[r#"output.stress={"every":1,"window":9}"#]).unwrap();
+    FLUID.refused_with(&[r#"output.stress={"every":1,"window":101}"#], &["output.stress.window: found 101 samples"]);
+    FLUID.refused_with(
+        &[r#"output.stress={"every":1,"window":9}"#, "temperature=0"],
+        &["output.stress.window: found in a scene at a temperature of 0"],
+    );
+}
+
+#[test]
 fn steps_that_take_particles_too_far_are_refused() {
     FLUID.parse(&["temperature=9900", "interactions.0.friction=0"]).unwrap();
     FLUID.refused_with(

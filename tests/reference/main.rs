@@ -10,6 +10,7 @@ mod pair_coefficients;
 mod particles;
 mod single_steps;
 mod smoothing;
+mod stress;
 mod tessellation;
 mod voronoi;
 mod walls;

@@ -38,6 +38,7 @@ const SAMPLERS: &[&str] = &[
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
         {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
     r#"output.profiles={"axis":"x","every":2}"#,
+    r#"output.stress={"every":2}"#,
 ];
 
 fn plan_of(scene: &Scene, options: Options) -> Plan {
@@ -291,7 +292,9 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                 {{"type":"langevin","friction":1,"bath":{{"type":"memory","rate":3}}}}{all}]"#
         );
         for particles in particles {
-            let changes = [&[interactions.as_str(), particles], SAMPLERS].concat();
+            // Where particles are held there is no stress to measure.
+            let held = particles.contains("fixed").then_some("output.stress=null");
+            let changes = [&[interactions.as_str(), particles], SAMPLERS, held.as_slice()].concat();
             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }
     }
@@ -355,7 +358,7 @@ fn bond_plans() -> Vec<(String, Plan)> {
                 let interactions = format!("interactions=[{bonds}{other}]");
                 for space in ["space.box=[19,17]", "space.box=[9,10,11]"] {
                     for integrator in INTEGRATORS {
-                        let output = r#"output={"chain_sizes":{"every":1},"autocorrelations":[{"quantity":"force","every":2,"window":4},{"quantity":"velocity","every":2,"window":4}]}"#;
+                        let output = r#"output={"chain_sizes":{"every":1},"stress":{"every":1},"autocorrelations":[{"quantity":"force","every":2,"window":4},{"quantity":"velocity","every":2,"window":4}]}"#;
                         let changes = [&particles, &interactions, space, integrator, output, "time.steps=8"];
                         plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                     }

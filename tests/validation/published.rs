@@ -5,6 +5,7 @@
 use std::sync::Mutex;
 
 use mesoscope::gpu::AdapterChoice;
+use mesoscope::noise;
 use mesoscope::run::{Outcome, Simulation};
 use mesoscope::scene::Scene;
 use serde_json::Value;
@@ -327,5 +328,63 @@ fn diblock_copolymers_form_lamellae() {
         assert_eq!(after > 0.15, orders, "{after}");
         assert!(orders || after < 0.03, "{after}");
         assert!(!orders || (4.0..8.0).contains(&period), "{period}");
+    }
+}
+
+/// The viscosity of the standard fluid by Green and Kubo: .84 by the decay of shear waves and .854 by Poiseuille flow, each to some
+/// 2 %. The sum up to a lag of two units of time scatters by 2√(2/(5 T)), 2 % of it for T = 4000.
+#[test]
+#[ignore = "minutes"]
+fn viscosity_of_the_stress() {
+    let _device = DEVICE.lock();
+    let scene = fluid(&[
+        "space.box=[6,6,6]",
+        "time.steps=101000",
+        "time.equilibration=1000",
+        "output.energies.every=100",
+        r#"output.stress={"every":1,"window":50}"#,
+    ]);
+    let (_, result, _) = run(scene, "stress", "stress_correlation.csv");
+    let found = &result["shear_viscosity"];
+    let [viscosity, error] = ["value", "standard_error"].map(|key| found[key].as_f64().unwrap());
+    println!("| viscosity of the stress | {viscosity:.4} ± {error:.4} |");
+    assert!(error < 0.04 && (viscosity - 0.847).abs() < 0.02 + 3.0 * error, "{viscosity} ± {error}");
+}
+
+/// Slabs of A and B, half a box each, with particles at random in their half.
+fn slabs(excess: f64) -> Scene {
+    let [edge, length] = [8.0, 16.0];
+    let count = (3.0 * edge * edge * 0.5 * length) as u32;
+    let positions = |species: u32, from: f64| -> Vec<[f64; 3]> {
+        let part = |id: u32, axis: u32| 0.5 + noise::centred_uniform(noise::pcg4d([id, axis, species, 1])[0]);
+        (0..count).map(|id| [edge * part(id, 0), edge * part(id, 1), from + 0.5 * length * part(id, 2)]).collect()
+    };
+    let listed = |species: &str, positions: Vec<[f64; 3]>| serde_json::json!({"species": species, "placement": {"type": "listed", "positions": positions}});
+    let scene = serde_json::json!({
+        "title": "slabs", "space": {"box": [edge, edge, length]},
+        "time": {"step": 0.04, "steps": 20000, "equilibration": 2000}, "temperature": 1,
+        "particles": [listed("A", positions(0, 0.0)), listed("B", positions(1, 0.5 * length))],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5,
+            "pairs": [{"between": ["A", "B"], "repulsion": 25.0 + excess}]}],
+        "output": {"energies": {"every": 100}, "stress": {"every": 5, "normal": "z"}},
+    });
+    crate::support::scene(&scene.to_string())
+}
+
+/// Groot and Warren, doi:10.1063/1.474784: at density 3 the surface tension between A and B is .75 ρ kT rc χ^.26 (1 - 2.36/χ)^1.5 with
+/// χ = .286 Δa, a fit to a few per cent.
+#[test]
+#[ignore = "minutes"]
+fn surface_tensions_of_slabs() {
+    let _device = DEVICE.lock();
+    println!("| excess repulsion | surface tension | published fit |\n|-|-|-|");
+    for excess in [15.0_f64, 35.0] {
+        let chi = 0.286 * excess;
+        let published = 0.75 * 3.0 * chi.powf(0.26) * (1.0 - 2.36 / chi).powf(1.5);
+        let (_, result, _) = run(slabs(excess), "stress", "stress.csv");
+        let found = &result["surface_tension"];
+        let [tension, error] = ["mean", "standard_error"].map(|key| found[key].as_f64().unwrap());
+        println!("| {excess} | {tension:.3} ± {error:.3} | {published:.3} |");
+        assert!((tension - published).abs() < 0.1 * published + 3.0 * error, "{excess}: {tension} ± {error}");
     }
 }

@@ -147,6 +147,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
         ("autocorrelations", !output.autocorrelations.is_empty()),
         ("histograms", !output.histograms.is_empty()),
         ("profiles", output.profiles.is_some()),
+        ("stress", output.stress.is_some()),
     ];
     for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
         let path = format!("output.{name}");

@@ -18,6 +18,7 @@ mod profiles;
 mod radial_distribution;
 mod results;
 mod shear_wave;
+mod stress;
 mod under_way;
 mod viscosity;
 
@@ -53,6 +54,7 @@ fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
         AnalysisId::Neighbours => Box::new(neighbours::Neighbours),
         AnalysisId::ShearWave => Box::new(shear_wave::ShearWave),
         AnalysisId::Profiles => Box::new(profiles::Profiles),
+        AnalysisId::Stress => Box::new(stress::Stress),
     }
 }
 

@@ -369,7 +369,7 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
 }
 
 const LISTS: [&str; 2] = ["autocorrelations", "histograms"];
-const ANALYSES: [&str; 10] = [
+const ANALYSES: [&str; 11] = [
     "trajectory",
     "radial_distribution",
     "diffusion",
@@ -379,5 +379,6 @@ const ANALYSES: [&str; 10] = [
     "neighbours",
     "shear_wave",
     "profiles",
+    "stress",
     "fields",
 ];

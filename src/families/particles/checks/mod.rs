@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::document::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
-    LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
+    LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
 
 /// Checks one interaction by itself.
@@ -47,9 +47,58 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
         let accepted = "a scene with chains: a `chain` in one of `particles`";
         problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
     }
+    check_stress(scene, problems);
     if scene.space.lengths.len() == 1 && scene.output.viscosity.is_some() {
         let found = "found in a scene of one dimension";
         problems.push(Problem::new("output.viscosity", found, "two or three dimensions: there is no shear on a line"));
+    }
+}
+
+/// Forces from places in space have no stress between particles.
+fn check_stress(scene: &Scene, problems: &mut Problems) {
+    let Some(asked) = &scene.output.stress else { return };
+    check_window_of_stress(asked, scene, problems);
+    let mut refuse = |found: &str, accepted: &str| problems.push(Problem::new("output.stress", found, accepted));
+    if scene.space.lengths.len() == 1 {
+        refuse(
+            "found in a scene of one dimension",
+            "two or three dimensions; on a line there is `pressure` in energies.csv",
+        );
+    }
+    if scene.particles.iter().any(|group| group.fixed) {
+        refuse(
+            "found in a scene with fixed particles",
+            "a scene without them: what holds them in place carries stress too",
+        );
+    }
+    if scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction)) {
+        refuse(
+            "found in a scene with tethers",
+            "a scene without them: they are tied to places in space, and carry stress too",
+        );
+    }
+}
+
+/// What the correlation of the stress needs.
+fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems) {
+    if asked.window.is_none() {
+        return;
+    }
+    let rubs = |interaction: &Interaction| match interaction {
+        Interaction::Dpd(dpd) => {
+            let own = dpd.pairs.iter().filter_map(|pair| pair.friction);
+            !dpd.remembers() && own.chain([dpd.friction]).any(|friction| friction > 0.0)
+        }
+        Interaction::Bonds(bonds) => bonds.has_bath() && matches!(bonds.bath, Bath::White { .. }),
+        _ => false,
+    };
+    if asked.every > 1 && scene.interactions.iter().any(rubs) {
+        let accepted = "1 with a `window`: noise of a step that is not sampled would be missing from the viscosity";
+        problems.push(Problem::new("output.stress.every", format!("found {}", asked.every), accepted));
+    }
+    if scene.temperature == 0.0 {
+        let accepted = "a temperature above 0, or no `window`";
+        problems.push(Problem::new("output.stress.window", "found in a scene at a temperature of 0", accepted));
     }
 }
 

@@ -7,6 +7,7 @@ mod law;
 pub(crate) mod pair;
 pub(crate) mod quanta;
 mod species;
+mod stress;
 pub(crate) mod walls;
 
 use super::layout::PARTICLE;

@@ -26,6 +26,7 @@
 use super::body_force;
 use super::motion::Motion;
 use super::pairs::{self, Forces, Pair};
+use super::stress::Virials;
 use super::{Reference, Report};
 use crate::families::reference::{add, bath, widen};
 use crate::families::{Model, PairForce};
@@ -37,36 +38,35 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let (model, state) = (&reference.model, &reference.state);
     let motion = Motion::of(model, state, &reference.masses);
     let mut kick = vec![[0; 3]; state.len()];
-    let total_virial = model
-        .particles()
-        .pair_force
-        .as_ref()
-        .map_or(0.0, |force| half_kicks(model, force, state, &motion, found, &[], &mut kick));
+    let mut virials = Virials::new(state.len());
+    if let Some(force) = model.particles().pair_force.as_ref() {
+        half_kicks((model, force), state, &motion, found, &[], &mut kick, &mut virials);
+    }
     body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
     // The momenta of step 0 are those of the report point already.
     if state.step > 0 {
         add(&mut momenta, &kick);
     }
-    Report { momenta, kick, total_virial }
+    Report { momenta, kick, virials }
 }
 
-/// Adds half kicks by pairs, of which some, in order, are spared their repulsion; gives Σ r·F.
+/// Adds half kicks by pairs, of which some, in order, are spared their repulsion, and their virials.
 pub(super) fn half_kicks(
-    model: &Model,
-    force: &PairForce,
+    (model, force): (&Model, &PairForce),
     state: &State,
     motion: &Motion,
     found: &[Pair],
     spared: &[[u32; 2]],
     kick: &mut [[i64; 3]],
-) -> f64 {
+    virials: &mut Virials,
+) {
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
-    let mut virial = 0.0;
     for pair in found {
         let forces = Forces::between(model, &state.species, pair);
         let is_spared = spared.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
-        let mut magnitude = if is_spared { 0.0 } else { forces.potential.force() };
+        let repulsion = if is_spared { 0.0 } else { forces.potential.force() };
+        let mut friction = 0.0;
         if forces.friction > 0.0 {
             let species = [pair.first, pair.second].map(|end| state.species[end] as usize);
             let step = force.bath_step(species[0], species[1], model.time_step);
@@ -76,11 +76,11 @@ pub(super) fn half_kicks(
             );
             // The noise of a pair pushes it apart; that of its bath would pull.
             let noise = -pairs::noise(model, key, pair);
-            magnitude -= forces.weight * bath::advanced(&step, force.temperature, 0.0, change, noise);
+            friction = -forces.weight * bath::advanced(&step, force.temperature, 0.0, change, noise);
         }
-        virial += pairs::push_apart(model, pair, magnitude, kick);
+        pairs::push_apart(model, pair, repulsion + friction, kick);
+        virials.add(pair, repulsion, friction);
     }
-    virial
 }
 
 /// φ(r) of two species, whose derivative is √ω within their cutoff; zero from there on.

@@ -9,10 +9,12 @@ mod observables;
 pub(crate) mod pairs;
 mod potential;
 mod splitting;
+mod stress;
 mod walls;
 
 pub use couplings::CouplingsReference;
 pub use splitting::Relaxation;
+pub use stress::Virial;
 
 use crate::document::Integrator;
 use crate::families::Model;
@@ -20,6 +22,7 @@ use crate::families::Observables;
 use crate::families::reference::{Unstable, add, narrow};
 use crate::state::State;
 use pairs::Pair;
+use stress::Virials;
 
 /// What an integrator finds at the report point of a step.
 struct Report {
@@ -27,8 +30,8 @@ struct Report {
     momenta: Vec<[i64; 3]>,
     /// The opening kick that follows.
     kick: Vec<[i64; 3]>,
-    /// Σ r·F over pairs, of all forces of the step.
-    total_virial: f64,
+    /// Those of all forces of the step between particles.
+    virials: Virials,
 }
 
 /// A model of pairs and its state, stepped on the CPU. Bonds and angles are part of its split steps; of other steps with them
@@ -115,6 +118,14 @@ impl Reference {
     pub fn reported_state(&self) -> Result<State, Unstable> {
         let momenta = narrow(&self.report(&self.pairs())?.momenta, self.state.step)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+    }
+
+    /// The share of each particle of the virials at the report point, for the stress.
+    ///
+    /// # Errors
+    /// [`Unstable`] when a bond is too long.
+    pub fn virials(&self) -> Result<Vec<Virial>, Unstable> {
+        Ok(self.report(&self.pairs())?.virials.each)
     }
 
     /// The state half a drift after the report point of the current step: r(n) + dt/2 p(n+½)/m and p(n+½).

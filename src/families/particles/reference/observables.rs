@@ -32,7 +32,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
 pub(super) fn observe(reference: &Reference, configuration: &State, report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
     let motion = of_motion(model, state, &reference.masses, &report.momenta);
-    of_configuration(model, configuration, &Observables { total_virial: report.total_virial, ..motion })
+    of_configuration(model, configuration, &Observables { total_virial: report.virials.total, ..motion })
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.

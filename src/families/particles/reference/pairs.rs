@@ -187,11 +187,10 @@ pub(super) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], un
     }
 }
 
-/// Gives the half kick dt/2 F e to one end of a pair or a bond and takes it from the other; gives r·F.
-pub(super) fn push_apart(model: &Model, pair: &Pair, force: f64, kick: &mut [[i64; 3]]) -> f64 {
+/// Gives the half kick dt/2 F e to one end of a pair or a bond and takes it from the other.
+pub(super) fn push_apart(model: &Model, pair: &Pair, force: f64, kick: &mut [[i64; 3]]) {
     let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
     exchange(kick, pair, impulse, model.units.momentum);
-    pair.distance * force
 }
 
 pub(super) const MOST_UNITS: f64 = (1_u64 << 44) as f64;

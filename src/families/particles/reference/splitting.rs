@@ -16,6 +16,7 @@ use super::body_force;
 use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
 use super::pairs::{self, Forces, Pair, dot};
+use super::stress::Virials;
 use super::{Reference, Report};
 use crate::families::Model;
 use crate::families::reference::{Unstable, add, widen};
@@ -57,28 +58,29 @@ pub enum Relaxation {
 pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Unstable> {
     let (model, state) = (&reference.model, &reference.state);
     let mut kick = vec![[0; 3]; state.len()];
-    let mut total_virial = bonded_kicks(model, state, &reference.masses, &mut kick)?;
+    let mut virials = Virials::new(state.len());
+    bonded_kicks(model, state, &reference.masses, &mut kick, &mut virials)?;
     let excluded = excluded_pairs(model);
     for pair in found {
         if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
             continue;
         }
         let force = Forces::between(model, &state.species, pair).potential.force();
-        total_virial += pairs::push_apart(model, pair, force, &mut kick);
+        pairs::push_apart(model, pair, force, &mut kick);
+        virials.add(pair, force, 0.0);
     }
     body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
     if state.step > 0 {
         add(&mut momenta, &kick);
-        let (impulses, virial) = relax(reference, found, &momenta);
+        let impulses = relax(reference, found, &momenta, &mut virials);
         add(&mut momenta, &impulses);
-        total_virial += virial / model.time_step;
     }
-    Ok(Report { momenta, kick, total_virial })
+    Ok(Report { momenta, kick, virials })
 }
 
-/// The sums of the impulses of O, and Σ r·J over pairs.
-fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i64; 3]>, f64) {
+/// The sums of the impulses of O, whose virials over the time of a step are added.
+fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &mut Virials) -> Vec<[i64; 3]> {
     let (model, state) = (&reference.model, &reference.state);
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
     let couplings: Vec<_> = found
@@ -100,7 +102,7 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
         fields[pair.second] += rate * model.time_step;
     }
     let corrections = match reference.relaxation {
-        Relaxation::TwoStages => return two_stages(reference, found, momenta, &couplings, &fields),
+        Relaxation::TwoStages => return two_stages(reference, found, momenta, (&couplings, &fields), virials),
         Relaxation::MeanField | Relaxation::Exponential => 0,
         Relaxation::Midpoint { corrections } => corrections,
     };
@@ -108,7 +110,6 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
     let mut correction = 0;
     loop {
         let mut sums = vec![[0; 3]; state.len()];
-        let mut virial = 0.0;
         for (pair, &(rate, noise)) in found.iter().zip(&couplings) {
             let approach = dot(pair.direction(), reference.relative_velocity(&seen, pair));
             let reduced_mass = reduced_mass(reference, pair);
@@ -125,10 +126,12 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]]) -> (Vec<[i
                 pair.direction().map(|component| impulse * component),
                 model.units.momentum,
             );
-            virial += pair.distance * impulse;
+            if correction == corrections {
+                virials.add(pair, 0.0, impulse / model.time_step);
+            }
         }
         if correction == corrections {
-            return (sums, virial);
+            return sums;
         }
         correction += 1;
         for (seen, (momentum, sum)) in seen.iter_mut().zip(momenta.iter().zip(&sums)) {
@@ -144,9 +147,9 @@ fn two_stages(
     reference: &Reference,
     found: &[Pair],
     momenta: &[[i64; 3]],
-    couplings: &[(f64, f64)],
-    fields: &[f64],
-) -> (Vec<[i64; 3]>, f64) {
+    (couplings, fields): (&[(f64, f64)], &[f64]),
+    virials: &mut Virials,
+) -> Vec<[i64; 3]> {
     let model = &reference.model;
     let temperature = model.particles().pair_temperature(model);
     let curvature = 0.5 * (SQRT_2 - 1.0).powi(2);
@@ -155,7 +158,6 @@ fn two_stages(
     let second = 1.0 - first;
     let first_noise = (SQRT_2 - 1.0) / second;
     let mut sums = vec![[0; 3]; momenta.len()];
-    let mut virial = 0.0;
     for [friction, noise] in [[first, first_noise], [second, SQRT_2 - first_noise]] {
         let mut seen = momenta.to_vec();
         add(&mut seen, &sums);
@@ -172,10 +174,10 @@ fn two_stages(
             let impulse = -friction * strength * approach + noise * (temperature * strength).sqrt() * random;
             let impulses = pair.direction().map(|component| impulse * component);
             pairs::exchange(&mut sums, pair, impulses, model.units.momentum);
-            virial += pair.distance * impulse;
+            virials.add(pair, 0.0, impulse / model.time_step);
         }
     }
-    (sums, virial)
+    sums
 }
 
 /// 1 / (1/mᵢ + 1/mⱼ).

@@ -18,6 +18,7 @@ pub(super) fn bonded(scales: &Scales<'_>, angles: &Angles) -> Bonded {
         observed,
         // They have no virial.
         motion: None,
+        stress: ("stress_of_angles", Choices::new().with(bonds::AngleReport::Stress)),
         constants: vec![
             (Constant::Angles, angles.count() as f64),
             (Constant::FirstAngle, scales.model.species.len() as f64),

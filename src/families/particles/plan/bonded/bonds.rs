@@ -23,6 +23,7 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
         observed: report(bonds::BondReport::Observed, &[Constant::PairVirial, Constant::Laplacian]),
         motion: Some(report(bonds::BondReport::Motion, &[Constant::PairVirial])),
         configuration: report(bonds::BondReport::Configuration, &[Constant::PairVirial, Constant::Laplacian]),
+        stress: ("stress_of_bonds", report(bonds::BondReport::Stress, &[]).choices),
         constants: vec![
             (Constant::Bonds, bonds.count() as f64),
             (Constant::FirstKind, species as f64),

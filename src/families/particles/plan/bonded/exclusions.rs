@@ -19,6 +19,7 @@ pub(super) fn bonded(bonds: &Bonds, force: &PairForce) -> Bonded {
         observed: report(bonds::ExclusionReport::Observed, configuration),
         motion: Some(report(bonds::ExclusionReport::Motion, &[Constant::PairVirial])),
         configuration: report(bonds::ExclusionReport::Configuration, configuration),
+        stress: ("stress_of_exclusions", law(force).with(bonds::ExclusionReport::Stress)),
         constants: vec![(Constant::Excluded, bonds.excluding() as f64)],
         operations: 40.0,
     }

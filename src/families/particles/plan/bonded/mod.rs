@@ -27,6 +27,8 @@ pub(super) struct Bonded {
     pub motion: Option<Observed>,
     /// The part that belongs to the configuration.
     pub configuration: Observed,
+    /// The name of the kernel that adds the stress, and its choices.
+    pub stress: (&'static str, Choices),
     pub constants: Vec<(Constant, f64)>,
     /// Arithmetic of each.
     pub operations: f64,

@@ -16,6 +16,7 @@ use super::bonded::{self, Scales};
 use super::external;
 use super::quanta;
 use super::species::Species;
+use super::stress;
 use super::{
     Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate,
     texture_candidates, words,
@@ -45,6 +46,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
     builder.constants();
     builder.buffers();
     builder.list();
+    builder.begin_stress();
     builder.pairs();
     builder.bonded();
     builder.tethers();
@@ -195,8 +197,17 @@ impl Builder<'_> {
         self.scales().impulse()
     }
 
+    /// Forgets the stresses of the last report, where an analysis needs them.
+    fn begin_stress(&mut self) {
+        if stress::is_needed(self.measured) {
+            let clear = stress::begin(self.model, self.options.workgroup(), &mut self.plan);
+            self.plan.report.push(clear);
+        }
+    }
+
     /// Bonds and angles.
     fn bonded(&mut self) {
+        let stressed = stress::is_needed(self.measured);
         for bonded in bonded::all(&self.scales()) {
             let groups = self.groups(bonded.count);
             self.plan.constants.extend(bonded.constants);
@@ -204,6 +215,10 @@ impl Builder<'_> {
             self.plan.advance.push(advance);
             let seen = bonded.observed.choices.with_any(self.forces());
             self.report_kernel(bonded.reports[0], bonded.entry, &seen, groups);
+            if stressed {
+                let (name, choices) = &bonded.stress;
+                self.stress_kernel(name, bonded.entry, choices, groups);
+            }
             self.plan.operations_per_particle += bonded.operations * bonded.count as f64 / self.particles.max(1) as f64;
         }
         let model = self.model;
@@ -250,14 +265,16 @@ impl Builder<'_> {
         self.plan.layout.of::<CoupledLayout>().is_some_and(|layout| layout.particles.predicted)
     }
 
-    /// What is chosen for every kernel: the space, the grid in it, the species, and who draws random words.
+    /// What is chosen for every kernel: the space, the grid in it, the species, who draws random words, and how impulses are added.
     fn choices(&self) -> Choices {
-        let dimension = self.model.units.dimension;
-        let volume = dimension == 3;
+        self.choices_without_kicks().and(&bonded::kicks(self.model.units.dimension))
+    }
+
+    fn choices_without_kicks(&self) -> Choices {
+        let volume = self.model.units.dimension == 3;
         self.dimension()
             .with(if volume { grid::Dimension::Volume } else { grid::Dimension::Plane })
             .with(grid::Rows::Plain)
-            .and(&bonded::kicks(dimension))
             .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))
@@ -297,6 +314,13 @@ impl Builder<'_> {
         let kernel = self.kernel(name, entry, choices, workgroups);
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, self.report_groups as f64));
         self.report_groups += u64::from(self.plan.kernels[kernel].workgroups);
+        self.plan.report.push(kernel);
+    }
+
+    /// Adds a kernel that adds stresses at a report, and no impulses.
+    fn stress_kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, workgroups: u64) {
+        let choices = self.choices_without_kicks().and(choices);
+        let kernel = self.plan.add_kernel(Kernel::new(name, entry, choices, workgroups));
         self.plan.report.push(kernel);
     }
 

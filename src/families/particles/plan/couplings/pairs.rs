@@ -4,6 +4,7 @@ use super::Builder;
 use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
 use crate::families::particles::plan::law::{law, ranges};
+use crate::families::particles::plan::stress;
 use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
 
 impl Builder<'_> {
@@ -23,6 +24,10 @@ impl Builder<'_> {
         let advance = self.kernel("pairs", Entry::VisitListedPairs, &law, groups);
         self.plan.advance.push(advance);
         self.report_kernel("report_pairs", Entry::VisitListedPairs, &seen, groups);
+        if stress::is_needed(self.measured) {
+            let stressed = law.with(couplings::PairReport::Stress).with_if(memory, baths::PairReport::Observed);
+            self.stress_kernel("stress", Entry::VisitListedPairs, &stressed, groups);
+        }
         let density = self.particles as f64 / self.model.units.volume();
         let (listed, met) = match self.model.units.dimension {
             1 => (density * (self.force.cutoff + self.force.skin), density * self.force.cutoff),

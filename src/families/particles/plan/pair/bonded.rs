@@ -2,6 +2,7 @@
 
 use super::Builder;
 use crate::families::particles::plan::bonded::{self, Bonded, Observed, Scales};
+use crate::families::particles::plan::stress;
 use crate::shaders::{Array, Choices, Constant, couplings};
 
 /// Kernels of bonds and angles.
@@ -13,6 +14,8 @@ pub(super) struct BondedKernels {
     pub report: Vec<usize>,
     /// The configuration at the report of a split step, with the impulses there.
     pub configuration: Vec<usize>,
+    /// They add the stress, where an analysis needs it.
+    pub stress: Vec<usize>,
 }
 
 impl Builder<'_> {
@@ -44,6 +47,10 @@ impl Builder<'_> {
                 kernels.configuration.push(report(between, &bonded.configuration, &kicks));
             } else {
                 kernels.report.push(report(whole, &bonded.observed, &Choices::new()));
+            }
+            if stress::is_needed(self.measured) {
+                let (name, choices) = &bonded.stress;
+                kernels.stress.push(self.bonded_kernel(name, &bonded, choices));
             }
             self.plan.operations_per_particle += bonded.operations * bonded.count as f64 / self.particles.max(1) as f64;
         }

@@ -1,6 +1,7 @@
 //! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub.
 
 mod bonded;
+mod stress;
 
 use super::external;
 use super::law::{law, ranges};
@@ -380,9 +381,10 @@ impl Builder<'_> {
         let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
+        let stress = self.stress();
         self.plan.before_report = bonded.kicks;
         self.plan.advance = vec![advance];
-        self.plan.report = [&[report][..], &bonded.report].concat();
+        self.plan.report = [&[report][..], &bonded.report, &stress, &bonded.stress].concat();
         self.plan.finish_report = vec![advance];
         rows
     }
@@ -415,10 +417,11 @@ impl Builder<'_> {
         let again = self.sorting(&self.choices().with(core::Step::Same));
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
+        let stress = [self.stress(), bonded.stress].concat();
         self.plan.before_report = [&bonded.kicks[..], &[find]].concat();
         self.plan.advance = vec![relax];
-        self.plan.report =
-            [&bonded.report[..], &[motion, relax_to_report], &again, &bonded.configuration, &[configuration]].concat();
+        let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
+        self.plan.report = [&motion_there[..], &again, &bonded.configuration, &[configuration]].concat();
         if self.relaxes_in_two_stages() {
             self.first_stage([relax, relax_to_report, motion], kept);
         }
@@ -438,8 +441,7 @@ impl Builder<'_> {
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);
         }
-        let taken =
-            if self.texels { (Array::SortedMomenta, Array::StagedMomenta) } else { (Array::Sorted, Array::Staged) };
+        let taken = self.staged();
         for kernel in second {
             self.plan.kernels[kernel].constants.extend(second_stage);
             self.plan.kernels[kernel].renamed.push(taken);

@@ -2,6 +2,7 @@
 
 use super::push;
 use crate::families::particles::reference::pairs::dot;
+use crate::families::particles::reference::stress::Virials;
 use crate::families::{Angle, Angles, Model};
 
 /// An angle where it is, with arms from its middle to its ends.
@@ -25,6 +26,11 @@ impl Corner {
         }
         let directions = [0, 1].map(|arm: usize| arms[arm].map(|component| component / lengths[arm]));
         Some(Self { directions, lengths, cosine: dot(directions[0], directions[1]) })
+    }
+
+    /// The arms from the middle to the ends.
+    fn arms(&self) -> [[f64; 3]; 2] {
+        [0, 1].map(|arm: usize| self.directions[arm].map(|component| component * self.lengths[arm]))
     }
 
     /// V/k = 1 + cos θ.
@@ -53,11 +59,20 @@ impl Corner {
     }
 }
 
-/// Adds the half kicks of all angles: those of the ends are rounded, the middle gets minus their sum.
-pub(super) fn kick(model: &Model, angles: &Angles, positions: &[[u32; 3]], kick: &mut [[i64; 3]]) {
+/// Adds the half kicks of all angles, of which those of the ends are rounded and the middle gets minus their sum, and the virials.
+pub(super) fn kick(
+    model: &Model,
+    angles: &Angles,
+    positions: &[[u32; 3]],
+    kick: &mut [[i64; 3]],
+    virials: &mut Virials,
+) {
     for angle in angles.iter() {
         let Some(corner) = Corner::of(model, &angle, positions) else { continue };
         let stiffness = angles.stiffness[angle.kind as usize];
+        for (arm, gradient) in corner.arms().into_iter().zip(corner.gradients()) {
+            virials.add_arm(angle.ends[1] as usize, arm, gradient.map(|slope| -stiffness * slope));
+        }
         for (gradient, end) in corner.gradients().iter().zip([angle.ends[0], angle.ends[2]]) {
             let mut impulse = [0; 3];
             push(&mut impulse, gradient.map(|slope| -0.5 * model.time_step * stiffness * slope), model.units.momentum);

@@ -3,19 +3,12 @@
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::pairs::{self, Pair};
 use crate::families::particles::reference::potential::Potential;
+use crate::families::particles::reference::stress::Virials;
 use crate::families::reference::Unstable;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Bond, Bonds, Model};
 use crate::noise::{self, stream};
 use crate::state::State;
-
-/// What the bonds of a step leave.
-pub(super) struct Bonded {
-    /// Bath variables, where bonds remember.
-    pub baths: Vec<u32>,
-    /// Σ r·F of all forces.
-    pub virial: f64,
-}
 
 /// The ends of a bond where they are.
 pub(super) fn span(model: &Model, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
@@ -23,7 +16,7 @@ pub(super) fn span(model: &Model, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
     Pair::of(&model.units, positions, first, second)
 }
 
-/// Adds the half kicks of all bonds and advances their baths.
+/// Adds the half kicks of all bonds and their virials, and returns the bath variables after the step, where bonds remember.
 pub(super) fn kick(
     model: &Model,
     bonds: &Bonds,
@@ -31,26 +24,28 @@ pub(super) fn kick(
     motion: &Motion,
     kick: &mut [[i64; 3]],
     bath_sums: &mut BathSums,
-) -> Result<Bonded, Unstable> {
+    virials: &mut Virials,
+) -> Result<Vec<u32>, Unstable> {
     let key = noise::step_key(model.seed, stream::BOND, state.step);
-    let mut found = Bonded { baths: state.bond_baths.clone(), virial: 0.0 };
+    let mut baths = state.bond_baths.clone();
     for (index, bond) in bonds.iter().enumerate() {
         let kind = &bonds.kinds[bond.kind as usize];
         let pair = span(model, &bond, &state.positions);
         let Some(potential) = Potential::of_bond(kind.potential.as_ref(), pair.distance) else {
             return Err(Unstable::Bond { step: state.step, bond: index });
         };
-        let mut force = potential.force();
+        let mut friction = 0.0;
         if let Some(step) = &kind.bath {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [index as u32, 0]));
             let seen = if step.remembers() { None } else { motion.approach(&pair) };
             let change = seen.unwrap_or_else(|| motion.change_of_distance(&pair));
-            let kept = found.baths.get_mut(index);
+            let kept = baths.get_mut(index);
             let value = bath::at_report(step, kind.temperature, state.step, kept, change, gaussian);
             bath_sums.add(step, value);
-            force -= value;
+            friction = -value;
         }
-        found.virial += pairs::push_apart(model, &pair, force, kick);
+        pairs::push_apart(model, &pair, potential.force() + friction, kick);
+        virials.add(&pair, potential.force(), friction);
     }
-    Ok(found)
+    Ok(baths)
 }

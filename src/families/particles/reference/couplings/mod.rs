@@ -27,6 +27,7 @@ mod tethers;
 use crate::families::Model;
 use crate::families::Observables;
 use crate::families::particles::reference::motion::Motion;
+use crate::families::particles::reference::stress::{Virial, Virials};
 use crate::families::particles::reference::{body_force, end_of_step};
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
@@ -68,8 +69,8 @@ struct Evaluation {
     baths: State,
     /// Of the baths with memory.
     bath_sums: BathSums,
-    /// Σ r·F over pairs and bonds, of all forces of the step.
-    total_virial: f64,
+    /// Those of all forces of the step between particles.
+    virials: Virials,
 }
 
 crate::families::reference::stepper!(CouplingsReference);
@@ -124,6 +125,14 @@ impl CouplingsReference {
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }
 
+    /// The share of each particle of the virials at the report point, for the stress.
+    ///
+    /// # Errors
+    /// [`Unstable::Bond`] for a bond that is too long.
+    pub fn virials(&self) -> Result<Vec<Virial>, Unstable> {
+        Ok(self.evaluate()?.virials.each)
+    }
+
     /// Everything at the report point of the current step.
     fn evaluate(&self) -> Result<Evaluation, Unstable> {
         let (model, state) = (&self.model, &self.state);
@@ -131,20 +140,20 @@ impl CouplingsReference {
         let mut kick = vec![[0; 3]; state.len()];
         let mut bath_sums = BathSums::default();
         let mut baths = State::default();
-        let mut total_virial = 0.0;
+        let mut virials = Virials::new(state.len());
 
         if let Some(force) = model.particles().pair_force.as_ref() {
             if force.remembers() {
                 (baths.pair_baths, baths.anchors) = pair_list::renew(model, force, state);
             }
-            total_virial += pairs::kick(model, force, state, &motion, &mut baths.pair_baths, &mut kick, &mut bath_sums);
+            let listed = &mut baths.pair_baths;
+            pairs::kick((model, force), state, &motion, listed, &mut kick, &mut bath_sums, &mut virials);
         }
         if let Some(bonds) = model.particles().bonds.as_ref() {
-            let found = bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums)?;
-            (baths.bond_baths, total_virial) = (found.baths, total_virial + found.virial);
+            baths.bond_baths = bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums, &mut virials)?;
         }
         if let Some(angles) = model.particles().angles.as_ref() {
-            angles::kick(model, angles, &state.positions, &mut kick);
+            angles::kick(model, angles, &state.positions, &mut kick, &mut virials);
         }
         if let Some(bath) = model.particles().position_bath.as_ref() {
             baths.position_baths = position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
@@ -169,11 +178,11 @@ impl CouplingsReference {
             momenta[particle] = [0; 3];
             opening[particle] = [0; 3];
         }
-        Ok(Evaluation { momenta, opening, baths, bath_sums, total_virial })
+        Ok(Evaluation { momenta, opening, baths, bath_sums, virials })
     }
 }
 
-/// Adds the half kicks of bonds and angles that have no bath with memory; returns Σ r·F over the bonds.
+/// Adds the half kicks of bonds and angles that have no bath with memory, and their virials.
 ///
 /// # Errors
 /// [`Unstable::Bond`] for a bond that is too long.
@@ -182,16 +191,16 @@ pub(super) fn bonded_kicks(
     state: &State,
     masses: &[f64],
     kick: &mut [[i64; 3]],
-) -> Result<f64, Unstable> {
-    let mut virial = 0.0;
+    virials: &mut Virials,
+) -> Result<(), Unstable> {
     if let Some(bonds) = model.particles().bonds.as_ref() {
         let motion = Motion::of(model, state, masses);
-        virial = bonds::kick(model, bonds, state, &motion, kick, &mut BathSums::default())?.virial;
+        bonds::kick(model, bonds, state, &motion, kick, &mut BathSums::default(), virials)?;
     }
     if let Some(angles) = model.particles().angles.as_ref() {
-        angles::kick(model, angles, &state.positions, kick);
+        angles::kick(model, angles, &state.positions, kick, virials);
     }
-    Ok(virial)
+    Ok(())
 }
 
 /// Whether a particle is held where it is.

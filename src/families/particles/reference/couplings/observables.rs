@@ -43,7 +43,7 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
     let motion = of_motion(model, state, &reference.masses, &evaluation.momenta);
     let baths = evaluation.bath_sums;
     Observables {
-        total_virial: evaluation.total_virial,
+        total_virial: evaluation.virials.total,
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
         ..of_configuration(model, state, &motion)

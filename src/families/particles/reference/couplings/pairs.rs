@@ -6,26 +6,27 @@
 use crate::families::particles::reference::leapfrog::{self, coupling};
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::pairs::{self, Forces, Pair, find_pairs};
+use crate::families::particles::reference::stress::Virials;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::state::{PairBath, State};
 
-/// Adds the half kicks of all pairs, advances the baths of the list, and gives Σ r·F.
+/// Adds the half kicks of all pairs and their virials, and advances the baths of the list.
 pub(super) fn kick(
-    model: &Model,
-    force: &PairForce,
+    (model, force): (&Model, &PairForce),
     state: &State,
     motion: &Motion,
     baths: &mut [PairBath],
     kick: &mut [[i64; 3]],
     bath_sums: &mut BathSums,
-) -> f64 {
+    virials: &mut Virials,
+) {
     if !force.remembers() {
         let found = find_pairs(&model.units, &state.positions, force.cutoff);
-        return leapfrog::half_kicks(model, force, state, motion, &found, &excluded_pairs(model), kick);
+        leapfrog::half_kicks((model, force), state, motion, &found, &excluded_pairs(model), kick, virials);
+        return;
     }
-    let mut virial = 0.0;
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
     for memory in baths {
         let (first, second) = (memory.first as usize, memory.second as usize);
@@ -46,10 +47,10 @@ pub(super) fn kick(
         (memory.memory, memory.stamp) = ((kept as f32).to_bits(), state.step as u32);
         let forces = Forces::between(model, &state.species, &pair);
         let repulsion = if memory.spared == 1 { 0.0 } else { forces.potential.force() };
-        virial += pairs::push_apart(model, &pair, repulsion - forces.weight * value, kick);
+        pairs::push_apart(model, &pair, repulsion - forces.weight * value, kick);
+        virials.add(&pair, repulsion, -forces.weight * value);
         bath_sums.add(&step, value);
     }
-    virial
 }
 
 /// The pairs that are spared their repulsion, smaller number first, in order.

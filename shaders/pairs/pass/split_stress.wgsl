@@ -1,0 +1,17 @@
+// The stress at the report of a split step: of two half kicks and the relaxation between them, over the whole step. Before the first
+// step there is no relaxation.
+fn pass_begin(me: Particle) -> PairStresses {
+    prepare_noise();
+    return no_pair_stresses();
+}
+fn pass_pair(sums: ptr<function, PairStresses>, me: Particle, other_index: u32) {
+    let other = particle_at(other_index);
+    let contact = contact_of(separation(me.position, other.position));
+    if (!contact.inside) { return; }
+    let c = coefficients_of(species_of(me), species_of(other));
+    let push = repulsion_impulse(c, contact.w);
+    let pull = f32(clock_closing()) * relaxation_impulse(c, contact, root_weight(contact.w), me, other);
+    add_pair_stress(sums, push, 0.5 * pull, contact);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: PairStresses) { keep_pair_stresses(me.position.w, sums); }
+fn pass_finish(group: u32, lane: u32) {}

@@ -1,0 +1,36 @@
+//! What reports leave for analyses of the stress.
+
+use crate::families::Model;
+use crate::plan::{Kernel, Measured, Need, Plan};
+use crate::shaders::{Array, Choices, Constant, Entry};
+
+/// Words of a particle: two symmetric tensors.
+const WORDS: u64 = 12;
+
+/// Whether an analysis needs the stress.
+pub(super) fn is_needed(measured: &Measured) -> bool {
+    measured.needs(Need::Stresses)
+}
+
+/// Adds the array of stresses and the kernel that clears it, which comes before those that add to it.
+pub(super) fn begin(model: &Model, workgroup: u64, plan: &mut Plan) -> usize {
+    let length = longest(model);
+    let half = 0.5 * model.time_step;
+    plan.stress_unit = 0.5 * model.units.momentum / half * length;
+    plan.constants.push((Constant::Stress, 1.0 / length));
+    plan.add_buffer(Array::ReportedStresses, 4 * WORDS * model.particle_count());
+    let groups = model.particle_count().div_ceil(workgroup).max(1);
+    plan.add_kernel(Kernel::new("clear_stresses", Entry::ClearStresses, Choices::new(), groups))
+}
+
+/// At least twice the length over which anything acts, a power of two. The impulses on a particle are less than 2³⁰ units
+/// together, or its run ends, and with it its stress fits 32 bits in units of an impulse times this.
+fn longest(model: &Model) -> f64 {
+    let particles = model.particles();
+    let cutoff = particles.pair_force.as_ref().map_or(1.0, |force| force.cutoff);
+    let bonded = particles.bonds.is_some() || particles.angles.is_some();
+    let diagonal =
+        model.units.lengths[..model.units.dimension].iter().map(|length| length * length).sum::<f64>().sqrt();
+    let reach = if bonded { cutoff.max(0.5 * diagonal) } else { cutoff };
+    2.0 * reach.log2().ceil().exp2()
+}

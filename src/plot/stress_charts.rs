@@ -1,0 +1,88 @@
+//! Charts of the pressure tensor.
+
+use super::chart::{Axis, AxisFit, Chart, Mean, Panel, Series, SeriesInk, SeriesStyle};
+use super::quantities::{TIME, pressure_label};
+use super::transport_charts::Found;
+use crate::numbers::with_error;
+use crate::table::Table;
+
+/// Normal and shear components of the pressure tensor over time, with their means.
+///
+/// The columns are `time`, `pressure_xx` and so on; a component that is not in the table is left out. `means` gives the mean of a
+/// component, such as `xx`.
+///
+/// ```
+/// use mesoscope::plot::{Mean, stress_chart};
+/// use mesoscope::table::Table;
+///
+/// let columns = ["time", "pressure_xx", "pressure_yy", "pressure_xy"];
+/// let table = Table::new(columns, vec![vec![0.0, 23.0, 24.0, 0.1], vec![0.5, 24.0, 23.0, -0.1]]);
+/// let mean = |component: &str| Some(Mean { value: if component == "xy" { 0.0 } else { 23.5 }, ..Mean::default() });
+/// let chart = stress_chart("A film", &table, &mean);
+/// assert_eq!(chart.panels[0].series.len(), 2);
+/// assert_eq!(chart.panels[1].series[0].points, [[0.0, 0.1], [0.5, -0.1]]);
+/// ```
+#[must_use]
+pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<Mean>) -> Chart {
+    let dimension = if table.column("pressure_zz").is_some() { 3 } else { 2 };
+    let unit = pressure_label(dimension);
+    let unit = unit.trim_start_matches("Pressure ");
+    let panel = |name: &str, components: &[&str]| {
+        let label = format!("{name} {unit}");
+        let mut panel = Panel::new(TIME, &label);
+        panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(&label) };
+        for (number, component) in components.iter().enumerate() {
+            if let Some(points) = table.over_time(&format!("pressure_{component}"), 1.0) {
+                let series = Series::line(&format!("P_{{{component}}}"), points).with_ink(SeriesInk::Numbered(number));
+                panel.series.push(Series { mean: means(component), ..series });
+            }
+        }
+        panel
+    };
+    let panels = [panel("Normal pressure", &["xx", "yy", "zz"]), panel("Shear stress", &["xy", "xz", "yz"])];
+    let panels = panels.into_iter().filter(|panel| !panel.series.is_empty()).collect();
+    let subtitle = "pressure tensor, with means ± errors after equilibration".to_owned();
+    Chart { title: title.to_owned(), subtitle, panels }
+}
+
+/// The autocorrelation of the shear stress over the lag, and the viscosity that its sum up to there gives, with errors.
+///
+/// The columns are `time`, `autocorrelation`, `viscosity` and their errors, whose names end in `_error`.
+///
+/// ```
+/// use mesoscope::plot::stress_correlation_chart;
+/// use mesoscope::table::Table;
+///
+/// let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
+/// let table = Table::new(columns, vec![vec![0.0, 9.0, 0.1, 0.2, 0.01], vec![0.1, 3.0, 0.1, 0.5, 0.02]]);
+/// let chart = stress_correlation_chart("A fluid", &table, Some((0.5, Some(0.02))));
+/// assert_eq!(chart.panels[1].series[0].name, "η = 0.500 ± 0.020 at the longest lag");
+/// ```
+#[must_use]
+pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Found>) -> Chart {
+    let panel = |column: &str, label: &str, name: &str| {
+        let mut panel = Panel::new("Lag (time units)", label);
+        if let Some(points) = table.over_time(column, 1.0) {
+            let errors = table.values(&format!("{column}_error"));
+            let series = Series { style: SeriesStyle::Band, ..Series::line(name, points) };
+            let known = errors.iter().any(|error| error.is_finite());
+            panel.series.push(if known {
+                series.with_errors(errors)
+            } else {
+                Series { style: SeriesStyle::Line, ..series }
+            });
+        }
+        panel.with_reference("zero", 0.0)
+    };
+    let name = viscosity.map_or_else(
+        || "sum up to the lag".to_owned(),
+        |(value, error)| format!("η = {} at the longest lag", with_error(value, error)),
+    );
+    let mut correlation =
+        panel("autocorrelation", "Autocorrelation of the shear stress, times V/kT", "autocorrelation");
+    // Noise of a single step would take the whole axis.
+    correlation.y.fit = AxisFit::Settled;
+    let sum = panel("viscosity", "Viscosity from its sum (mass units/(length unit · time unit))", &name);
+    let panels = [correlation, sum].into_iter().filter(|panel| !panel.series.is_empty()).collect();
+    Chart { title: title.to_owned(), subtitle: "means over blocks of time, with standard errors".to_owned(), panels }
+}

@@ -1,0 +1,218 @@
+//! The pressure tensor, the surface tension of a slab, and the viscosity from the autocorrelation of the stress.
+
+use super::{
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, SumSampler,
+    bytes, found, mean, printed, printed_mean,
+};
+use crate::engine::Sample;
+use crate::families::Model;
+use crate::measure::green_kubo::{StressCorrelation, stress_correlation};
+use crate::measure::statistics::estimate;
+use crate::measure::stress::{Components, surface_tension};
+use crate::plan::Need;
+use crate::plot::{Chart, stress_chart, stress_correlation_chart};
+use crate::scene::{self, AnalysisId, Frame, Output, Scene};
+use crate::shaders::{Array, Constant, Entry};
+use crate::table::Table;
+use serde_json::{Map, Value, json};
+
+/// Names of the whole tensor and of its parts, in the order of the sums.
+const PRESSURE: &str = "pressure";
+const PARTS: [&str; 3] = ["kinetic", "conservative", "frictional"];
+const SURFACE_TENSION: &str = "surface_tension";
+const VISCOSITY: &str = "shear_viscosity";
+
+/// The pressure tensor.
+pub(super) struct Stress;
+
+impl Descriptor for Stress {
+    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
+        let asked = scene.output.stress.as_ref()?;
+        let sampling = Sampling::after_equilibration(scene, asked.every);
+        let samples = scene.time.steps.saturating_sub(sampling.first) / asked.every.max(1) + 1;
+        let columns = 1 + 4 * Components::of(model.units.dimension).len() as u64;
+        Some(Sampling { numbers: samples.saturating_mul(columns), ..sampling })
+    }
+
+    fn needs(&self, _: &Output) -> &'static [Need] {
+        &[Need::Particles, Need::Momenta, Need::Stresses]
+    }
+
+    fn add_sampler(&self, planner: &mut Planner<'_>) {
+        let Some(asked) = &planner.output.stress else { return };
+        let (velocities, _) = planner.velocities(Some(Frame::Box));
+        let motion = planner.model.units.momentum.powi(2) / planner.plan.quanta.energy;
+        planner.add_sums(&SumSampler {
+            id: AnalysisId::Stress,
+            entry: Entry::SumStresses,
+            choices: velocities,
+            constants: vec![(Constant::StressMotion, motion)],
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums: Array::StressSums,
+            samples: Array::StressSamples,
+            quantities: 18,
+            every: asked.every,
+            window: None,
+        });
+    }
+
+    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
+        Some(Gathering::Samples(Box::new(Tensors::new(setting, setting.scene.output.stress.as_ref()?))))
+    }
+
+    fn chart(&self, drawn: &Drawn<'_>) -> Chart {
+        if drawn.place == 1 {
+            return stress_correlation_chart(drawn.title(), drawn.table, found(&drawn.result[VISCOSITY]));
+        }
+        let means = |part: &str, component: &str| mean(&drawn.result[part][component]);
+        stress_chart(drawn.title(), drawn.table, &|component| means(PRESSURE, component))
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let tension = printed_mean(&result[SURFACE_TENSION]);
+        let tension = tension.map(|mean| ("surface tension".to_owned(), mean));
+        tension.into_iter().chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
+    }
+
+    fn kept_bytes(&self, scene: &Scene, _: &Model) -> u64 {
+        let Some(asked) = &scene.output.stress else { return 0 };
+        let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
+        samples.saturating_mul(8 * KEPT as u64)
+    }
+}
+
+/// Numbers of a sample: the step and three tensors of six components.
+const KEPT: usize = 19;
+
+/// The tensors of all samples.
+struct Tensors {
+    asked: scene::Stress,
+    components: Components,
+    time_step: f64,
+    volume: f64,
+    temperature: f64,
+    length: f64,
+    /// The value of a unit of the sums of each part.
+    units: [f64; 3],
+    /// Steps, and the three parts of the pressure tensor.
+    samples: Vec<[f64; KEPT]>,
+}
+
+impl Tensors {
+    fn new(setting: &Setting<'_>, asked: &scene::Stress) -> Self {
+        let (model, plan) = (setting.model, setting.plan);
+        Self {
+            asked: asked.clone(),
+            components: Components::of(model.units.dimension),
+            time_step: model.time_step,
+            volume: model.units.volume(),
+            temperature: model.temperature,
+            length: asked.normal.map_or(0.0, |axis| model.units.lengths[axis as usize]),
+            units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
+            samples: Vec::new(),
+        }
+    }
+
+    /// A part of the tensor of a sample.
+    fn part(sample: &[f64; KEPT], part: usize) -> [f64; 6] {
+        std::array::from_fn(|component| sample[1 + 6 * part + component])
+    }
+
+    /// The whole tensor of a sample.
+    fn whole(sample: &[f64; KEPT]) -> [f64; 6] {
+        std::array::from_fn(|component| (0..3).map(|part| sample[1 + 6 * part + component]).sum())
+    }
+
+    /// The autocorrelation of the shear stress, if it is asked for.
+    fn correlation(&self) -> Option<StressCorrelation> {
+        let window = self.asked.window?;
+        let series: Vec<[f64; 6]> = self.samples.iter().map(Self::whole).collect();
+        let interval = self.asked.every as f64 * self.time_step;
+        let dimension = self.components.dimension();
+        Some(stress_correlation(&series, dimension, self.volume / self.temperature, interval, window as usize))
+    }
+
+    /// The table of the autocorrelation.
+    fn correlation_table(&self, correlation: &StressCorrelation) -> Table {
+        let lags = correlation.autocorrelation.iter().zip(&correlation.viscosity).enumerate();
+        let rows = lags.map(|(lag, (autocorrelation, viscosity))| {
+            let numbers =
+                [autocorrelation, viscosity].map(|found| [found.mean, found.standard_error.unwrap_or(f64::NAN)]);
+            [&[lag as f64 * self.asked.every as f64 * self.time_step], numbers.as_flattened()].concat()
+        });
+        let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
+        Table::new(columns, rows.collect())
+    }
+
+    /// Means of the components of a tensor.
+    fn means(&self, of: impl Fn(&[f64; KEPT]) -> [f64; 6]) -> Value {
+        let means = self.components.iter().map(|(name, index)| {
+            let series: Vec<f64> = self.samples.iter().map(|sample| of(sample)[index]).collect();
+            (name.to_owned(), json!(estimate(&series)))
+        });
+        Value::Object(means.collect::<Map<String, Value>>())
+    }
+}
+
+impl OfSamples for Tensors {
+    fn add(&mut self, sample: &Sample) {
+        if sample.sums.len() + 1 == KEPT {
+            self.samples.push(std::array::from_fn(|place| match place.checked_sub(1) {
+                Some(sum) => sample.sums[sum] as f64 * self.units[sum / 6] / self.volume,
+                None => sample.step as f64,
+            }));
+        }
+    }
+}
+
+impl Analysis for Tensors {
+    fn section(&self) -> Vec<u8> {
+        bytes(self.samples.as_flattened().iter().copied())
+    }
+
+    fn numbers_after(&self, samples: u64) -> u64 {
+        samples.saturating_mul(KEPT as u64)
+    }
+
+    fn restore(&mut self, numbers: &[f64], _: u64) {
+        self.samples = numbers.as_chunks().0.to_vec();
+    }
+
+    fn conclude(&self) -> Conclusion {
+        let named =
+            |tensor: &str| self.components.iter().map(|(name, _)| format!("{tensor}_{name}")).collect::<Vec<_>>();
+        let columns = [PRESSURE].iter().chain(&PARTS).flat_map(|tensor| named(tensor));
+        let columns: Vec<String> = std::iter::once("time".to_owned()).chain(columns).collect();
+        let rows = self.samples.iter().map(|sample| {
+            let tensors = [Self::whole(sample), Self::part(sample, 0), Self::part(sample, 1), Self::part(sample, 2)];
+            let numbers = tensors
+                .iter()
+                .flat_map(|tensor| self.components.iter().map(|(_, index)| tensor[index]))
+                .collect::<Vec<_>>();
+            [&[sample[0] * self.time_step], &numbers[..]].concat()
+        });
+        let table = Table::new(columns, rows.collect());
+        if self.samples.is_empty() {
+            return Conclusion::new(table, Err(NO_SAMPLE.to_owned()));
+        }
+        let mut result = json!({ "samples": self.samples.len(), PRESSURE: self.means(Self::whole) });
+        for (part, name) in PARTS.iter().enumerate() {
+            result[*name] = self.means(|sample| Self::part(sample, part));
+        }
+        if let Some(normal) = self.asked.normal {
+            let dimension = self.components.dimension();
+            let tension =
+                |sample: &[f64; KEPT]| surface_tension(&Self::whole(sample), normal as usize, dimension, self.length);
+            let series: Vec<f64> = self.samples.iter().map(tension).collect();
+            result[SURFACE_TENSION] = json!(estimate(&series));
+        }
+        let correlation = self.correlation();
+        if let Some(correlation) = &correlation {
+            result[VISCOSITY] = json!(correlation.longest());
+        }
+        let more = correlation.iter().map(|correlation| self.correlation_table(correlation));
+        let tables = std::iter::once(table).chain(more).collect();
+        Conclusion { tables, result: Ok(result), warnings: Vec::new() }
+    }
+}
