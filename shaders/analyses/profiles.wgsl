@@ -2,6 +2,9 @@
 //
 // Slot analyses/layered: what is summed of a particle beside its number. Default: nothing. The plan chooses `motion` for profiles
 // of the velocity and the temperature.
+//
+// Slot analyses/layered_stress: what `motion` adds for profiles of the stress, from the momentum of a particle in integer units and that
+// over its mass. Default: nothing. The plan chooses `virials` for them.
 override LAYERS: u32;
 override LAYERED_AXIS: u32;
 override LAYER_SUMS: u32;     // of a layer: the particles of each species, then what the slot sums
@@ -25,3 +28,4 @@ fn layer_of(fraction: u32) -> u32 {
 }
 
 fn add_layered(entry: u32, id: u32, particle: Particle) {}
+fn add_layered_stress(entry: u32, id: u32, p: vec3<f32>, v: vec3<f32>) {}

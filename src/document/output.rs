@@ -204,6 +204,15 @@ pub struct Stress {
     pub window: Option<u64>,
 }
 
+impl Output {
+    /// The parts of a scene that ask for the stress.
+    pub(crate) fn asks_for_stress(&self) -> impl Iterator<Item = &'static str> {
+        let profile = self.profiles.as_ref().is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
+        let asked = [("output.stress", self.stress.is_some()), ("output.profiles.quantities", profile)];
+        asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
+    }
+}
+
 /// Averages over the particles in bins of equal width along an axis of the box, and over time.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -217,8 +226,8 @@ pub struct Profiles {
     /// Steps between two samples.
     #[schemars(range(min = 1))]
     pub every: u64,
-    /// What is averaged, each quantity at most once.
-    #[serde(default = "all_profiles")]
+    /// What is averaged, each quantity at most once; left out, density, velocity and temperature.
+    #[serde(default = "usual_profiles")]
     #[schemars(length(min = 1, max = 16))]
     pub quantities: Vec<ProfiledQuantity>,
 }
@@ -227,8 +236,8 @@ fn forty_bins() -> u32 {
     40
 }
 
-fn all_profiles() -> Vec<ProfiledQuantity> {
-    ProfiledQuantity::ALL.to_vec()
+fn usual_profiles() -> Vec<ProfiledQuantity> {
+    ProfiledQuantity::USUAL.to_vec()
 }
 
 /// What a run can measure in addition to the observables, in the order in which their files are listed.

@@ -84,11 +84,14 @@ pub enum ProfiledQuantity {
     Velocity,
     /// The kinetic temperature of the velocities relative to that of the centre of mass of the bin.
     Temperature,
+    /// The pressure tensor: momentum relative to the mean velocity of the bin, and the virials of its particles, of which each has
+    /// half of every pair and bond.
+    Stress,
 }
 
 impl ProfiledQuantity {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Density, Self::Velocity, Self::Temperature];
+    /// Those that are shown unless a scene names others.
+    pub const USUAL: [Self; 3] = [Self::Density, Self::Velocity, Self::Temperature];
 
     /// The name in a scene.
     #[must_use]
@@ -97,6 +100,7 @@ impl ProfiledQuantity {
             Self::Density => "density",
             Self::Velocity => "velocity",
             Self::Temperature => "temperature",
+            Self::Stress => "stress",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Charts of profiles along an axis of the box.
 
 use super::chart::{Axis, AxisFit, Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::quantities::TEMPERATURE;
+use super::quantities::{TEMPERATURE, pressure_label};
 use crate::numbers::short;
 use crate::table::Table;
 
@@ -17,10 +17,10 @@ pub struct ProfiledSpecies {
     pub column: String,
 }
 
-/// Profiles of density, velocity and temperature along an axis, with error bars; a column that is not in the table leaves its panel
+/// Profiles of density, velocity, temperature and normal pressures along an axis, with error bars; a column that is not in the table leaves its panel
 /// out.
 ///
-/// The columns are `position`, `number_density`, those of the species, `velocity_x` and so on, and `temperature`, each but the first
+/// The columns are `position`, `number_density`, those of the species, `velocity_x` and so on, `temperature`, and `pressure_xx` and so on, each but the first
 /// with another whose name ends in `_error`. `temperature` is that of the bath, if there is one.
 ///
 /// ```
@@ -69,8 +69,11 @@ pub fn profiles_chart(
     if let Some(temperature) = temperature {
         thermal = thermal.with_reference(&format!("kT = {}", short(temperature)), temperature);
     }
+    let normal = [("pressure_xx", "P_{xx}"), ("pressure_yy", "P_{yy}"), ("pressure_zz", "P_{zz}")];
+    let dimension = if table.column("pressure_zz").is_some() { 3 } else { 2 };
+    let pressure = panel(&pressure_label(dimension), &normal);
     let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    for mut panel in [density, velocity, thermal] {
+    for mut panel in [density, velocity, thermal, pressure] {
         if !panel.series.is_empty() {
             for (number, series) in panel.series.iter_mut().enumerate() {
                 series.ink = SeriesInk::Numbered(number);

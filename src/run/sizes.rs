@@ -80,7 +80,7 @@ impl Sizes {
                 ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))
             }
         };
-        let plots = 1 + analyses.iter().map(|asked| asked.id.tables().len() as u64).sum::<u64>();
+        let plots = 1 + analyses.iter().map(|asked| asked.tables.len() as u64).sum::<u64>();
         let sum = |bytes: &dyn Fn(&AskedAnalysis) -> u64| analyses.iter().map(bytes).fold(0, u64::saturating_add);
         Self {
             energies,

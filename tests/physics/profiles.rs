@@ -172,6 +172,32 @@ fn a_fluid_at_rest_is_uniform() {
     assert_eq!(image::image_dimensions(directory.path().join("profiles.png")).unwrap(), (640, 480));
 }
 
+/// Whatever belongs to a bin, all bins together have the pressure tensor of the box, but for their mean flows.
+#[test]
+fn profiles_of_the_stress_add_up() {
+    let scene = fluid(&[
+        "time.steps=200",
+        "time.equilibration=100",
+        r#"output.stress={"every":10}"#,
+        r#"output.profiles={"axis":"x","bins":5,"every":10,"quantities":["stress"]}"#,
+    ]);
+    let directory = tempfile::tempdir().unwrap();
+    let (outcome, table) = run(scene, directory.path());
+    for component in ["xx", "yy", "zz", "xy", "xz", "yz"] {
+        let column = table.column(&format!("pressure_{component}")).unwrap();
+        let mean = column.iter().sum::<f64>() / 5.0;
+        let expected = outcome.summary.results["stress"]["pressure"][component]["mean"].as_f64().unwrap();
+        // The mean flow of a bin, which profiles leave out, is that of 75 particles in a handful of independent samples: u² is at most
+        // some 9/75, times the density.
+        let flow = 3.0 * 9.0 / 75.0;
+        assert!((mean - expected).abs() < flow, "{component}: {mean}, {expected}");
+        if ["xx", "yy", "zz"].contains(&component) {
+            assert!(mean > 15.0 && mean < 30.0, "{component}: {mean}");
+        }
+        assert!(column.iter().any(|value| (value - mean).abs() > 1e-3), "{component}: {column:?}");
+    }
+}
+
 /// Density alone needs no momenta, and who asks for nothing has no array of layers.
 #[test]
 fn profiles_cost_what_they_show() {

@@ -37,7 +37,7 @@ const SAMPLERS: &[&str] = &[
     r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
         {"quantity":"speed","every":2,"frame":"centre-of-mass"}]"#,
-    r#"output.profiles={"axis":"x","every":2}"#,
+    r#"output.profiles={"axis":"x","every":2,"quantities":["density","velocity","temperature","stress"]}"#,
     r#"output.stress={"every":2}"#,
 ];
 
@@ -293,8 +293,12 @@ fn coupled_plans() -> Vec<(String, Plan)> {
         );
         for particles in particles {
             // Where particles are held there is no stress to measure.
-            let held = particles.contains("fixed").then_some("output.stress=null");
-            let changes = [&[interactions.as_str(), particles], SAMPLERS, held.as_slice()].concat();
+            let held: &[&str] = if particles.contains("fixed") {
+                &["output.stress=null", r#"output.profiles={"axis":"x","every":2}"#]
+            } else {
+                &[]
+            };
+            let changes = [&[interactions.as_str(), particles], SAMPLERS, held].concat();
             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }
     }

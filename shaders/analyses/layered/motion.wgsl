@@ -11,4 +11,5 @@ fn add_layered(entry: u32, id: u32, particle: Particle) {
     add_global(entry, sum64_of_f32(LAYERED_MASS / inverse_mass));
     for (var axis = 0u; axis < DIMENSION; axis++) { add_global(entry + 1u + axis, sum64_of_signed(momentum[axis])); }
     add_global(entry + 1u + DIMENSION, sum64_of_f32(dot(momentum, velocity) * LAYERED_KINETIC));
+    add_layered_stress(entry + 2u + DIMENSION, id, momentum, velocity);
 }

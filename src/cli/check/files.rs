@@ -54,7 +54,7 @@ fn analyses(scene: &Scene, model: &Model) -> Vec<(String, String)> {
     for asked in run::asked_analyses(scene, model) {
         let sampled = format!("sampled {}", interval(asked.first, asked.every));
         let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
-        rows.extend(asked.id.tables().iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
+        rows.extend(asked.tables.iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
     }
     rows
 }

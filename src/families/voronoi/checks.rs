@@ -111,10 +111,10 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Prob
         let found = "found in a scene of Voronoi DPD";
         problems.push(Problem::new("output.radial_distribution", found, accepted));
     }
-    if output.stress.is_some() {
+    for path in output.asks_for_stress() {
         let accepted =
             "`viscosity` or `shear_wave` for what the stress is wanted for; the faces of cells have no virial";
-        problems.push(Problem::new("output.stress", "found in a scene of Voronoi DPD", accepted));
+        problems.push(Problem::new(path, "found the stress in a scene of Voronoi DPD", accepted));
     }
     for (index, asked) in output.autocorrelations.iter().enumerate() {
         if asked.quantity == CorrelatedQuantity::Force {

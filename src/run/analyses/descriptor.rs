@@ -57,6 +57,8 @@ pub(super) struct Sampling {
     pub(super) detail: Option<String>,
     /// Numbers in its tables, if they are many.
     pub(super) numbers: u64,
+    /// How many tables at the end of its list are not written.
+    pub(super) left_out: usize,
 }
 
 impl Sampling {

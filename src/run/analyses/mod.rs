@@ -84,6 +84,8 @@ pub struct AskedAnalysis {
     pub every: u64,
     /// How the samples are used, in words.
     pub detail: Option<String>,
+    /// The tables that it writes.
+    pub tables: &'static [AnalysisTable],
     /// Numbers that its tables will hold, if they are many.
     pub(crate) numbers: u64,
     /// Bytes that it adds to a checkpoint, if they are many.
@@ -105,8 +107,10 @@ pub struct AskedAnalysis {
 pub fn asked_analyses(scene: &Scene, model: &Model) -> Vec<AskedAnalysis> {
     let asked = AnalysisId::ALL.into_iter().filter_map(|id| {
         let descriptor = describe(id);
-        let Sampling { first, every, detail, numbers } = descriptor.asked(scene, model)?;
-        Some(AskedAnalysis { id, first, every, detail, numbers, kept_bytes: descriptor.kept_bytes(scene, model) })
+        let Sampling { first, every, detail, numbers, left_out } = descriptor.asked(scene, model)?;
+        let tables = id.tables().split_at(id.tables().len().saturating_sub(left_out)).0;
+        let kept_bytes = descriptor.kept_bytes(scene, model);
+        Some(AskedAnalysis { id, first, every, detail, tables, numbers, kept_bytes })
     });
     asked.collect()
 }

@@ -1,4 +1,4 @@
-//! Profiles of density, velocity and temperature along an axis of the box.
+//! Profiles of density, velocity, temperature and stress along an axis of the box.
 
 use super::{
     Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
@@ -8,12 +8,13 @@ use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::blocks::BlockSums;
 use crate::measure::statistics::Estimate;
+use crate::measure::stress::Components;
 use crate::numbers::grouped;
 use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
 use crate::plan::{Need, Sampler, SamplerId};
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
 use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity, Scene};
-use crate::shaders::analyses::{self, Layered};
+use crate::shaders::analyses::{self, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -23,6 +24,9 @@ const POSITION: &str = "position";
 const DENSITY: &str = "number_density";
 const VELOCITIES: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
 const TEMPERATURE: &str = "temperature";
+const PRESSURE: &str = "pressure";
+/// Axes of the components of a tensor.
+const COMPONENTS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
 /// Profiles along an axis.
 pub(super) struct Profiles;
@@ -32,7 +36,7 @@ fn shows(asked: &scene::Profiles, quantity: ProfiledQuantity) -> bool {
 }
 
 fn has_motion(asked: &scene::Profiles) -> bool {
-    shows(asked, ProfiledQuantity::Velocity) || shows(asked, ProfiledQuantity::Temperature)
+    asked.quantities.iter().any(|quantity| *quantity != ProfiledQuantity::Density)
 }
 
 impl Descriptor for Profiles {
@@ -44,6 +48,7 @@ impl Descriptor for Profiles {
 
     fn needs(&self, output: &Output) -> &'static [Need] {
         match &output.profiles {
+            Some(asked) if shows(asked, ProfiledQuantity::Stress) => &[Need::Particles, Need::Momenta, Need::Stresses],
             Some(asked) if has_motion(asked) => &[Need::Particles, Need::Momenta],
             _ => &[Need::Particles],
         }
@@ -65,7 +70,7 @@ impl Descriptor for Profiles {
         }
         if sums.motion {
             let (velocities, _) = planner.velocities(Some(Frame::Box));
-            choices = velocities.with(Layered::Motion);
+            choices = velocities.with(Layered::Motion).with_if(sums.stress, LayeredStress::Virials);
             let energy = planner.model.units.momentum.powi(2) / planner.plan.quanta.energy;
             constants.push((Constant::LayeredMass, 1.0 / mass_quantum(planner.model)));
             constants.push((Constant::LayeredKinetic, energy));
@@ -152,23 +157,31 @@ struct Sums {
     species: usize,
     dimension: usize,
     motion: bool,
+    stress: bool,
 }
 
 impl Sums {
     fn of(model: &Model, asked: &scene::Profiles) -> Self {
         let species = model.species.len().max(1);
-        Self { species, dimension: model.units.dimension, motion: has_motion(asked) }
+        let stress = shows(asked, ProfiledQuantity::Stress);
+        Self { species, dimension: model.units.dimension, motion: has_motion(asked), stress }
     }
 
-    /// Sums of a layer in a sample: particles of each species, mass, momentum, twice the kinetic energy.
+    /// Sums of a layer in a sample: particles of each species, mass, momentum, twice the kinetic energy, and two tensors of six
+    /// components: the momentum that is carried, and the virials.
     fn sampled(self) -> usize {
-        self.species + if self.motion { self.dimension + 2 } else { 0 }
+        self.species + if self.motion { self.dimension + 2 } else { 0 } + if self.stress { 12 } else { 0 }
     }
 
     /// Sums of a layer that are kept: particles of each species, mass, momentum, twice the kinetic energy relative to the centre of
-    /// mass of the layer, and the degrees of freedom that it belongs to.
+    /// mass of the layer, and the degrees of freedom that it belongs to; then the momentum that is carried and the virials together.
     fn kept(self) -> usize {
-        self.species + if self.motion { self.dimension + 3 } else { 0 }
+        self.freedom() + if self.motion { 1 } else { 0 } + if self.stress { 6 } else { 0 }
+    }
+
+    /// The place of the degrees of freedom among those that are kept.
+    fn freedom(self) -> usize {
+        self.species + if self.motion { self.dimension + 2 } else { 0 }
     }
 }
 
@@ -188,6 +201,7 @@ struct Layers {
     mass: f64,
     momentum: f64,
     energy: f64,
+    virial: f64,
     blocks: BlockSums,
 }
 
@@ -205,13 +219,14 @@ impl Layers {
             mass: mass_quantum(model),
             momentum: model.units.momentum,
             energy: plan.quanta.energy,
+            virial: plan.stress_unit,
             blocks: BlockSums::new(asked.bins as usize * sums.kept()),
         }
     }
 
     /// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
     fn kept(&self, sums: &[i64]) -> Vec<f64> {
-        let Sums { species, dimension, motion } = self.sums;
+        let Sums { species, dimension, motion, stress } = self.sums;
         let mut row: Vec<f64> = sums.iter().take(species).map(|count| *count as f64).collect();
         if !motion {
             return row;
@@ -222,11 +237,17 @@ impl Layers {
         let energy = sums[species + 1 + dimension] as f64 * self.energy;
         let of_centre = if mass > 0.0 { momentum.iter().map(|p| p * p).sum::<f64>() / mass } else { 0.0 };
         row.push(mass);
-        row.extend(momentum);
+        row.extend(&momentum);
         // A single particle has none, but for rounding.
         let freedom = dimension as f64 * (moving - 1.0).max(0.0);
         row.push(if freedom > 0.0 { energy - of_centre } else { 0.0 });
         row.push(freedom);
+        if stress {
+            let tensors = &sums[species + dimension + 2..];
+            row.extend((0..6).map(|component| {
+                tensors[component] as f64 * self.energy + tensors[6 + component] as f64 * self.virial
+            }));
+        }
         row
     }
 
@@ -240,6 +261,18 @@ impl Layers {
     fn ratio(&self, numerator: usize, denominator: usize, layer: usize) -> Option<Estimate> {
         let first = layer * self.sums.kept();
         self.blocks.ratio(|row| row[first + numerator], |row| row[first + denominator])
+    }
+
+    /// A component of the mean pressure tensor of a layer: of the momentum relative to the mean velocity u of the layer, Σ m(v - u)(v - u) =
+    /// Σ mvv - uP - Pu + uuM, and of the virials.
+    fn pressure(&self, component: usize, layer: usize) -> Option<Estimate> {
+        let (first, species) = (layer * self.sums.kept(), self.sums.species);
+        let place = self.sums.freedom() + 1 + component;
+        let axes = COMPONENTS[component].map(|axis| species + 1 + axis);
+        let mass = self.blocks.total(first + species);
+        let [a, b] = axes.map(|axis| if mass > 0.0 { self.blocks.total(first + axis) / mass } else { 0.0 });
+        let of = |sums: &[f64]| sums[place] - a * sums[axes[1]] - b * sums[axes[0]] + a * b * sums[species];
+        self.density(of, layer)
     }
 
     /// Columns of the table with their numbers in a layer.
@@ -264,14 +297,19 @@ impl Layers {
             let [thermal, freedom] = [1, 2].map(|place| species + dimension + place);
             columns.push((TEMPERATURE.to_owned(), Box::new(move |layer| self.ratio(thermal, freedom, layer))));
         }
+        if shows(&self.asked, ProfiledQuantity::Stress) {
+            for (name, component) in Components::of(dimension).iter() {
+                columns.push((format!("{PRESSURE}_{name}"), Box::new(move |layer| self.pressure(component, layer))));
+            }
+        }
         columns
     }
 
     /// The temperature of all layers together.
     fn temperature(&self) -> Option<Estimate> {
-        let (width, last) = (self.sums.kept(), self.sums.kept().checked_sub(2)?);
+        let (width, freedom) = (self.sums.kept(), self.sums.freedom());
         let sum = move |place: usize| move |row: &[f64]| row.iter().skip(place).step_by(width).sum::<f64>();
-        self.blocks.ratio(sum(last), sum(last + 1))
+        self.blocks.ratio(sum(freedom - 1), sum(freedom))
     }
 }
 

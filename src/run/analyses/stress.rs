@@ -31,7 +31,8 @@ impl Descriptor for Stress {
         let sampling = Sampling::after_equilibration(scene, asked.every);
         let samples = scene.time.steps.saturating_sub(sampling.first) / asked.every.max(1) + 1;
         let columns = 1 + 4 * Components::of(model.units.dimension).len() as u64;
-        Some(Sampling { numbers: samples.saturating_mul(columns), ..sampling })
+        let left_out = usize::from(asked.window.is_none());
+        Some(Sampling { numbers: samples.saturating_mul(columns), left_out, ..sampling })
     }
 
     fn needs(&self, _: &Output) -> &'static [Need] {

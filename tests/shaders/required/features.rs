@@ -677,6 +677,19 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "profiles of the stress",
+            ground: no_analyses,
+            with: |scene| {
+                let quantities = ["density", "velocity", "stress"];
+                write(scene, "profiles", json!({"axis": "x", "every": 2, "quantities": quantities}));
+            },
+            without: |scene| write(scene, "profiles", json!({"axis": "x", "every": 2})),
+            own: Some(&["stress", "STRESS"]),
+            more: &["clear_stresses", "stress", "stress_of_bonds", "reported_stresses"],
+            instead: &[],
+            always: true,
+        },
+        Feature {
             name: "velocities about the centre of mass",
             ground: no_analyses,
             with: |scene| write(scene, "histograms", velocities_in("centre-of-mass")),

@@ -56,9 +56,16 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
 
 /// Forces from places in space have no stress between particles.
 fn check_stress(scene: &Scene, problems: &mut Problems) {
-    let Some(asked) = &scene.output.stress else { return };
-    check_window_of_stress(asked, scene, problems);
-    let mut refuse = |found: &str, accepted: &str| problems.push(Problem::new("output.stress", found, accepted));
+    if let Some(asked) = &scene.output.stress {
+        check_window_of_stress(asked, scene, problems);
+    }
+    for path in scene.output.asks_for_stress() {
+        check_forces_of_stress(path, scene, problems);
+    }
+}
+
+fn check_forces_of_stress(path: &str, scene: &Scene, problems: &mut Problems) {
+    let mut refuse = |found: &str, accepted: &str| problems.push(Problem::new(path, found, accepted));
     if scene.space.lengths.len() == 1 {
         refuse(
             "found in a scene of one dimension",
