@@ -46,9 +46,9 @@ impl Components {
     }
 }
 
-/// The surface tension γ = L/2 (P_nn - ⟨P_tt⟩) of the two flat interfaces of a slab, across an axis along which the periodic box is
-/// `length` long; of a pressure tensor xx, yy, zz, xy, xz, yz. Kirkwood and Buff, doi:10.1063/1.1747248. In two dimensions it is a line
-/// tension.
+/// The surface tension `γ = L/2 (P_nn - P_tt)` of the two flat interfaces of a slab, from the normal and the mean tangential pressure across
+/// an axis along which the periodic box has `length` L; of a pressure tensor xx, yy, zz, xy, xz, yz. Kirkwood and Buff,
+/// doi:10.1063/1.1747248. In two dimensions it is a line tension.
 ///
 /// ```
 /// use mesoscope::measure::stress::surface_tension;

@@ -176,7 +176,7 @@ impl Sums {
     /// Sums of a layer that are kept: particles of each species, mass, momentum, twice the kinetic energy relative to the centre of
     /// mass of the layer, and the degrees of freedom that it belongs to; then the momentum that is carried and the virials together.
     fn kept(self) -> usize {
-        self.freedom() + if self.motion { 1 } else { 0 } + if self.stress { 6 } else { 0 }
+        self.freedom() + usize::from(self.motion) + if self.stress { 6 } else { 0 }
     }
 
     /// The place of the degrees of freedom among those that are kept.
