@@ -123,7 +123,7 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
             "Choose {bold}{}{bold}{cost}: the cheapest that meets the targets, with two standard errors.\n",
             choice.label
         );
-        for line in lines(&choice.settings) {
+        for line in lines(&summary.lines_of(choice)) {
             let _ = writeln!(text, "{indent}{line}");
         }
         text.push('\n');

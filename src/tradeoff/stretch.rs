@@ -39,6 +39,14 @@ impl Stretch {
         scene.time.equilibration.saturating_add(steps.div_ceil(every).max(1).saturating_mul(every))
     }
 
+    /// The numbers of steps before means are taken and in all with which a scene covers this stretch.
+    pub(super) fn numbers(&self, scene: &Scene) -> (u64, u64) {
+        let equilibration = (self.equilibration / scene.time.step).round() as u64;
+        // Rounding must not add a step.
+        let averaged = (self.averaged / scene.time.step * (1.0 - 1e-12)).ceil() as u64;
+        (equilibration, equilibration.saturating_add(averaged))
+    }
+
     /// A variant over this stretch, sampled at the same times as the scene as far as its step allows.
     ///
     /// # Errors

@@ -185,13 +185,32 @@ impl TradeoffSummary {
         text
     }
 
+    /// What a choice changes in the scene, with the numbers of steps that cover the simulated time of the scene where the step differs.
+    pub(super) fn lines_of(&self, choice: &Choice) -> Vec<Setting> {
+        let mut settings = choice.settings.clone();
+        let parsed = |overrides: &[String]| scene::parse(&self.arguments.scene, &self.arguments.text, overrides).ok();
+        let (_, _, overrides) = self.scene_of(choice);
+        let Some((base, chosen)) = parsed(&self.arguments.set).zip(parsed(&overrides)) else { return settings };
+        if base.time.step != chosen.time.step {
+            let stretch = Stretch::of(&base);
+            let setting = |key: &str, value: u64| Setting { key: key.to_owned(), value: value.into() };
+            let (equilibration, steps) = stretch.numbers(&chosen);
+            settings.push(setting("time.steps", steps));
+            if equilibration > 0 || chosen.time.equilibration > 0 {
+                settings.push(setting("time.equilibration", equilibration));
+            }
+        }
+        settings
+    }
+
     /// The text of the scene with the settings of the choice that meets the targets, as JSON; none where no choice does.
     ///
     /// # Errors
     /// [`StudyError::Scene`] if the scene cannot be read again.
     pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
-        let overrides = self.arguments.set.iter().cloned().chain(choice.settings.iter().map(Setting::argument));
+        let settings = self.lines_of(choice);
+        let overrides = self.arguments.set.iter().cloned().chain(settings.iter().map(Setting::argument));
         let Arguments { scene, text, state_files, .. } = &self.arguments;
         let text = scene::with_overrides(state_files, scene, text, &overrides.collect::<Vec<_>>())?;
         Ok(Some(text))

@@ -396,6 +396,22 @@ fn flows_are_compared_with_what_is_exact() {
     assert!((0..2).all(|place| error(place, "circulation_drift") < 1e-3));
 }
 
+/// A scene with a longer step has fewer of them, so that it covers the time that the scene of the user does.
+#[test]
+fn a_scene_that_is_written_covers_the_same_time() {
+    let place = place();
+    let path = place.argument("new.json");
+    let further =
+        ["--set", "time.step=0.01", "--vary", "time.step=0.04", "--target", "temperature=50%", "--write", &path];
+    let said = succeeds(&borrowed(&arguments(&place, &[&further[..], &["--measure", "temperature"]].concat())));
+    let written: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    let time = &written["time"];
+    assert_eq!((&time["step"], &time["steps"], &time["equilibration"]), (&json!(0.04), &json!(50), &json!(10)));
+    for line in ["time.step: 0.04", "time.steps: 50", "time.equilibration: 10"] {
+        assert!(said.contains(line), "`{line}` is not in: {said}");
+    }
+}
+
 /// Of Voronoi cells with energies the limit on what crosses a face acts more often in longer steps.
 #[test]
 fn limited_exchanges_are_counted() {
