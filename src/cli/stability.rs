@@ -58,7 +58,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Ok(request)
     })?;
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
-    let run = run.unless_long(comparison.yes);
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs, then the edges"), StabilityRun::execute)?;
     if study.how.quiet { Ok(()) } else { print(&results(&outcome, &directory)) }
 }
@@ -66,8 +65,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// The table at the end, and the files written.
 fn results(outcome: &StabilityOutcome, directory: &str) -> String {
     let summary = &outcome.summary;
-    let header =
-        ["ROW".to_owned(), format!("RIGHT: {} UP TO", summary.key), "UNSTABLE FROM".to_owned(), "LAWS".to_owned()];
+    let header = [
+        "ROW".to_owned(),
+        format!("{}: {} UP TO", summary.right_in_a_word().to_uppercase(), summary.key),
+        "UNSTABLE FROM".to_owned(),
+        "LAWS".to_owned(),
+    ];
     let mut rows = vec![header.to_vec()];
     rows.extend(summary.in_words().into_iter().map(|words| words.to_vec()));
     let mut text = aligned(&rows, "  ");

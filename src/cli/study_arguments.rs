@@ -35,6 +35,10 @@ pub struct StudyArguments {
     #[arg(long, value_name = "DIR", conflicts_with = "force")]
     resume: Option<PathBuf>,
 
+    /// Run even if it takes more than eight hours
+    #[arg(long)]
+    yes: bool,
+
     #[command(flatten)]
     pub how: RunArguments,
 }
@@ -52,16 +56,12 @@ pub struct VariantArguments {
     pub also: Vec<String>,
 }
 
-/// What is right, for commands whose time is estimated before they begin.
+/// What is right.
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArguments {
     /// What a measure should be, as in `pressure=23.635` or `pressure=23.635+-0.005`; may be repeated
     #[arg(long, value_name = "MEASURE=VALUE", conflicts_with = "resume")]
     reference: Vec<String>,
-
-    /// Run even if it takes more than eight hours
-    #[arg(long)]
-    pub yes: bool,
 }
 
 impl ComparisonArguments {
@@ -85,7 +85,7 @@ impl StudyArguments {
             let default = || format!("{}-{}", report::stem(scene), R::KIND.command).into();
             StudyRun::start(request(scene)?, self.out.clone().unwrap_or_else(default), self.how.force)
         };
-        Ok(study.with_jobs(self.jobs.map(usize::from)).until(&interruption::interrupt()))
+        Ok(study.with_jobs(self.jobs.map(usize::from)).unless_long(self.yes).until(&interruption::interrupt()))
     }
 
     /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.

@@ -88,7 +88,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         check_place(path, run.request())?;
     }
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
-    let run = run.unless_long(arguments.comparison.yes);
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
     if !study.how.quiet {
         print(&results(&outcome, &directory))?;

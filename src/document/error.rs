@@ -189,6 +189,7 @@ fn list(scene: &str, problems: &[Problem], more: usize) -> String {
     text
 }
 
-fn did_you_mean(suggestion: Option<&str>) -> String {
+/// The name nearest to one that is not known, as a question in brackets.
+pub(crate) fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
 }

@@ -25,6 +25,7 @@ mod walls;
 
 pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
+pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{FileLinks, FilePlaces, FileStart, KeptStart};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};

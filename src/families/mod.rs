@@ -151,6 +151,11 @@ pub(crate) trait Physics {
     /// The laws that bound a scene, and how near to their bounds it is. Those without meaning for the scene have a share of 0.
     fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit>;
 
+    /// Whether particles only say how finely a continuum is resolved, so that more of them are the same scene.
+    fn is_resolved_by_particles(&self) -> bool {
+        false
+    }
+
     /// Whether heat baths take what moves to their temperature, sooner or later.
     fn is_heated(&self, model: &Model) -> bool {
         self.has_thermostat(model)

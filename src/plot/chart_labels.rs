@@ -12,8 +12,8 @@ const SIZE: f64 = 0.72;
 type Segment = ([f64; 2], [f64; 2]);
 
 impl Layout<'_> {
-    /// Writes the labels of the points of a panel. Each stands right of, left of, above or below its point, wherever it first
-    /// covers neither data nor another label nor the legend; where that is nowhere, it is left out.
+    /// Writes the labels of the points of a panel. Each stands beside its point, or at the end of a line that leads to it,
+    /// wherever it first covers neither data nor another label nor the legend. Where all of the panel is full, it is left out.
     pub(super) fn point_labels(&mut self, index: usize, place: &Placed, legend: Option<Area>) {
         let panel = self.prepared[index].panel;
         if panel.series.iter().all(|series| series.labels.is_empty()) {
@@ -30,7 +30,7 @@ impl Layout<'_> {
         let square =
             |[x, y]: [f64; 2]| Area { left: x - radius, top: y - radius, right: x + radius, bottom: y + radius };
         let mut taken: Vec<Area> = points.iter().copied().map(square).chain(legend).collect();
-        let lines = self.obstacles(index, place);
+        let mut lines = self.obstacles(index, place);
         let size = SIZE * self.sizes.label;
         for (number, series) in panel.series.iter().enumerate() {
             let colour = self.look(number, series).colour;
@@ -38,7 +38,13 @@ impl Layout<'_> {
             for (point, label) in series.points.iter().zip(&series.labels) {
                 let Some(at) = place.pixel(*point).filter(|at| place.area.contains(*at)) else { continue };
                 let width = self.canvas.typesetter.width(label, style.weight, size);
-                let Some(spot) = free_spot(at, [width, size], radius, (&taken, &lines), &place.area) else { continue };
+                let Some((spot, leader)) = free_spot(at, [width, size], radius, (&taken, &lines), &place.area) else {
+                    continue;
+                };
+                if let Some((from, to)) = leader {
+                    self.canvas.line(from, to, 0.5 * self.sizes.rule, colour);
+                    lines.push((from, to));
+                }
                 let baseline = 0.5 * (spot.top + spot.bottom + CAPITAL_HEIGHT * size);
                 self.canvas.text(label, [spot.left, baseline], Anchor::Start, style);
                 taken.push(spot);
@@ -47,26 +53,21 @@ impl Layout<'_> {
     }
 }
 
-/// The first place around a point where a label of this width and height covers nothing.
+/// How far around a point places are tried, in heights of a label, where none beside it is free.
+const FARTHEST: u32 = 12;
+
+/// Directions tried at each distance.
+const DIRECTIONS: u32 = 16;
+
+/// The first place for a label of this width and height where it covers nothing: beside its point, or as near as can be,
+/// with a line that leads there and crosses no other label.
 fn free_spot(
-    [x, y]: [f64; 2],
+    at: [f64; 2],
     [width, height]: [f64; 2],
     radius: f64,
     (taken, lines): (&[Area], &[Segment]),
     inside: &Area,
-) -> Option<Area> {
-    let area = |left: f64, top: f64| Area { left, top, right: left + width, bottom: top + height };
-    let (middle, centre) = (y - 0.5 * height, x - 0.5 * width);
-    let spots = [
-        area(x + radius, middle),
-        area(x - radius - width, middle),
-        area(centre, y - radius - height),
-        area(centre, y + radius),
-        area(x + radius, y - radius - 0.5 * height),
-        area(x + radius, y + radius - 0.5 * height),
-        area(x - radius - width, y - radius - 0.5 * height),
-        area(x - radius - width, y + radius - 0.5 * height),
-    ];
+) -> Option<(Area, Option<Segment>)> {
     let is_free = |spot: &Area| {
         let within = spot.left >= inside.left
             && spot.right <= inside.right
@@ -75,7 +76,41 @@ fn free_spot(
         let crossed = || lines.iter().any(|(from, to)| clipped(*from, *to, spot).is_some());
         within && !taken.iter().any(|other| overlap(spot, other)) && !crossed()
     };
-    spots.into_iter().find(is_free)
+    let beside = beside(at, [width, height], radius).into_iter().find(is_free).map(|spot| (spot, None));
+    let away = || {
+        (1..=FARTHEST).flat_map(|distance| (0..DIRECTIONS).map(move |turn| (distance, turn))).find_map(
+            |(distance, turn)| {
+                let (sine, cosine) = (std::f64::consts::TAU * f64::from(turn) / f64::from(DIRECTIONS)).sin_cos();
+                let reach = radius + height * f64::from(distance);
+                let centre = [at[0] + cosine * (reach + 0.5 * width), at[1] + sine * (reach + 0.5 * height)];
+                let [left, top] = [centre[0] - 0.5 * width, centre[1] - 0.5 * height];
+                let spot = Area { left, top, right: left + width, bottom: top + height };
+                let end = [at[0].clamp(spot.left, spot.right), at[1].clamp(spot.top, spot.bottom)];
+                let leader = (at, end);
+                let is_clear = || taken.iter().all(|other| other.contains(at) || clipped(at, end, other).is_none());
+                (is_free(&spot) && is_clear()).then_some((spot, Some(leader)))
+            },
+        )
+    };
+    beside.or_else(away)
+}
+
+/// The places that touch a point: right, left, above, below and between.
+fn beside([x, y]: [f64; 2], [width, height]: [f64; 2], radius: f64) -> [Area; 8] {
+    let area = |left: f64, top: f64| Area { left, top, right: left + width, bottom: top + height };
+    let (middle, centre) = (y - 0.5 * height, x - 0.5 * width);
+    let [higher, lower] = [y - radius - 0.5 * height, y + radius - 0.5 * height];
+    let [right, left] = [x + radius, x - radius - width];
+    [
+        area(right, middle),
+        area(left, middle),
+        area(centre, y - radius - height),
+        area(centre, y + radius),
+        area(right, higher),
+        area(right, lower),
+        area(left, higher),
+        area(left, lower),
+    ]
 }
 
 fn overlap(a: &Area, b: &Area) -> bool {
@@ -92,19 +127,32 @@ mod tests {
         let point = [50.0, 50.0];
         let own = Area { left: 45.0, top: 45.0, right: 55.0, bottom: 55.0 };
         let mut taken = vec![own];
-        let mut found = Vec::new();
-        while let Some(spot) = free_spot(point, [20.0, 8.0], 5.0, (&taken, &[]), &inside) {
+        let mut led = 0;
+        while let Some((spot, leader)) = free_spot(point, [20.0, 8.0], 5.0, (&taken, &[]), &inside) {
             assert!(!taken.iter().any(|other| overlap(&spot, other)));
+            if let Some((from, to)) = leader {
+                assert_eq!(from, point);
+                assert!(spot.contains(to), "a line ends at its label");
+                assert!(taken[1..].iter().all(|other| clipped(from, to, other).is_none()), "and crosses no other");
+                led += 1;
+            } else {
+                assert_eq!(led, 0, "beside the point as long as there is room");
+            }
             taken.push(spot);
-            found.push(spot);
         }
-        assert_eq!(found.first().map(|spot| spot.left), Some(55.0), "right of its point where nothing is in the way");
-        assert!((4..=8).contains(&found.len()), "{}", found.len());
-        let corner = free_spot([98.0, 50.0], [20.0, 8.0], 5.0, (&[], &[]), &inside);
-        assert_eq!(corner.map(|spot| spot.right), Some(93.0), "left of a point at the right edge");
+        assert_eq!(taken[1].left, 55.0, "right of its point where nothing is in the way");
+        assert!(led > 0, "{}", taken.len());
+    }
+
+    #[test]
+    fn labels_keep_clear_of_lines_and_edges() {
+        let inside = Area { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
+        let spot = |at, width, lines: &[Segment]| {
+            free_spot(at, [width, 8.0], 5.0, (&[], lines), &inside).map(|(spot, leader)| (spot.left, leader.is_some()))
+        };
+        assert_eq!(spot([98.0, 50.0], 20.0, &[]), Some((73.0, false)), "left of a point at the right edge");
         let line = ([40.0, 50.0], [90.0, 50.0]);
-        let above = free_spot(point, [20.0, 8.0], 5.0, (&[], &[line]), &inside);
-        assert_eq!(above.map(|spot| (spot.left, spot.bottom)), Some((40.0, 45.0)), "not on a line to the right");
-        assert_eq!(free_spot(point, [200.0, 8.0], 5.0, (&[], &[]), &inside), None);
+        assert_eq!(spot([50.0, 50.0], 20.0, &[line]), Some((40.0, false)), "not on a line to the right");
+        assert_eq!(spot([50.0, 50.0], 200.0, &[]), None);
     }
 }

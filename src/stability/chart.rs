@@ -1,4 +1,4 @@
-//! The picture of a map: verdicts over the two keys, with edges and bounds; of a single row, errors over its key.
+//! The picture of a map: verdicts over the two keys, with edges and bounds; of a single row whose errors are known, those over its key.
 
 use super::range::Spacing;
 use super::request::Request;
@@ -24,9 +24,14 @@ fn axis(label: &str, spacing: Spacing) -> Axis {
 pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
     let percent = format!("{} %", short(100.0 * summary.tolerance()));
     let measures: Vec<String> = summary.measures.iter().map(|measure| measure.replace('_', " ")).collect();
-    let compared = if measures.is_empty() { "nothing is compared".to_owned() } else { measures.join(", ") };
-    let subtitle = format!("right: {compared} within {percent}");
-    let panel = if summary.rows.len() == 1 { of_a_row(summary) } else { of_rows(summary, request, &percent) };
+    let subtitle = if measures.is_empty() {
+        "nothing is compared".to_owned()
+    } else {
+        format!("right: {} within {percent}", measures.join(", "))
+    };
+    let has_errors = summary.rows.iter().flat_map(|row| &row.cells).any(|cell| !cell.errors.is_empty());
+    let is_curve = summary.rows.len() == 1 && has_errors;
+    let panel = if is_curve { of_a_row(summary) } else { of_rows(summary, request, &percent) };
     Chart { title: format!("{}: stability", request.title()), subtitle, panels: vec![panel] }
 }
 
@@ -37,7 +42,8 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
     let y = if let Some((_, spacing)) = &numbers {
         axis(key, *spacing)
     } else {
-        let name = |row: &Row| row.setting.as_ref().map_or_else(String::new, |setting| readable(&setting.value));
+        let name =
+            |row: &Row| row.setting.as_ref().map_or_else(|| "the scene".to_owned(), |setting| readable(&setting.value));
         Axis::categories(key, summary.rows.iter().map(name).collect())
     };
     let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);
@@ -65,8 +71,8 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
             continue;
         }
         let name = match verdict {
-            Verdict::Right => format!("right within {percent}"),
-            other => other.name().to_owned(),
+            Verdict::Right if !summary.measures.is_empty() => format!("right within {percent}"),
+            other => other.name_in(summary).to_owned(),
         };
         panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(number)));
     }

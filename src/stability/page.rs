@@ -17,8 +17,8 @@ pub(super) fn right_in_words(row: &Row) -> String {
         Some((first, last, is_bounded)) => {
             let from = row.cells.first().is_some_and(|cell| cell.value < first);
             let from = if from { format!("{} to ", three_digits(first)) } else { String::new() };
-            let beyond = if is_bounded { "" } else { " and beyond" };
-            format!("{from}{}{beyond}", three_digits(last))
+            let largest = if is_bounded { "" } else { ", the largest tried" };
+            format!("{from}{}{largest}", three_digits(last))
         }
     }
 }
@@ -95,7 +95,7 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
     }
     lines.extend(reasons.into_iter().map(|(reason, count)| format!("{count} refused: {reason}")));
     if summary.measures.is_empty() {
-        lines.push("nothing is compared: no law says what this scene measures, so what runs to its end counts as right; --reference MEASURE=VALUE gives a value".to_owned());
+        lines.push("nothing is compared, as no law says what this scene measures: whether what ran to its end is right is not known; --reference MEASURE=VALUE gives a value".to_owned());
     }
     lines
 }
@@ -105,12 +105,12 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let keys = request.short_keys();
     let key = keys.short(&summary.key);
     let measures: Vec<String> = summary.measures.iter().map(|measure| format!("`{measure}`")).collect();
-    let right = if measures.is_empty() {
-        "What runs to its end counts as right.".to_owned()
+    let meaning = if measures.is_empty() {
+        "Nothing is compared, so that nobody knows whether what ran to its end is right.".to_owned()
     } else {
         format!("Right means that {} are within {} %.", measures.join(", "), short(100.0 * summary.tolerance()))
     };
-    let mut text = format!("# {}: how far it may go\n\n`{}` is varied. {right}", request.title(), summary.key);
+    let mut text = format!("# {}: how far it may go\n\n`{}` is varied. {meaning}", request.title(), summary.key);
     if let Some(adapter) = &summary.adapter {
         let _ = write!(
             text,
@@ -118,7 +118,8 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
             summary.date, adapter.name, adapter.driver, summary.mesoscope_version
         );
     }
-    let _ = write!(text, "\n\n| row | right: {key} up to | unstable from | laws |\n|---|---|---|---|\n");
+    let right = Verdict::Right.name_in(summary);
+    let _ = write!(text, "\n\n| row | {right}: {key} up to | unstable from | laws |\n|---|---|---|---|\n");
     for row in &summary.rows {
         let label = if row.label.is_empty() { "the scene" } else { &row.label };
         let _ = writeln!(
@@ -148,6 +149,12 @@ impl StabilitySummary {
             [label, right_in_words(row), unstable_in_words(row), bounds_in_words(row)]
         };
         self.rows.iter().map(words).collect()
+    }
+
+    /// What the best of runs are called: right, or only run to the end where nothing is compared.
+    #[must_use]
+    pub fn right_in_a_word(&self) -> &'static str {
+        Verdict::Right.name_in(self)
     }
 
     /// What else was found, line by line.

@@ -85,7 +85,8 @@ impl Range {
             ends.split_once("..").and_then(|(low, high)| Some((number(low)?, number(high)?))).ok_or_else(wrong)?;
         let points: usize = points.trim().parse().map_err(|_| wrong())?;
         if !(2..=MOST_POINTS).contains(&points) {
-            return Err(format!("{points} points; accepted: 2 to {MOST_POINTS}"));
+            let plural = if points == 1 { "point" } else { "points" };
+            return Err(format!("{points} {plural}; accepted: 2 to {MOST_POINTS}"));
         }
         if low >= high {
             return Err(format!("{low} is not below {high}; accepted: the smaller end first"));

@@ -5,7 +5,7 @@ use crate::families::Model;
 use crate::families::StepCheck;
 use crate::output::Id;
 use crate::run;
-use crate::scene::{self, Scene, SceneError, StateFiles, nearest};
+use crate::scene::{self, Scene, SceneError, StateFiles, did_you_mean, nearest};
 use crate::study::{LENGTHS, Setting, ShortKeys, StudyError};
 use crate::tradeoff::{References, Stretch};
 use serde::{Deserialize, Serialize};
@@ -189,7 +189,7 @@ impl Request {
         for measure in measures.iter().map(String::as_str).chain(references.measures()) {
             if !known.iter().any(|known| known == measure) {
                 let near = nearest(measure, known.iter().map(String::as_str));
-                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let near = did_you_mean(near.as_deref());
                 mistakes
                     .push(format!("no run of this scene measures `{measure}`{near}; accepted: {}", known.join(", ")));
             } else if references.find(measure).is_none() && crate::tradeoff::predicted(measure, &self.base).is_none() {

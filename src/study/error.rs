@@ -7,7 +7,7 @@ use crate::output::OutputError;
 use crate::printable;
 use crate::run::RunError;
 use crate::scene::SceneError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A failure of a study. A run that becomes unstable is one of its results.
 #[derive(Debug, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum StudyError {
         mistakes: Vec<Mistake>,
     },
     /// The directory holds no study of this kind.
-    #[error("there is no {} in `{}`: it has no {}", kind.noun, printable::path(path), kind.summary)]
+    #[error("there is no {} in `{}`: {}", kind.noun, printable::path(path), lacking(path, kind))]
     Nothing {
         /// What was looked for.
         kind: &'static Kind,
@@ -167,6 +167,11 @@ pub struct Mistake {
     pub variants: Vec<String>,
     /// What is wrong and what to do.
     pub message: String,
+}
+
+/// What a directory lacks.
+fn lacking(path: &Path, kind: &Kind) -> String {
+    if path.is_dir() { format!("it has no {}", kind.summary) } else { "there is no such directory".to_owned() }
 }
 
 /// Mistakes beyond this number are counted, not listed.

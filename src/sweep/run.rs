@@ -3,9 +3,14 @@
 use super::look::Look;
 use super::summary::SweepSummary;
 use super::{files, plots, table};
+use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
+use crate::scene::Scene;
 use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyRun};
+
+/// Particles times steps that no adapter takes more than some minutes for.
+const WORTH_TIMING: f64 = 1e8;
 
 /// A sweep to be executed.
 pub type SweepRun = StudyRun<SweepSummary>;
@@ -46,12 +51,14 @@ impl StudyRun<SweepSummary> {
         let waiting = self.summary.waiting();
         // Before the directory: an adapter that is not there should not cost an earlier sweep its files.
         let (gpu, jobs) = self.open_adapter(adapter, &waiting)?;
+        let seconds = self.expected(&waiting, &gpu);
+        self.refuse_long(seconds.unwrap_or_default())?;
         let place = self.open_place()?;
         if !waiting.is_empty() {
             self.summary.adapter = Some(gpu.description().into());
         }
         self.summarise()?;
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
         observer(StudyEvent::Finishing);
         let style = plots::style(&self.request);
@@ -72,6 +79,16 @@ impl StudyRun<SweepSummary> {
         let gpu = run::adapter_for(scene, adapter)?;
         let jobs = self.jobs_for(scene, waiting.len(), &gpu);
         Ok((gpu, jobs))
+    }
+
+    /// Seconds that variants take one after another, in proportion to the largest, of which steps are timed; none where all are short
+    /// or that one fails.
+    fn expected(&self, waiting: &[usize], gpu: &Gpu) -> Option<f64> {
+        let scenes = || waiting.iter().map(|number| &self.request.variants()[*number].scene);
+        let work = |scene: &Scene| Model::new(scene).particle_count() as f64 * scene.time.steps as f64;
+        let all: f64 = scenes().map(work).sum();
+        let largest = study::largest(scenes()).filter(|_| all > WORTH_TIMING)?;
+        Some(run::expected_time(largest, gpu).ok()?.seconds * all / work(largest))
     }
 
     /// Runs variants; `note` writes down after each how far the sweep is.

@@ -71,6 +71,7 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     }
     targets(&mut text, summary);
     table(&mut text, summary);
+    costs(&mut text, summary);
     for measure in &summary.measures {
         section(&mut text, summary, measure);
     }
@@ -196,6 +197,27 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
         );
     }
     text.push_str("\n\n");
+}
+
+/// What choices cost, in time and memory.
+fn costs(text: &mut String, summary: &TradeoffSummary) {
+    text.push_str(
+        "## Costs\n\n| choice | s a unit of time | fastest and slowest round | particle-steps/s | bytes a particle |\n\
+         |---|--:|--:|--:|--:|\n",
+    );
+    for choice in &summary.choices {
+        let Some(cost) = choice.cost else { continue };
+        let [median, fastest, slowest] =
+            [cost.seconds_per_time, cost.fastest, cost.slowest].map(|seconds| with_error(seconds, None));
+        let _ = writeln!(
+            text,
+            "| {} | {median} | {fastest} to {slowest} | {} | {:.0} |",
+            choice.label,
+            with_error(cost.particle_steps_per_second, None),
+            cost.bytes_per_particle
+        );
+    }
+    text.push('\n');
 }
 
 /// What a measure says.

@@ -45,18 +45,37 @@ fn measured(name: &str, end: &str, value: f64) -> Measured {
     Measured { measure: format!("{name}{end}"), value, standard_error: None, fluctuates: false }
 }
 
-/// The fields that a scene draws at its end.
-pub(super) fn drawn(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
-    match model.physics().picture() {
-        PictureKind::Fields => scene.output.fields.clone().unwrap_or_default().quantities,
-        _ => Vec::new(),
+/// Fields that say how far a flow is from another, whatever a scene draws.
+const FLOW: [FieldQuantity; 2] = [FieldQuantity::Depth, FieldQuantity::Speed];
+
+/// The fields that are compared at the end of a scene: those that it draws, its depth and its speed.
+pub(super) fn compared(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
+    if model.picture() != PictureKind::Fields {
+        return Vec::new();
     }
+    let mut fields = scene.output.fields.clone().unwrap_or_default().quantities;
+    for field in FLOW {
+        if !fields.contains(&field) {
+            fields.push(field);
+        }
+    }
+    fields
+}
+
+/// The scene, which leaves all fields that are compared.
+pub(super) fn leaving_compared(scene: Scene) -> Scene {
+    let quantities = compared(&scene, &Model::new(&scene));
+    let mut scene = scene;
+    if !quantities.is_empty() {
+        scene.output.fields.get_or_insert_default().quantities = quantities;
+    }
+    scene
 }
 
 /// The names of the distances of a scene from an exact solution, if it has one.
 pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> impl Iterator<Item = String> {
     let is_known = |field: &FieldQuantity| model.physics().steady_field(*field, scene, model).is_some();
-    drawn(scene, model).into_iter().filter(is_known).map(|field| format!("{}{FROM_EXACT}", field.stem()))
+    compared(scene, model).into_iter().filter(is_known).map(|field| format!("{}{FROM_EXACT}", field.stem()))
 }
 
 /// The distances of the fields that a run has drawn from those of the steady flow that it starts with, measured as those from a
@@ -64,7 +83,7 @@ pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> impl Iterator<It
 pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let model = Model::new(scene);
     let mut found = Vec::new();
-    for field in drawn(scene, &model) {
+    for field in compared(scene, &model) {
         let Some(exact) = model.physics().steady_field(field, scene, &model) else { continue };
         let own = read_npy(&run.file(&run_files::field(field.stem(), None, "npy")))?;
         let exact = (own.0.clone(), exact);

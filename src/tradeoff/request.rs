@@ -7,7 +7,7 @@ use super::{fields, measures};
 use crate::families::Model;
 use crate::families::StepCheck;
 use crate::run;
-use crate::scene::{self, AnalysisId, Scene, SceneError, StateFiles, nearest};
+use crate::scene::{self, AnalysisId, Scene, SceneError, StateFiles, did_you_mean, nearest};
 use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings};
 use serde::{Deserialize, Serialize};
 
@@ -210,8 +210,12 @@ impl Request {
 
     /// Keys among those varied that change what is simulated, and not only how it is computed.
     pub(super) fn physical_keys(&self) -> Vec<&str> {
+        let refines = Model::new(&self.base).physics().is_resolved_by_particles();
         let is_physical = |key: &&str| {
             let last = key.rsplit('.').next().unwrap_or_default();
+            if refines && last == "count" {
+                return false;
+            }
             ["temperature", "space", "particles"].iter().any(|start| key.starts_with(start))
                 || key.starts_with("interactions")
                     && ["repulsion", "friction", "viscosity", "stiffness"].contains(&last)
@@ -222,7 +226,7 @@ impl Request {
     /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
         let columns = measures::names(&self.base);
-        let drawn = fields::drawn(&self.base, &Model::new(&self.base));
+        let fields = fields::compared(&self.base, &Model::new(&self.base));
         let analyses: Vec<&str> =
             run::asked_analyses(&self.base, &Model::new(&self.base)).iter().map(|asked| asked.id.name()).collect();
         let mut mistakes = Vec::new();
@@ -230,8 +234,8 @@ impl Request {
             let of_analysis = |part: &str| analyses.contains(&part);
             let compared = name.strip_suffix(super::fields::DISTANCE);
             let is_distance = compared.is_some_and(|of| {
-                let is_drawn = drawn.iter().any(|field| field.stem() == of);
-                is_drawn || of == AnalysisId::RadialDistribution.name() && of_analysis(of)
+                let is_field = fields.iter().any(|field| field.stem() == of);
+                is_field || of == AnalysisId::RadialDistribution.name() && of_analysis(of)
             });
             if columns.iter().any(|known| known == name)
                 || is_distance
@@ -240,7 +244,7 @@ impl Request {
                 continue;
             }
             let near = nearest(name, columns.iter().map(String::as_str));
-            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let near = did_you_mean(near.as_deref());
             let also = if analyses.is_empty() {
                 String::new()
             } else {

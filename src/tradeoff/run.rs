@@ -136,12 +136,11 @@ impl StudyRun<TradeoffSummary> {
     /// All runs: the choices, then those that references are taken from where some measure needs them.
     fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Scene)>, StudyError> {
         let mut runs = Vec::new();
-        for variant in self.request.sweep.variants() {
-            runs.push((variant.name.clone(), stretch.applied(&variant.name, &variant.scene)?));
-        }
         let [finer, coarser] = self.request.finer_scenes()?;
-        runs.push((FINER.to_owned(), stretch.applied(FINER, &finer)?));
-        runs.push((COARSER.to_owned(), stretch.applied(COARSER, &coarser)?));
+        let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
+        for (name, scene) in choices.chain([(FINER, &finer), (COARSER, &coarser)]) {
+            runs.push((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
+        }
         Ok(runs)
     }
 

@@ -76,6 +76,10 @@ impl Physics for ShallowWater {
         self.bath.is_none()
     }
 
+    fn is_resolved_by_particles(&self) -> bool {
+        true
+    }
+
     fn is_heated(&self, model: &Model) -> bool {
         self.bath.is_some_and(|bath| bath.coupling > 0.0) && model.temperature > 0.0
     }
