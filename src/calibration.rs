@@ -6,7 +6,12 @@ use std::fmt;
 use std::sync::LazyLock;
 
 /// The summaries, as `mesoscope tradeoff` wrote them.
-const SHIPPED: [&str; 1] = [include_str!("../assets/calibration/dpd-fluid.json")];
+const SHIPPED: [&str; 4] = [
+    include_str!("../assets/calibration/dpd-fluid.json"),
+    include_str!("../assets/calibration/edpd-fluid.json"),
+    include_str!("../assets/calibration/shallow-water.json"),
+    include_str!("../assets/calibration/voronoi-dpd.json"),
+];
 
 /// Time steps are alike within this factor: errors of a second-order scheme then differ by half of themselves at most.
 const ALIKE: f64 = 1.25;
@@ -92,6 +97,7 @@ fn is_alike(one: &Scene, other: &Scene) -> bool {
         && one.temperature == other.temperature
         && one.integrator == other.integrator
         && one.space.lengths.len() == other.space.lengths.len()
+        && one.space.walls == other.space.walls
         && one.particles.len() == other.particles.len()
         && groups().all(alike)
         && groups().all(as_dense)
@@ -148,6 +154,7 @@ mod tests {
             "integrator.type=groot-warren",
             "particles.0.number_density=4",
             "particles.0.mass=2",
+            "space.walls={\"z\":{\"reflection\":\"bounce-back\"}}",
         ] {
             assert!(!is_alike(&base, &scene(&[set])), "{set}");
         }

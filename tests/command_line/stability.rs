@@ -195,7 +195,24 @@ fn mistakes_are_named_before_anything_runs() {
     for (further, parts) in wrong {
         fails(&borrowed(&arguments(&place, further)), 2, parts);
     }
+    fails(&borrowed(&arguments(&place, &["--vary", "time.step=0.1..1/1"])), 2, &["1 point; accepted: 2 to 200"]);
     fails(&borrowed(&arguments(&place, &["--set", "time.steps=900000000000"])), 2, &["--yes", "at most "]);
     fails(&["stability", "--resume", &place.argument("nothing")], 5, &["there is no map of stability"]);
     assert!(!place.path("out").exists());
+}
+
+/// Nobody says what the chain should measure: what ran to its end is not called right, and the picture shows where that was.
+#[test]
+fn what_is_compared_with_nothing_is_not_right() {
+    let place = place();
+    let vary =
+        ["--vary", "time.step=0.1,2", "--bisections", "0", "--set", "time.steps=40", "--set", "time.equilibration=0"];
+    let own = ["stability", "harmonic-chain", "--out"].map(str::to_owned).into_iter().chain([place.argument("out")]);
+    let printed = succeeds(&borrowed(&own.chain(vary.map(str::to_owned)).collect::<Vec<_>>()));
+    assert!(printed.contains("RAN TO ITS END: time.step UP TO") && !printed.contains("RIGHT"), "{printed}");
+    let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
+    assert!(page.contains("nothing is compared") && page.contains("ran to its end: step up to"), "{page}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    let verdicts: Vec<Verdict> = summary.rows[0].cells.iter().map(|cell| cell.verdict).collect();
+    assert_eq!(verdicts, [Verdict::Right, Verdict::Unstable]);
 }

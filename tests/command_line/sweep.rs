@@ -189,7 +189,9 @@ fn mistakes_in_variants_run_nothing() {
     assert!(!place.path("out").exists());
     let none = sweep_into(&place, "out", &["--vary", "seed=1,2", "--adapter", "abacus"]);
     self::fails(&borrowed(&none), 3, &["abacus", "0: "]);
-    self::fails(&["sweep", "--resume", &place.argument("out")], 5, &["no sweep in"]);
+    self::fails(&["sweep", "--resume", &place.argument("out")], 5, &["no sweep in", "there is no such directory"]);
+    let long = sweep_into(&place, "out", &["--vary", "seed=1,2", "--set", "time.steps=4000000000"]);
+    self::fails(&borrowed(&long), 2, &["about ", " days", "--yes"]);
     assert!(!place.path("out").exists());
 }
 

@@ -158,8 +158,10 @@ fn flows_are_compared_with_a_finer_run() {
     succeeds(&borrowed(&arguments(&place, &vary)));
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     // The wave is in balance with the rotation, so that its exact solution is known too: that is a matter of the nodes.
-    assert_eq!(summary.measures, ["energy_drift", "depth_from_exact", "depth_distance"]);
-    for measure in ["energy_drift", "depth_distance"] {
+    // Its speed is compared though the scene does not draw it.
+    let measures = ["energy_drift", "depth_from_exact", "speed_from_exact", "depth_distance", "speed_distance"];
+    assert_eq!(summary.measures, measures);
+    for measure in ["energy_drift", "depth_distance", "speed_distance"] {
         let errors: Vec<f64> = summary.choices.iter().map(|choice| choice.error(measure).unwrap().size()).collect();
         assert!(errors[0] < errors[1] && errors[1] < errors[2], "{measure}: {errors:?}");
     }
