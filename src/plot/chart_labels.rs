@@ -144,7 +144,7 @@ mod tests {
         let [above, below] = [area(45.0, 42.0, 55.0, 44.0), area(45.0, 56.0, 55.0, 58.0)];
         let taken = [own, right, left, above, below];
         let Some((spot, Some((from, to)))) = free_spot([50.0, 50.0], [20.0, 8.0], 5.0, (&taken, &[]), &inside) else {
-            panic!("no line leads to a label");
+            unreachable!("no line leads to a label");
         };
         assert!(!taken.iter().any(|other| overlap(&spot, other)));
         assert!(from == [50.0, 50.0] && spot.contains(to), "a line ends at its label");
