@@ -5,22 +5,14 @@ use crate::tradeoff::{Choice, ChoiceState, Deviation, TradeoffSummary, error_in_
 use std::fmt;
 use std::sync::LazyLock;
 
-/// The summaries, as `mesoscope tradeoff` wrote them.
-const SHIPPED: [&str; 4] = [
-    include_str!("../assets/calibration/dpd-fluid.json"),
-    include_str!("../assets/calibration/edpd-fluid.json"),
-    include_str!("../assets/calibration/shallow-water.json"),
-    include_str!("../assets/calibration/voronoi-dpd.json"),
-];
-
 /// Time steps are alike within this factor: errors of a second-order scheme then differ by half of themselves at most.
 const ALIKE: f64 = 1.25;
 
 /// Densities are alike within this factor.
 const AS_DENSE: f64 = 1.05;
 
-static CALIBRATIONS: LazyLock<Vec<TradeoffSummary>> =
-    LazyLock::new(|| SHIPPED.iter().filter_map(|text| serde_json::from_str(text).ok()).collect());
+static SUMMARIES: LazyLock<Vec<TradeoffSummary>> =
+    LazyLock::new(|| scene::CALIBRATIONS.iter().filter_map(|text| serde_json::from_str(text).ok()).collect());
 
 /// Errors that were measured of a scene of the same physics, with the same integrator and about the same time step.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +42,7 @@ pub struct Expected {
 /// ```
 #[must_use]
 pub fn expected(scene: &Scene) -> Option<Expected> {
-    let choices = CALIBRATIONS.iter().flat_map(|summary| summary.choices.iter().map(move |choice| (summary, choice)));
+    let choices = SUMMARIES.iter().flat_map(|summary| summary.choices.iter().map(move |choice| (summary, choice)));
     let alike = choices.filter_map(|(summary, choice)| {
         let measured = measured_scene(summary, choice)?;
         is_alike(scene, &measured).then_some((apart(scene, &measured), summary, choice, measured.title))
@@ -128,8 +120,8 @@ mod tests {
 
     #[test]
     fn all_calibrations_can_be_read_and_have_a_date() {
-        assert_eq!(CALIBRATIONS.len(), SHIPPED.len());
-        for summary in CALIBRATIONS.iter() {
+        assert_eq!(SUMMARIES.len(), scene::CALIBRATIONS.len());
+        for summary in SUMMARIES.iter() {
             assert!(summary.date.len() == 10 && !summary.choices.is_empty(), "{}", summary.date);
             for choice in summary.choices.iter().filter(|choice| choice.state == ChoiceState::Finished) {
                 assert!(measured_scene(summary, choice).is_some(), "{}", choice.name);
@@ -140,11 +132,11 @@ mod tests {
     #[test]
     fn only_scenes_of_the_same_physics_are_alike() {
         let scene = |set: &[&str]| {
-            let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
-            scene::load("dpd-fluid", &set).unwrap()
+            let own = ["output={}"].into_iter().chain(set.iter().copied());
+            scene::load("dpd-fluid", &own.map(str::to_owned).collect::<Vec<_>>()).unwrap()
         };
         let base = scene(&[]);
-        for set in ["space.box=[30,30,30]", "time.steps=9000", "time.step=0.048", "seed=9", "output={}"] {
+        for set in ["space.box=[30,30,30]", "time.steps=9000", "time.step=0.048", "seed=9"] {
             assert!(is_alike(&base, &scene(&[set])), "{set}");
         }
         for set in [

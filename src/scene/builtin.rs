@@ -10,6 +10,14 @@ pub struct Builtin {
     pub text: &'static str,
 }
 
+/// What `mesoscope tradeoff` found of some of them: its summaries.
+pub(crate) const CALIBRATIONS: [&str; 4] = [
+    include_str!("../../assets/calibration/dpd-fluid.json"),
+    include_str!("../../assets/calibration/edpd-fluid.json"),
+    include_str!("../../assets/calibration/shallow-water.json"),
+    include_str!("../../assets/calibration/voronoi-dpd.json"),
+];
+
 macro_rules! builtin {
     ($($name:literal),* $(,)?) => {
         &[$(Builtin { name: $name, text: include_str!(concat!("../../assets/scenes/", $name, ".json")) }),*]

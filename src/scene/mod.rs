@@ -17,6 +17,7 @@ mod state_files;
 mod text;
 
 pub use crate::document::*;
+pub(crate) use builtin::CALIBRATIONS;
 pub use builtin::{Builtin, builtin};
 pub(crate) use load::{checked, parse_kept, parse_with, with_overrides};
 pub use load::{load, load_for, parse, parse_for, read, schema, unknown_builtin};
