@@ -68,6 +68,7 @@ pub const ARRAYS: &[Array] = &[
         "array<array<u32, KEPT_WORDS>>",
         "pairs that the first pass has found, in the buffer of the particles",
     ),
+    array("densities", "array<u32>", "local density around each particle, by id"),
     // Couplings.
     array("kicks", "array<vec4<i32>>", "impulses of half a step, by slot"),
     array("forces", "array<vec4<i32>>", "conservative impulses of half a step at a report, by slot"),

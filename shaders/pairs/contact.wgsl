@@ -9,6 +9,9 @@ struct Contact {
     inside: bool,      // closer than the cutoff
 }
 
+// Slot pairs/separation: what else is remembered of a pair where its separation is taken. Default: nothing. The plan of pairs chooses
+// `noted` if forces depend on local densities.
+//
 // From the other particle to this one, by the shortest way: odd under exchange.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
     return Vector(signed(fraction_of(position) - fraction_of(other))) * unit_lengths();

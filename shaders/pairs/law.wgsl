@@ -8,7 +8,8 @@
 
 // Slot pairs/repulsion: the conservative force, all of it proportional to `c.repulsion`. `repulsion_impulse` is the impulse of half a
 // step at w, for steps; `repulsion_of` is what a report needs of the same force. A variant holds the whole law: potential, force
-// and curvature. The plan chooses `soft` if any repulsion is above zero, `soft_of_pair` if cutoffs differ.
+// and curvature. The plan chooses `soft` if any repulsion is above zero, `soft_of_pair` if cutoffs differ; `many_body` and
+// `many_body_of_pair` in their places if there is a many-body repulsion, which takes densities from pairs/density.
 struct Repulsion {
     impulse: f32,   // of half a step
     energy: f32,    // in halves of the cutoff, as an impulse

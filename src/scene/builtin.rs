@@ -59,6 +59,7 @@ pub fn builtin() -> &'static [Builtin] {
         "poiseuille",
         "couette",
         "diblock-copolymer",
-        "surfactants"
+        "surfactants",
+        "drop"
     ]
 }

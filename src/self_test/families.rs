@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 15] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -77,6 +77,15 @@ const CASES: [Case; 14] = [
             r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":1.3},{"between":["B","B"],"cutoff":0.8,"weight_exponent":1}]"#,
         ],
         twice: false,
+    },
+    Case {
+        name: "pairs with a many-body repulsion",
+        scene: FLUID,
+        changes: &[
+            "time.step=0.01",
+            r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#,
+        ],
+        twice: true,
     },
     Case {
         name: "pairs with memory",

@@ -26,6 +26,8 @@ const MEMORY: &str = r#"interactions.0.bath={"type":"memory","rate":5}"#;
 /// Pairs with cutoffs and exponents of their own.
 const OWN_COEFFICIENTS: &str = r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":0.8,"weight_exponent":1},
     {"between":["B","B"],"cutoff":1.3,"friction":9}]"#;
+/// Attraction, and a repulsion that grows with the density.
+const LIQUID: &str = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
 const GAUSSIAN: &str = r#"noise={"distribution":"gaussian"}"#;
 
 /// A scene, and whether its pairs are listed.
@@ -66,6 +68,9 @@ fn fluids() -> Vec<Case> {
         true,
     );
     add(&[COTTER_REICH, MIXTURE, MIXTURE_FORCE, MEMORY, "time.step=0.02", TWO_DIMENSIONS], false);
+    for integrator in [SPLITTING, COTTER_REICH] {
+        add(&[integrator, MIXTURE, LIQUID, "time.step=0.01"], false);
+    }
     for integrator in [SPLITTING, PREDICTED] {
         add(&[integrator, r#"space.walls={"z":{"upper_velocity":[1,-0.3,0]}}"#], false);
     }

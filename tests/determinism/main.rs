@@ -7,6 +7,7 @@ mod support;
 mod any_compiler;
 mod body_forces;
 mod couplings;
+mod many_body;
 mod molecules;
 mod pair_coefficients;
 mod particles;

@@ -9,6 +9,7 @@ mod cost;
 mod couplings;
 mod damage;
 mod fuzzing;
+mod many_body;
 mod molecules;
 mod scenes;
 mod shallow_water;

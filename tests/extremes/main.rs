@@ -8,6 +8,7 @@ mod cold_scenes;
 mod couplings;
 mod edge_of_error;
 mod every_family;
+mod many_body;
 mod particles;
 mod shallow_water;
 mod voronoi;

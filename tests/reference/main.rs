@@ -6,6 +6,7 @@ mod support;
 
 mod body_forces;
 mod bonds;
+mod many_body;
 mod pair_coefficients;
 mod particles;
 mod single_steps;

@@ -97,6 +97,15 @@ fn stresses_of_pairs_agree_with_the_reference() {
 }
 
 #[test]
+fn stresses_of_many_body_forces_agree_with_the_reference() {
+    let dpd = json!([{"type": "dpd", "repulsion": -40, "friction": 4.5, "many_body": {"repulsion": 25}, "pairs": [
+        {"between": ["light", "heavy"], "repulsion": -30, "cutoff": 0.9}]}]);
+    for (row, integrator) in INTEGRATORS.iter().enumerate() {
+        agree(&scene(BOXES[row % 2], integrator, &dpd, false), Options::default(), &format!("many-body {integrator}"));
+    }
+}
+
+#[test]
 fn stresses_of_bonds_and_angles_agree_with_the_reference() {
     let bonded = |dpd: &Value, friction: f64| {
         json!([

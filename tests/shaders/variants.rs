@@ -68,6 +68,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             bond_plans,
             voronoi_plans,
             range_plans,
+            many_body_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -162,6 +163,52 @@ fn range_plans() -> Vec<(String, Plan)> {
             let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{range},{memory}}}]"#);
             let scene = fluid(&[force.as_str(), particles, space, INTEGRATORS[3]]);
             plans.extend(plans_of(&format!("{force} {particles} {space}"), &scene, Options::default()));
+        }
+    }
+    plans
+}
+
+/// The same with a many-body repulsion, alone and beside whatever goes with it.
+fn many_body_plans() -> Vec<(String, Plan)> {
+    let pairs = [
+        r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#,
+        r#"{"type":"dpd","repulsion":-40,"many_body":{"repulsion":25}}"#,
+        r#"{"type":"dpd","friction":4.5,"weight_exponent":1,"many_body":{"repulsion":25}}"#,
+        r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25},"pairs":[{"between":["A","A"],"cutoff":0.8}]}"#,
+    ];
+    let bonds = r#",{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":9}}"#;
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let walled: Vec<&str> = SAMPLERS
+        .iter()
+        .filter(|sampler| !["radial", "viscosity"].iter().any(|refused| sampler.contains(refused)))
+        .copied()
+        .collect();
+    let mut plans = Vec::new();
+    let forces = pairs.iter().flat_map(|pairs| particles.map(|particles| (pairs, particles)));
+    for (number, (pairs, particles)) in forces.enumerate() {
+        for (row, integrator) in INTEGRATORS.iter().enumerate() {
+            for (column, others) in ["", bonds, "walls"].into_iter().enumerate() {
+                // Either box and either traversal, by turns.
+                let turn = number + row + column;
+                let (space, force) =
+                    [("space.box=[9,7]", "[1,2]"), ("space.box=[9,7,8]", "[1,2,3]")][(turn / 2 + number) % 2];
+                let driven = format!(r#"{bonds},{{"type":"body-force","force":{force}}}"#);
+                let walls = others == "walls";
+                let interactions = format!("interactions=[{pairs}{}]", if walls { &driven } else { others });
+                let mut changes = vec![particles, interactions.as_str(), space, integrator];
+                if walls {
+                    changes.push(r#"space.walls={"y":{}}"#);
+                    changes.extend(&walled);
+                } else if number % 4 < 2 {
+                    changes.extend(SAMPLERS);
+                }
+                let traversal = [Traversal::Rows, Traversal::Clusters][turn % 2];
+                let options = Options { traversal: Some(traversal), ..Options::default() };
+                plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+            }
         }
     }
     plans

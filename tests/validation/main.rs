@@ -5,6 +5,7 @@
 mod support;
 
 mod channels;
+mod many_body;
 mod phases;
 mod published;
 mod readers;

@@ -24,6 +24,10 @@ pub struct DpdInteraction {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub friction: f64,
+    /// A repulsion that grows with the local density: many-body dissipative particle dynamics, in which a negative `repulsion` makes a
+    /// liquid with a free surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub many_body: Option<ManyBody>,
     /// Pairs of species with coefficients of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 32896))]
@@ -47,6 +51,19 @@ impl DpdInteraction {
     }
 }
 
+/// The repulsion B (ρ̄ᵢ + ρ̄ⱼ) (1 - r/rd) between all particles, which depends on the local density ρ̄ around both.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ManyBody {
+    /// Strength B, a force per density.
+    #[schemars(range(min = 0.0))]
+    pub repulsion: f64,
+    /// Range rd of the force and of the weight of the density; to have a liquid, less than the range of the attraction.
+    #[serde(default = "three_quarters")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub cutoff: f64,
+}
+
 /// Coefficients of one pair of species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -68,9 +85,18 @@ pub struct DpdPair {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub weight_exponent: Option<f64>,
+    /// The many-body repulsion; left out, that of the interaction, from which it must not differ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub many_body: Option<ManyBody>,
 }
 
 impl DpdInteraction {
+    /// The many-body repulsion, if it has any strength.
+    #[must_use]
+    pub fn acting_many_body(&self) -> Option<ManyBody> {
+        self.many_body.filter(|many_body| many_body.repulsion > 0.0)
+    }
+
     /// The cutoff of the interaction, unless every pair of this many species has one of its own.
     #[must_use]
     pub fn common_cutoff(&self, species: usize) -> Option<f64> {
@@ -94,6 +120,10 @@ impl DpdPair {
 
 fn default_skin() -> f64 {
     0.3
+}
+
+fn three_quarters() -> f64 {
+    0.75
 }
 
 fn two() -> f64 {

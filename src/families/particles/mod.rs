@@ -100,7 +100,9 @@ impl Particles {
         let (mut body_forces, mut chains) = (None, None);
         for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
             match interaction {
-                Interaction::Dpd(dpd) => pair_force = Some(PairForce::new(dpd, species, scene.temperature)),
+                Interaction::Dpd(dpd) => {
+                    pair_force = Some(PairForce::new(dpd, species, scene.temperature, scene.space.lengths.len()));
+                }
                 Interaction::Langevin(langevin) => {
                     position_bath = Some(PositionBath::new(langevin, species, scene.temperature, scene.time.step));
                 }
@@ -147,6 +149,11 @@ impl Particles {
         self.walls.iter().any(PlaneWalls::move_along)
     }
 
+    /// Whether forces depend on the density around particles.
+    pub(crate) fn have_local_densities(&self) -> bool {
+        self.pair_force.as_ref().is_some_and(|force| force.many_body.is_some())
+    }
+
     /// Whether there are bonds or angles.
     pub(crate) fn are_bonded(&self) -> bool {
         self.bonds.is_some() || self.angles.is_some()
@@ -186,7 +193,7 @@ impl Physics for Particles {
 
     fn has_potential(&self) -> bool {
         let bonds = self.bonds.as_ref();
-        self.pair_force.as_ref().is_some_and(|force| force.largest_repulsion() > 0.0)
+        self.pair_force.as_ref().is_some_and(PairForce::is_conservative)
             || self.tether.is_some()
             || bonds.is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.potential.is_some()))
             || self.angles.is_some()
@@ -254,7 +261,8 @@ impl Physics for Particles {
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        if self.are_coupled || (options.listed && self.walls.is_empty()) {
+        let may_be_listed = self.walls.is_empty() && !self.have_local_densities();
+        if self.are_coupled || (options.listed && may_be_listed) {
             self::plan::couplings::plan(model, measured, options)
         } else {
             self::plan::pair::plan(model, measured, hardware, options)

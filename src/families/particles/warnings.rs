@@ -214,7 +214,8 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
         warn(warnings, "particles", lost(&format!("the thermal momentum of `{}`", lightest.name), warmth));
     }
     let Some(force) = model.particles().pair_force.as_ref() else { return };
-    let impulse = units(force.largest_repulsion() * model.time_step);
+    let of_densities = force.many_body.map_or(0.0, |many_body| 2.0 * many_body.repulsion * many_body.contact_density());
+    let impulse = units(force.largest_repulsion().max(of_densities) * model.time_step);
     if impulse > 0.0 && impulse < FEWEST_UNITS {
         warn(warnings, "interactions", lost("the impulse of the repulsion in a step", impulse));
     }
@@ -222,7 +223,7 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
 
 /// Soft particles that attract each other, and nothing stiffer to hold them apart, fall into one another.
 fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
-    let mut species = model.species.iter().enumerate();
+    let mut species = model.species.iter().enumerate().filter(|_| force.many_body.is_none());
     if let Some((_, species)) =
         species.find(|(index, species)| species.count > 1 && force.repulsion(*index, *index) < 0.0)
     {

@@ -51,7 +51,8 @@ fn acceleration_scale(model: &Model) -> f64 {
             (force.sphere(a, a, axes), force.weight_volume(a, a, axes), force.cutoff_between(a, a));
         let of_repulsion =
             |b: usize| force.repulsion(a, b).abs() * (force.cutoff_between(a, b) / cutoff).powi(axes as i32 - 1);
-        let frequency = sum(&of_repulsion) * sphere / (dimension * cutoff * species.mass);
+        let many_body = model.many_body_stiffness(force).map_or(0.0, |[stiffness, _]| stiffness);
+        let frequency = (sum(&of_repulsion) * sphere / (dimension * cutoff) + many_body) / species.mass;
         let of_friction = |b: usize| force.friction(a, b) * (force.weight_volume(a, b, axes) / weight);
         let rate = sum(&of_friction) * weight / (dimension * species.mass);
         model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))
@@ -60,6 +61,7 @@ fn acceleration_scale(model: &Model) -> f64 {
     if square > 0.0 {
         return square.sqrt();
     }
-    let contact = force.largest_repulsion() / lightest(model);
+    let of_densities = force.many_body.map_or(0.0, |many_body| 2.0 * many_body.repulsion * many_body.contact_density());
+    let contact = force.largest_repulsion().max(of_densities) / lightest(model);
     if contact > 0.0 { contact } else { 1.0 }
 }

@@ -28,7 +28,7 @@ fn nothing(_: &mut Value) {}
 
 /// Pairs without friction.
 fn without_frictions(scene: &mut Value) {
-    leave_out(scene, "dpd", &["pairs", "bath", "friction"]);
+    leave_out(scene, "dpd", &["pairs", "bath", "friction", "many_body"]);
 }
 
 /// The first group alone, of the usual mass.
@@ -103,7 +103,7 @@ pub fn features() -> Vec<Feature> {
         Feature {
             name: "repulsion",
             ground: |scene| {
-                set(scene, "dpd", "pairs", Value::Null);
+                leave_out(scene, "dpd", &["pairs", "many_body"]);
                 set(scene, "dpd", "friction", json!(4.5));
             },
             with: |scene| set(scene, "dpd", "repulsion", json!(25)),
@@ -187,6 +187,17 @@ pub fn features() -> Vec<Feature> {
             instead: &[],
             // Only where there is friction.
             always: false,
+        },
+        Feature {
+            name: "many-body repulsion",
+            ground: nothing,
+            with: |scene| set(scene, "dpd", "many_body", json!({"repulsion": 25})),
+            without: |scene| set(scene, "dpd", "many_body", Value::Null),
+            own: Some(&["densit", "DENSITY", "many_body", "file pairs/separation"]),
+            more: &["densities", "report_densities"],
+            // Beside a table of species the prefilter reads positions then.
+            instead: &["probes"],
+            always: true,
         },
         Feature {
             name: "memory of pairs",

@@ -210,6 +210,11 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
             |scene| set(scene, "dpd", "bath", Value::Null),
         ),
         (
+            "no many-body repulsion",
+            |scene| set(scene, "dpd", "many_body", json!({"repulsion": 0})),
+            |scene| set(scene, "dpd", "many_body", Value::Null),
+        ),
+        (
             "the usual weight",
             |scene| set(scene, "dpd", "weight_exponent", json!(2)),
             |scene| set(scene, "dpd", "weight_exponent", Value::Null),

@@ -3,6 +3,7 @@
 pub(super) mod body_force;
 pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
+mod many_body;
 pub(super) mod walls;
 
 use std::collections::{HashMap, HashSet};
@@ -40,6 +41,7 @@ pub(crate) fn check_interaction(
 pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     check_numbers(scene, problems);
     body_force::check_together(scene, problems);
+    many_body::check_together(scene, problems);
     walls::check(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
@@ -538,6 +540,7 @@ pub(crate) fn check_pairs(
     problems: &mut Problems,
 ) {
     check_cutoffs(scene, species, dpd, path, problems);
+    many_body::check(dpd, species.count(), path, problems);
     let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
     for (index, pair) in dpd.pairs.iter().enumerate() {
         let path = format!("{path}.pairs[{index}]");

@@ -1,5 +1,6 @@
 //! Pair forces of dissipative particle dynamics, doi:10.1063/1.474784.
 
+use super::ManyBodyForce;
 use crate::document::{Bath, DpdInteraction};
 use crate::families::BathStep;
 use crate::families::Species;
@@ -16,6 +17,8 @@ pub struct PairForce {
     pub bath: Bath,
     /// Margin of a neighbour list beyond the cutoff.
     pub skin: f64,
+    /// The repulsion between all pairs that depends on the local density, if there is one.
+    pub many_body: Option<ManyBodyForce>,
     species: usize,
     repulsion: Vec<f64>,
     friction: Vec<f64>,
@@ -24,13 +27,14 @@ pub struct PairForce {
 }
 
 impl PairForce {
-    pub(crate) fn new(interaction: &DpdInteraction, species: &[Species], temperature: f64) -> Self {
+    pub(crate) fn new(interaction: &DpdInteraction, species: &[Species], temperature: f64, dimension: usize) -> Self {
         let count = species.len();
         let mut force = Self {
             cutoff: interaction.cutoff,
             temperature: interaction.bath.temperature(temperature),
             bath: interaction.bath.clone(),
             skin: interaction.skin,
+            many_body: interaction.acting_many_body().map(|many_body| ManyBodyForce::new(many_body, dimension)),
             species: count,
             repulsion: vec![interaction.repulsion; count * count],
             friction: vec![interaction.friction; count * count],
@@ -65,7 +69,8 @@ impl PairForce {
         let rubs = |entry: &usize| self.bath.acts(self.friction[*entry]);
         let (acting, still): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(acts);
         let (rubbing, smooth): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(rubs);
-        if let Some(largest) = acting.iter().map(|entry| self.cutoffs[*entry]).reduce(f64::max) {
+        let of_pairs = acting.iter().map(|entry| self.cutoffs[*entry]);
+        if let Some(largest) = of_pairs.chain(self.many_body.map(|many_body| many_body.cutoff)).reduce(f64::max) {
             self.cutoff = largest;
             for entry in still {
                 self.cutoffs[entry] = largest;
@@ -86,6 +91,7 @@ impl PairForce {
             temperature: 0.0,
             bath: Bath::default(),
             skin: 0.0,
+            many_body: None,
             species,
             repulsion: zeros.clone(),
             friction: zeros,
@@ -193,7 +199,13 @@ impl PairForce {
     /// Whether any pair of species has a force at all.
     #[must_use]
     pub fn acts(&self) -> bool {
-        self.largest_repulsion() > 0.0 || self.has_friction()
+        self.is_conservative() || self.has_friction()
+    }
+
+    /// Whether any pair of species has a force that derives from a potential.
+    #[must_use]
+    pub fn is_conservative(&self) -> bool {
+        self.largest_repulsion() > 0.0 || self.many_body.is_some()
     }
 
     /// The largest magnitude of any repulsion.
@@ -205,7 +217,20 @@ impl PairForce {
     /// The largest magnitude of a rc, twice the energy of two particles in one place.
     #[must_use]
     pub fn largest_energy(&self) -> f64 {
-        self.repulsion.iter().zip(&self.cutoffs).fold(0.0, |most: f64, (a, cutoff)| most.max(a.abs() * cutoff))
+        let of_pairs =
+            self.repulsion.iter().zip(&self.cutoffs).fold(0.0, |most: f64, (a, cutoff)| most.max(a.abs() * cutoff));
+        of_pairs + self.many_body_energy()
+    }
+
+    /// The part of it that is due to the many-body repulsion.
+    pub(crate) fn many_body_energy(&self) -> f64 {
+        self.many_body.as_ref().map_or(0.0, |many_body| 4.0 * many_body.self_energy(many_body.contact_density()))
+    }
+
+    /// The largest -a rcᵈ⁺¹ of pairs that attract each other in d dimensions; 0 if none do.
+    pub(crate) fn largest_attraction(&self, dimension: usize) -> f64 {
+        let of_pair = |(a, cutoff): (&f64, &f64)| -a * cutoff.powi(dimension as i32 + 1);
+        self.repulsion.iter().zip(&self.cutoffs).map(of_pair).fold(0.0, f64::max)
     }
 
     /// The smallest range of any pair of species that has a force.

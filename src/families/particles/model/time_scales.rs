@@ -59,8 +59,29 @@ impl Model {
                 force.stiffness(index, other) * density * relative.powi(dimension as i32 - 1)
             };
             let stiffness: f64 = self.densities().map(of_pair).sum();
-            crowded * (stiffness * unit / (dimension as f64 * length * self.species[index].mass)).sqrt()
+            let of_pairs = crowded * (stiffness * unit / (dimension as f64 * length * self.species[index].mass)).sqrt();
+            of_pairs.hypot(self.many_body_stiffness(force).map_or(0.0, |[stiffness, neighbours]| {
+                let crowded = 1.0 + CROWDING * (2.0 * dimension as f64 / neighbours).sqrt();
+                crowded * (stiffness / self.species[index].mass).sqrt()
+            }))
         })
+    }
+
+    /// The force constant by which the many-body repulsion of evenly spread neighbours holds a particle, 2Bρ²V(rd)/(rd d), and the number
+    /// of these neighbours; none without one.
+    ///
+    /// ρ is the density of all particles, or of the liquid that they form where they attract each other. Of that Warren's equation of state,
+    /// doi:10.1103/PhysRevE.68.066702, has in three dimensions ρ = -a rc⁴/(2B rd⁴) + 4.16 at no pressure, where rd = .75.
+    pub(crate) fn many_body_stiffness(&self, force: &PairForce) -> Option<[f64; 2]> {
+        let many_body = force.many_body?;
+        let (dimension, range) = (self.units.dimension as i32, many_body.cutoff);
+        let mean: f64 = self.densities().map(|(_, density)| density).sum();
+        let attraction =
+            force.largest_attraction(self.units.dimension) / (2.0 * many_body.repulsion * range.powi(dimension + 1));
+        let liquid = if attraction > 0.0 { attraction + 4.16 * (0.75 / range).powi(dimension) } else { 0.0 };
+        let neighbours = mean.max(liquid) * many_body.sphere();
+        let stiffness = 2.0 * many_body.repulsion * mean.max(liquid) * neighbours / (range * f64::from(dimension));
+        (neighbours > 0.0).then_some([stiffness, neighbours])
     }
 
     /// The largest time step that resolves friction and repulsion of pairs; infinite without either.

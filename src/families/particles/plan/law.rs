@@ -12,11 +12,13 @@ pub(super) fn law(force: &PairForce) -> Choices {
             (true, Some(2.0)) => pairs::Weight::StandardOfPair,
             _ => pairs::Weight::GeneralOfPair,
         })
-        .with_any((force.largest_repulsion() > 0.0).then_some(if force.cutoffs_differ() {
-            pairs::Repulsion::SoftOfPair
-        } else {
-            pairs::Repulsion::Soft
+        .with_any(force.is_conservative().then_some(match (force.many_body.is_some(), force.cutoffs_differ()) {
+            (false, false) => pairs::Repulsion::Soft,
+            (false, true) => pairs::Repulsion::SoftOfPair,
+            (true, false) => pairs::Repulsion::ManyBody,
+            (true, true) => pairs::Repulsion::ManyBodyOfPair,
         }))
+        .with_if(force.many_body.is_some(), pairs::Separation::Noted)
 }
 
 /// Rows of the table of coefficients with what each pair of species has of its own: the largest cutoff over its cutoff and half the

@@ -24,6 +24,7 @@
 //! from the momenta that made it; at step 0 it is taken to have been made by the initial momenta.
 
 use super::body_force;
+use super::densities::Densities;
 use super::motion::Motion;
 use super::pairs::{self, Forces, Pair};
 use super::stress::Virials;
@@ -62,10 +63,12 @@ pub(super) fn half_kicks(
     virials: &mut Virials,
 ) {
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let densities = Densities::of(model, state.len(), found);
     for pair in found {
         let forces = Forces::between(model, &state.species, pair);
         let is_spared = spared.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
-        let repulsion = if is_spared { 0.0 } else { forces.potential.force() };
+        let many_body = densities.as_ref().map_or(0.0, |densities| densities.force(pair));
+        let repulsion = if is_spared { 0.0 } else { forces.potential.force() + many_body };
         let mut friction = 0.0;
         if forces.friction > 0.0 {
             let species = [pair.first, pair.second].map(|end| state.species[end] as usize);

@@ -2,6 +2,7 @@
 
 mod body_force;
 mod couplings;
+mod densities;
 mod end_of_step;
 mod leapfrog;
 mod motion;

@@ -15,6 +15,7 @@
 use super::body_force;
 use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
+use super::densities::Densities;
 use super::pairs::{self, Forces, Pair, dot};
 use super::stress::Virials;
 use super::{Reference, Report};
@@ -61,11 +62,13 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
     let mut virials = Virials::new(state.len());
     bonded_kicks(model, state, &reference.masses, &mut kick, &mut virials)?;
     let excluded = excluded_pairs(model);
+    let densities = Densities::of(model, state.len(), found);
     for pair in found {
         if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
             continue;
         }
-        let force = Forces::between(model, &state.species, pair).potential.force();
+        let force = Forces::between(model, &state.species, pair).potential.force()
+            + densities.as_ref().map_or(0.0, |densities| densities.force(pair));
         pairs::push_apart(model, pair, force, &mut kick);
         virials.add(pair, force, 0.0);
     }

@@ -1,6 +1,7 @@
 //! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub.
 
 mod bonded;
+mod density;
 mod stress;
 
 use super::external;
@@ -183,6 +184,7 @@ impl Builder<'_> {
         }
         self.plan.constants = constants;
         walls::add_constants(self.model, &mut self.plan);
+        self.density_constants();
     }
 
     /// Whether particles carry predicted momenta.
@@ -263,12 +265,17 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
+    /// Buffers of the last kernel of a step beyond those of all: the impulses of bonds, what walls take up, a table of species and local
+    /// densities.
+    fn more_buffers(&self) -> u32 {
+        let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
+        [self.is_bonded(), walled, self.species.have_table(), dense].into_iter().map(u32::from).sum()
+    }
+
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
-    /// of the impulses of bonds, what walls take up and a table of species it would be one buffer too many.
+    /// more it would be one buffer too many.
     fn keeps_probes(&self) -> bool {
-        let more = [self.is_bonded(), walls::count(self.model) > 0, self.species.have_table()];
-        let crowded = more.into_iter().filter(|there| *there).count() > 1;
-        self.traversal != Traversal::Alone && !self.texels && !crowded
+        self.traversal != Traversal::Alone && !self.texels && self.more_buffers() < 2
     }
 
     /// Whether friction has two stages.
@@ -382,9 +389,10 @@ impl Builder<'_> {
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
-        self.plan.before_report = bonded.kicks;
+        let densities = self.densities(Masks::Unkept, &mut rows);
+        self.plan.before_report = [&bonded.kicks[..], &densities.step].concat();
         self.plan.advance = vec![advance];
-        self.plan.report = [&[report][..], &bonded.report, &stress, &bonded.stress].concat();
+        self.plan.report = [&densities.report[..], &[report], &bonded.report, &stress, &bonded.stress].concat();
         self.plan.finish_report = vec![advance];
         rows
     }
@@ -393,8 +401,11 @@ impl Builder<'_> {
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, kept: &Choices) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
-        let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
-        self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
+        let masks = if self.model.particles().have_local_densities() { Masks::Kept } else { Masks::Keep };
+        let find = self.traversal("find", self.traversal, masks, &with(pairs::Pass::Find));
+        if masks == Masks::Keep {
+            self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
+        }
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
@@ -418,10 +429,12 @@ impl Builder<'_> {
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
-        self.plan.before_report = [&bonded.kicks[..], &[find]].concat();
+        let densities = self.densities(Masks::Keep, &mut rows);
+        self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find]].concat();
         self.plan.advance = vec![relax];
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
-        self.plan.report = [&motion_there[..], &again, &bonded.configuration, &[configuration]].concat();
+        self.plan.report =
+            [&motion_there[..], &again, &bonded.configuration, &densities.report, &[configuration]].concat();
         if self.relaxes_in_two_stages() {
             self.first_stage([relax, relax_to_report, motion], kept);
         }
@@ -468,7 +481,9 @@ impl Builder<'_> {
         let visits = if self.splits() { 1.0 + relaxations } else { 1.0 };
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
         let frictional = self.force.largest_friction() > 0.0;
-        let pair = visits * (22.0 + cost(self.force.largest_repulsion() > 0.0, 8.0))
+        let dense = self.force.many_body.is_some();
+        let pair = visits * (22.0 + cost(self.force.is_conservative(), 8.0) + cost(dense, 8.0))
+            + cost(dense, 22.0)
             + cost(frictional, 15.0 * visits)
             + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 * relaxations } else { 25.0 });
         12.0 * candidates + pair * pairs + MOTION
@@ -518,9 +533,9 @@ impl Builder<'_> {
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let copies = self.frame_capacity();
         self.plan.add_buffer(Array::Control, 64);
-        if !self.texels && self.is_bonded() && self.species.have_table() && walls::count(self.model) > 0 {
-            // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these three.
-            self.plan.storage_buffers = 9;
+        if !self.texels {
+            // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these.
+            self.plan.storage_buffers = self.plan.storage_buffers.max(6 + self.more_buffers());
         }
         self.plan.add_buffer(Array::Particles, PARTICLE * self.particles);
         if self.texels {

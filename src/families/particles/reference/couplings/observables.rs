@@ -6,6 +6,7 @@
 
 use super::angles::Corner;
 use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
+use crate::families::particles::reference::densities::Densities;
 use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
@@ -33,6 +34,24 @@ impl Configuration {
             for axis in 0..3 {
                 self.gradients[end][axis] += sign * gradient[axis];
             }
+        }
+    }
+
+    /// Adds the potential of the local densities.
+    fn add_many_body(&mut self, densities: &Densities, found: &[Pair]) {
+        self.potential += densities.energy();
+        for pair in found {
+            let (force, laplacian) = (densities.force(pair), densities.laplacian(pair));
+            self.virial += pair.distance * force;
+            for (end, sign) in [(pair.first, -1.0), (pair.second, 1.0)] {
+                self.laplacians[end] += laplacian;
+                for (axis, component) in pair.direction().into_iter().enumerate() {
+                    self.gradients[end][axis] += sign * force * component;
+                }
+            }
+        }
+        for (sum, laplacian) in self.laplacians.iter_mut().zip(densities.laplacians_of_particles(found)) {
+            *sum += laplacian;
         }
     }
 }
@@ -80,11 +99,15 @@ fn configuration(model: &Model, state: &State) -> Configuration {
     };
     if let Some(force) = model.particles().pair_force.as_ref() {
         let excluded = pairs::excluded_pairs(model);
-        for pair in find_pairs(&model.units, &state.positions, force.cutoff) {
+        let found = find_pairs(&model.units, &state.positions, force.cutoff);
+        for pair in &found {
             if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
                 continue;
             }
-            sums.add(&pair, &Forces::between(model, &state.species, &pair).potential);
+            sums.add(pair, &Forces::between(model, &state.species, pair).potential);
+        }
+        if let Some(densities) = Densities::of(model, count, &found) {
+            sums.add_many_body(&densities, &found);
         }
     }
     for bond in model.particles().bonds.as_ref().into_iter().flat_map(Bonds::iter) {
@@ -199,6 +222,76 @@ mod tests {
             }
             assert!((here.gradient_squared / squares - 1.0).abs() < 1e-6, "{dimension}: {squares}");
             assert!((here.laplacian / laplacian - 1.0).abs() < 1e-4, "{dimension}: {} {laplacian}", here.laplacian);
+        }
+    }
+
+    /// The same of particles that attract each other and repel each other by their densities, within a range or not, and two in one place.
+    fn drop(dimension: usize) -> CouplingsReference {
+        let place = |id: u32, axis: u32| 2.0 + 0.25 * f64::from((id * (3 + axis) + axis) % 7);
+        let mut positions: Vec<Vec<f64>> =
+            (0..6_u32).map(|id| (0..dimension as u32).map(|axis| place(id, axis)).collect()).collect();
+        positions[5] = positions[4].clone();
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "space": {"box": vec![8.0; dimension]}, "time": {"step": 0.01, "steps": 1},
+            "temperature": 0.0, "integrator": {"type": "groot-warren"},
+            "particles": [
+                {"species": "A", "placement": {"type": "listed", "positions": positions},
+                    "velocities": {"type": "listed", "velocities": vec![vec![1.0; dimension]; 6]}}],
+            "interactions": [
+                {"type": "dpd", "cutoff": 1.3, "repulsion": -40.0, "many_body": {"repulsion": 25.0, "cutoff": 0.9}}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let state = crate::families::initial_state(&scene, &model);
+        CouplingsReference::new(model, state)
+    }
+
+    #[test]
+    fn derivatives_of_the_many_body_potential_are_its_own() {
+        for dimension in 2..=3 {
+            let reference = drop(dimension);
+            let here = reference.observe().unwrap();
+            // Far enough that the energy changes by more than its last digits.
+            let shift = 200_000_u32;
+            let length = 2.0 * f64::from(shift) * 8.0 / 4_294_967_296.0;
+            let (mut squares, mut laplacian) = (0.0, 0.0);
+            let mut after = reference.clone();
+            after.step().unwrap();
+            // The last two are in one place, where the potential has a cusp.
+            for id in 0..4 {
+                for axis in 0..dimension {
+                    let at = |shift: u32| {
+                        let mut moved = reference.clone();
+                        moved.state.positions[id][axis] = moved.state.positions[id][axis].wrapping_add(shift);
+                        moved.observe().unwrap().potential_energy
+                    };
+                    let [less, more] = [at(shift.wrapping_neg()), at(shift)];
+                    let slope = (more - less) / length;
+                    let kick = f64::from(after.state.momenta[id][axis]) - f64::from(reference.state.momenta[id][axis]);
+                    let kick = kick * reference.model.units.momentum;
+                    assert!(
+                        (kick + 0.005 * slope).abs() < 1e-5 * slope.abs().max(1.0),
+                        "{dimension} {id} {axis}: {kick}, slope {slope}"
+                    );
+                    squares += slope * slope;
+                    laplacian += (more - 2.0 * here.potential_energy + less) / (0.5 * length).powi(2);
+                }
+            }
+            let configuration = configuration(&reference.model, &reference.state);
+            let found = configuration.gradients[..4].iter().flatten().map(|slope| slope * slope).sum::<f64>();
+            assert!((found / squares - 1.0).abs() < 1e-6, "{dimension}: {found} {squares}");
+            let found = configuration.laplacians[..4].iter().sum::<f64>();
+            assert!((found / laplacian - 1.0).abs() < 1e-4, "{dimension}: {found} {laplacian}");
+            let stretched = |factor: f64| {
+                let mut stretched = reference.clone();
+                for length in &mut stretched.model.units.lengths[..dimension] {
+                    *length *= factor;
+                }
+                stretched.observe().unwrap().potential_energy
+            };
+            let slope = (stretched(1.0 + 1e-5) - stretched(1.0 - 1e-5)) / 2e-5;
+            assert!((here.conservative_virial / -slope - 1.0).abs() < 1e-6, "{dimension}: {slope}");
+            assert!((here.total_virial / here.conservative_virial - 1.0).abs() < 1e-12, "{dimension}");
         }
     }
 

@@ -1,0 +1,10 @@
+// Before the passes of a step: the local density around each particle, by id.
+struct Sums { density: u32 }
+
+fn pass_begin(me: Particle) -> Sums { return Sums(0u); }
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let contact = contact_of(separation(me.position, position_at(other_index)));
+    (*sums).density = density_with((*sums).density, contact);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) { store_density(me.position.w, sums.density); }
+fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }

@@ -1,0 +1,51 @@
+//! Checks of the many-body repulsion that a schema cannot express.
+
+use super::{is_coupled, reason};
+use crate::document::{DpdInteraction, Interaction, Problem, Problems, Scene};
+
+/// Checks the many-body repulsion of an interaction by itself.
+pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: &mut Problems) {
+    for (index, pair) in dpd.pairs.iter().enumerate().filter(|(_, pair)| pair.many_body.is_some()) {
+        if pair.many_body != dpd.many_body {
+            let accepted = format!(
+                "that of {path}.many_body: local densities are of all particles, and with different coefficients no potential has \
+                 these forces (Warren, doi:10.1103/PhysRevE.87.045303); pairs of species differ in their `repulsion`"
+            );
+            let found = "found another many-body repulsion than that of the interaction";
+            problems.push(Problem::new(format!("{path}.pairs[{index}].many_body"), found, accepted));
+        }
+    }
+    let Some(many_body) = dpd.acting_many_body() else { return };
+    let own = dpd.pairs.iter().filter_map(|pair| pair.cutoff);
+    let largest = own.chain(dpd.common_cutoff(species)).fold(0.0, f64::max);
+    if many_body.cutoff > largest {
+        let accepted =
+            format!("at most {largest}, the largest cutoff of the interaction: pairs are looked for within it");
+        let found = format!("found {}", many_body.cutoff);
+        problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
+    } else if many_body.cutoff < largest / super::MOST_DIFFERENT {
+        let accepted = format!("at least {}, a hundredth of the largest cutoff", largest / super::MOST_DIFFERENT);
+        let found = format!("found {}", many_body.cutoff);
+        problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
+    }
+}
+
+/// Checks that what is beside it goes with it.
+pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
+    let acts =
+        |interaction: &Interaction| matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some());
+    let Some(index) = scene.interactions.iter().position(acts) else { return };
+    let path = format!("interactions[{index}].many_body");
+    if is_coupled(scene) {
+        let accepted = "a many-body repulsion of pairs without memory, beside bonds and angles without a bath and body forces, in two or \
+                        three dimensions: local densities are found in cells, not in lists";
+        problems.push(Problem::new(&path, format!("found together with {}", reason(scene)), accepted));
+    }
+    let excludes =
+        |interaction: &Interaction| matches!(interaction, Interaction::Bonds(bonds) if bonds.exclude_repulsion);
+    if let Some(bonds) = scene.interactions.iter().position(excludes) {
+        let found = format!("found together with bonds that exclude it in interactions[{bonds}]");
+        let accepted = "bonds without `exclude_repulsion`: bonded particles are part of the density around each other";
+        problems.push(Problem::new(&path, found, accepted));
+    }
+}

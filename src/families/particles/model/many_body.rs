@@ -1,0 +1,57 @@
+//! The repulsion of many-body dissipative particle dynamics, doi:10.1103/PhysRevE.68.066702.
+
+use crate::document::ManyBody;
+use std::f64::consts::PI;
+
+/// A repulsion that derives from an energy ψ(ρ̄ᵢ) of every particle in its local density ρ̄ᵢ = Σ w(rᵢⱼ) over all others, with the weight
+/// w(r) = C (1 - r/rd)² of integral 1: C = 15/(2πrd³) in three dimensions, 6/(πrd²) in two. With ψ = ¼ B C rd (ρ̄/C)², which in three
+/// dimensions is πrd⁴Bρ̄²/30, the force between two particles is B (ρ̄ᵢ + ρ̄ⱼ) (1 - r/rd).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ManyBodyForce {
+    /// Strength B, a force per density.
+    pub repulsion: f64,
+    /// Range rd.
+    pub cutoff: f64,
+    /// Number of axes of the box.
+    dimension: usize,
+}
+
+impl ManyBodyForce {
+    pub(super) fn new(many_body: ManyBody, dimension: usize) -> Self {
+        Self { repulsion: many_body.repulsion, cutoff: many_body.cutoff, dimension }
+    }
+
+    /// The density C that another particle in the same place adds.
+    ///
+    /// ```
+    /// use mesoscope::{families::Model, scene};
+    ///
+    /// let liquid = r#"interactions.0.many_body={"repulsion":25,"cutoff":0.75}"#.to_owned();
+    /// let model = Model::new(&scene::load("dpd-fluid", &[liquid])?);
+    /// let many_body = model.particles().pair_force.as_ref().and_then(|force| force.many_body);
+    /// let density = many_body.map_or(0.0, |many_body| many_body.contact_density());
+    /// assert!((density - 7.5 / (std::f64::consts::PI * 0.75_f64.powi(3))).abs() < 1e-12);
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn contact_density(&self) -> f64 {
+        match self.dimension {
+            2 => 6.0 / (PI * self.cutoff.powi(2)),
+            _ => 15.0 / (2.0 * PI * self.cutoff.powi(3)),
+        }
+    }
+
+    /// ψ, the energy of a particle where the density around it is ρ̄.
+    #[must_use]
+    pub fn self_energy(&self, density: f64) -> f64 {
+        0.25 * self.repulsion * self.cutoff * density * density / self.contact_density()
+    }
+
+    /// Volume of the sphere (disc) within its range.
+    pub(crate) fn sphere(&self) -> f64 {
+        match self.dimension {
+            2 => PI * self.cutoff.powi(2),
+            _ => 4.0 / 3.0 * PI * self.cutoff.powi(3),
+        }
+    }
+}
