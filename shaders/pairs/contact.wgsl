@@ -9,7 +9,9 @@ struct Contact {
     inside: bool,      // closer than the cutoff
 }
 
-// From the other particle to this one, by the shortest way: odd under exchange.
+// Slot pairs/separation: from the other particle to this one, by the shortest way: odd under exchange. The plan chooses `sheared` if the
+// scene has shear.
+// Default: round the periodic box.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
     return Vector(signed(fraction_of(position) - fraction_of(other))) * unit_lengths();
 }

@@ -7,7 +7,8 @@
 // and observe_leapfrog; find, relax, observe_motion and observe_configuration of split steps; leapfrog_stress, split_stress and
 // first_stage_stress for an analysis of the stress. The plan of pairs chooses; no default.
 
-// Visits one particle and its pairs.
+// Slot pairs/row_visits: visits one particle and its pairs. The plan chooses `sheared` if the scene has shear.
+// Default: the cells around that of the particle.
 fn visit_particle_of_row(row: u32, index: u32) {
     let me = particle_at(index);
     let column = column_of(fraction_of(me.position));

@@ -50,6 +50,7 @@ pub fn builtin() -> &'static [Builtin] {
         "voronoi-shear",
         "poiseuille",
         "couette",
+        "shear",
         "diblock-copolymer",
         "surfactants"
     ]

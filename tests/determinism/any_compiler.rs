@@ -68,6 +68,7 @@ fn fluids() -> Vec<Case> {
     add(&[COTTER_REICH, MIXTURE, MIXTURE_FORCE, MEMORY, "time.step=0.02", TWO_DIMENSIONS], false);
     for integrator in [SPLITTING, PREDICTED] {
         add(&[integrator, r#"space.walls={"z":{"upper_velocity":[1,-0.3,0]}}"#], false);
+        add(&[integrator, MIXTURE, r#"space.shear={"rate":0.8,"gradient":"z"}"#], false);
     }
     cases
 }

@@ -13,6 +13,7 @@ mod particles;
 mod paths;
 mod resumed_analyses;
 mod shallow_water;
+mod shear;
 mod timing;
 mod voronoi;
 mod walls;

@@ -12,6 +12,7 @@ mod fuzzing;
 mod molecules;
 mod scenes;
 mod shallow_water;
+mod shear;
 mod states;
 mod voronoi;
 mod walls;

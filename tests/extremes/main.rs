@@ -10,5 +10,6 @@ mod edge_of_error;
 mod every_family;
 mod particles;
 mod shallow_water;
+mod shear;
 mod voronoi;
 mod walls;

@@ -8,4 +8,5 @@ mod channels;
 mod phases;
 mod published;
 mod readers;
+mod shear;
 mod states;

@@ -3,6 +3,7 @@
 pub(super) mod body_force;
 pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
+pub(super) mod shear;
 pub(super) mod walls;
 
 use std::collections::{HashMap, HashSet};
@@ -41,6 +42,7 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     check_numbers(scene, problems);
     body_force::check_together(scene, problems);
     walls::check(scene, problems);
+    shear::check(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
     if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
