@@ -2,7 +2,8 @@
 // their own; particles so far outside that their powers would leave the range of integers are counted separately.
 //
 // Slot analyses/sampled: the vector of a particle, by id, in the units of the plan; components beyond the box's dimension are
-// zero. Variants velocity, momentum, force, acceleration; the plan follows the analysis (src/plan/analyses.rs). No default.
+// zero. Variants velocity, momentum, force, acceleration, and peculiar_velocity where shear has momenta in the box; the plan
+// follows the analysis (src/run/analyses/planner.rs). No default.
 // Slot analyses/counted: which values of the vector are counted. Variants components, magnitude; the same plan chooses. No
 // default.
 override COUNTS: u32;       // the bins; then below, above, and, of particles, far beyond

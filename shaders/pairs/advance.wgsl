@@ -11,7 +11,7 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
-// Slot pairs/advance: how a particle drifts. The plan chooses `between_walls` if the scene has walls.
+// Slot pairs/advance: how a particle drifts. The plan chooses `between_walls` if the scene has walls, `sheared` if it has shear.
 // Default: across the periodic box.
 //
 // Stores a particle after its opening kick and drift, and counts it. `momentum` and `kick` are in integer momentum units.
@@ -47,6 +47,19 @@ fn drift_rest_between_walls(@builtin(workgroup_id) workgroup: vec3<u32>, @builti
     if (index >= PARTICLES) { return; }
     let me = particles[index];
     let flight = fly(Flight(fraction_of(me.position), steps_of(me.momentum), Steps(1), 1), species_of(me));
+    particles[index].position = position_word(flight.place, me.position.w);
+    particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
+    put_rank(index, atomicAdd(&counts[row_of(flight.place) * CELLS_X + column_of(flight.place)], 1u));
+}
+
+// The second half of a drift through boundaries that shear, which a report has interrupted. One invocation a stored particle; updates it,
+// adds to `counts` and `wall_impulses`, writes `ranks`.
+@compute @workgroup_size(WORKGROUP)
+fn drift_rest_sheared(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (index >= PARTICLES) { return; }
+    let me = particles[index];
+    let flight = drift_through(ShearedFlight(fraction_of(me.position), steps_of(me.momentum)), species_of(me), 2u * SHEAR_PART);
     particles[index].position = position_word(flight.place, me.position.w);
     particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
     put_rank(index, atomicAdd(&counts[row_of(flight.place) * CELLS_X + column_of(flight.place)], 1u));

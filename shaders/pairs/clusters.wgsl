@@ -52,7 +52,8 @@ fn stretches_of(own: u32, own_length: u32, begin: u32, length: u32) -> Stretches
     return s;
 }
 
-// The stretches of the cluster whose particles lie in columns `column`, in lanes from left to right.
+// Slot pairs/cluster_rows: the stretches of candidates. The plan chooses `sheared` if the scene has shear.
+// Default: the stretches of the cluster whose particles lie in columns `column`, in lanes from left to right.
 fn cluster_stretches(row: u32, lane: u32, column: u32) -> Stretches {
     let others = neighbour_rows() - 1u;
     let lane_row = min(lane + select(0u, 1u, lane >= others / 2u), others);

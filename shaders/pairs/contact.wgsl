@@ -9,10 +9,9 @@ struct Contact {
     inside: bool,      // closer than the cutoff
 }
 
-// Slot pairs/separation: what else is remembered of a pair where its separation is taken. Default: nothing. The plan of pairs chooses
-// `noted` if forces depend on local densities.
-//
-// From the other particle to this one, by the shortest way: odd under exchange.
+// Slot pairs/separation: from the other particle to this one, by the shortest way: odd under exchange. The plan chooses `sheared` if the
+// scene has shear, `noted` if forces depend on local densities, and `sheared_noted` if both.
+// Default: round the periodic box.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
     return Vector(signed(fraction_of(position) - fraction_of(other))) * unit_lengths();
 }

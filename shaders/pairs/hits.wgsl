@@ -2,13 +2,13 @@
 //
 // Slot pairs/hits: which candidates are visited. `prepare_row_hits` and `prepare_cluster_hits` begin with a particle;
 // `hits_of_row` and `hits_of_cluster` give a word of hits for up to 32 candidates, without the particle itself; `keep_mask`
-// gets every word found. Variants: keep (stores the words for a later pass), kept (reads them). Default: the prefilter finds
-// them and nothing is stored. The plan of pairs chooses for the two passes of a split step.
+// gets every word found. Variants: keep (stores the words for a later pass), kept (reads them), sheared (notes the place of
+// the particle). Default: the prefilter finds them and nothing is stored. The plan of pairs chooses for the two passes of a split step.
 //
 // Slot pairs/prefilter: a word of a few bits an axis that never misses a neighbour. Variants plane, volume; the plan follows
 // the box.
 // Slot pairs/prefilter_source: what is read of a candidate. Variants words, positions; the plan chooses positions where sorted
-// particles are in textures. Neither has a default.
+// particles are in textures, and sheared if the scene has shear. Neither has a default.
 
 // What the prefilter knows of the particle whose hits are wanted.
 var<private> hits_probe: Probe;

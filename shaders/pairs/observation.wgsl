@@ -27,6 +27,8 @@ fn observe_virial(sums: ptr<function, PairSums>, magnitude: f32, weight: f32, co
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(magnitude * contact.distance * weight));
 }
 
+// Slot pairs/reported_motion: what a report sums of the motion of a particle. The plan chooses `peculiar` if the scene has shear.
+// Default: in the box.
 fn observe_motion(species: i32, momentum: Steps, virial: Sum64) {
     let p = Vector(momentum);
     pair_total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
@@ -56,5 +58,5 @@ fn add_reported_force(impulse: vec4<i32>) {}
 fn store_force(id: u32) {}
 
 // Slot pairs/reported_momentum: the momenta of a split step's report, by id.
-// Default: off. The plan chooses `kept` if an analysis needs velocities.
+// Default: off. The plan chooses `kept` if an analysis needs velocities, `peculiar` if the scene has shear.
 fn store_momentum(id: u32, momentum: vec4<i32>) {}

@@ -8,7 +8,8 @@
 // first_stage_stress for an analysis of the stress; sum_densities and
 // observe_densities before the others, if forces depend on local densities. The plan of pairs chooses; no default.
 
-// Visits one particle and its pairs.
+// Slot pairs/row_visits: visits one particle and its pairs. The plan chooses `sheared` if the scene has shear.
+// Default: the cells around that of the particle.
 fn visit_particle_of_row(row: u32, index: u32) {
     let me = particle_at(index);
     let column = column_of(fraction_of(me.position));

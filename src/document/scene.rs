@@ -1,8 +1,8 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Output, ParticleGroup, StateFile,
-    StateVelocities, Walls,
+    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Output, ParticleGroup, Shear,
+    StateFile, StateVelocities, Walls,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -147,7 +147,7 @@ fn current_version() -> u32 {
     1
 }
 
-/// An orthogonal box, periodic but for axes with walls.
+/// An orthogonal box, periodic but for axes with walls; shear displaces what is across a face.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Space {
@@ -158,6 +158,9 @@ pub struct Space {
     /// Plane walls at the faces of the box.
     #[serde(default, skip_serializing_if = "Walls::is_empty")]
     pub walls: Walls,
+    /// Shear flow by periodic boundaries that move past each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear: Option<Shear>,
 }
 
 /// Time step and duration.

@@ -108,6 +108,9 @@ const MOMENTUM_OF_WALLS: [[Column; 3]; 6] = [
     ],
 ];
 
+/// Momentum along the flow that boundaries which shear have taken from what crossed them.
+pub(crate) const SHEAR_MOMENTUM: Column = column("shear_momentum", |row, _| row.on_walls.sheared);
+
 /// Work that moving walls have done on the particles.
 pub(crate) const WALL_WORK: Column = column("wall_work", |row, _| row.on_walls.work);
 

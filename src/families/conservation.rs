@@ -17,6 +17,8 @@ pub enum KeptQuantity {
     MomentumWithWalls,
     /// Both.
     MomentumWithWallsButForForces,
+    /// Of all particles, with what boundaries that shear have taken from those that crossed them.
+    MomentumWithShear,
     /// Kinetic and internal energy together.
     Energy,
 }
@@ -33,6 +35,9 @@ impl KeptQuantity {
             Self::MomentumWithWalls => "total momentum with what walls have taken up",
             Self::MomentumWithWallsButForForces => {
                 "total momentum with what walls have taken up, less what body forces have put in"
+            }
+            Self::MomentumWithShear => {
+                "total momentum with what boundaries that shear have taken from those that crossed them"
             }
             Self::Energy => "total energy",
         }
@@ -72,6 +77,11 @@ impl KeptSum {
             _ => KeptQuantity::MomentumWithWalls,
         };
         Self { quantity, walls: Some((place, number)), ..self }
+    }
+
+    /// The same with what boundaries that shear have taken up in the place of walls.
+    pub(super) fn with_shear(self) -> Self {
+        Self { quantity: KeptQuantity::MomentumWithShear, ..self }
     }
 
     /// What is kept, among the sums of a report.

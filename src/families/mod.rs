@@ -41,7 +41,7 @@ pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
-    HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, SpringChain, Strand,
+    HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
 };
 pub use pictures::PictureKind;
 pub use registry::Family;

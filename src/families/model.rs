@@ -129,7 +129,10 @@ impl Model {
     /// themselves do not.
     #[must_use]
     pub fn conserves_momentum(&self) -> bool {
-        self.exchanges_momentum() && self.particles().body_forces.is_none() && self.particles().walls.is_empty()
+        self.exchanges_momentum()
+            && self.particles().body_forces.is_none()
+            && self.particles().walls.is_empty()
+            && self.particles().shear.is_none()
     }
 
     /// Whether particles get momentum from each other, from body forces and from walls only, so that the total is what those have put in.
@@ -142,7 +145,10 @@ impl Model {
     /// nothing but a random force.
     #[must_use]
     pub fn measures_about_centre_of_mass(&self) -> bool {
-        self.physics().is_free() && !self.has_fixed_particles() && self.particles().walls.is_empty()
+        self.physics().is_free()
+            && !self.has_fixed_particles()
+            && self.particles().walls.is_empty()
+            && self.particles().shear.is_none()
     }
 
     /// Number of particles.

@@ -76,7 +76,9 @@ pub struct PutIn {
 pub struct OnWalls {
     /// Momentum of the lower and the upper wall across x, then y, then z.
     pub momentum: [[f64; 3]; 6],
-    /// The work that they have done on the particles: their velocities times the momenta that they gave away.
+    /// Momentum along the flow that boundaries which shear have taken from the particles that crossed them.
+    pub sheared: f64,
+    /// The work that walls have done on the particles: their velocities times the momenta that they gave away.
     pub work: f64,
 }
 
@@ -84,6 +86,10 @@ impl OnWalls {
     /// From the sums of the walls that a model has, in order, in units of momentum.
     pub(crate) fn new(model: &Model, sums: impl Iterator<Item = [f64; 3]>) -> Self {
         let mut on_walls = Self::default();
+        if model.particles().shear.is_some() {
+            on_walls.sheared = sums.map(|sum| sum[0]).sum::<f64>() * model.units.momentum;
+            return on_walls;
+        }
         let walls = model.particles().walls.iter().flat_map(|pair| [0, 1].map(|upper| (pair, upper)));
         for ((pair, upper), sum) in walls.zip(sums) {
             let momentum = sum.map(|units| units * model.units.momentum);
@@ -226,7 +232,7 @@ mod tests {
         bath_energy: 0.0,
         bath_square: 0.0,
         put_in: PutIn { momentum: [0.0; 3], work: 0.0 },
-        on_walls: OnWalls { momentum: [[0.0; 3]; 6], work: 0.0 },
+        on_walls: OnWalls { momentum: [[0.0; 3]; 6], sheared: 0.0, work: 0.0 },
         cells: None,
     };
 

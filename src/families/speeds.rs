@@ -48,6 +48,9 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
     for wall in scene.space.walls.of_axes().into_iter().flatten() {
         most = wall.velocities().iter().flatten().fold(most, |most: f64, v| most.max(v.abs()));
     }
+    if let Some(shear) = &scene.space.shear {
+        most += shear.speed(&scene.space.lengths);
+    }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {
             most = most.max(noise_momentum(noise, scene.time.step) / lightest);

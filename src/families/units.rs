@@ -43,6 +43,9 @@ pub(super) fn momentum_unit(
         let fastest = wall.velocities().iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         scale = scale.max(heaviest * fastest / 8.0);
     }
+    if let Some(shear) = &scene.space.shear {
+        scale = scale.max(heaviest * shear.speed(&scene.space.lengths) / 8.0);
+    }
     for interaction in &scene.interactions {
         if let Interaction::ColouredNoise(noise) = interaction {
             scale = scale.max(noise_momentum(noise, scene.time.step));

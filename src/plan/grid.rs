@@ -34,6 +34,12 @@ impl Grid {
     /// ```
     #[must_use]
     pub fn new(units: &Units, cutoff: f64, particles: u64) -> Self {
+        Self::with_least(units, cutoff, particles, [1; 3])
+    }
+
+    /// The same with at least so many cells on each axis, all of which are wider than the cutoff.
+    #[must_use]
+    pub fn with_least(units: &Units, cutoff: f64, particles: u64, least: [u32; 3]) -> Self {
         let dimension = units.dimension;
         let mut cells = [1_u32; 3];
         let budget = (4.0 * particles as f64).max(27.0);
@@ -41,7 +47,7 @@ impl Grid {
         loop {
             for (axis, count) in cells.iter_mut().enumerate().take(dimension) {
                 let room = (units.lengths[axis] / width * (1.0 + 1e-12)).floor().min(1024.0) as u32;
-                *count = if room < 3 { 1 } else { room };
+                *count = if room < 3 { least[axis] } else { room };
             }
             if cells.iter().map(|count| f64::from(*count)).product::<f64>() <= budget {
                 break;

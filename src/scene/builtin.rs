@@ -58,6 +58,7 @@ pub fn builtin() -> &'static [Builtin] {
         "voronoi-shear",
         "poiseuille",
         "couette",
+        "shear",
         "diblock-copolymer",
         "surfactants",
         "drop"

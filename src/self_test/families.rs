@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 15] = [
+const CASES: [Case; 16] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -107,6 +107,12 @@ const CASES: [Case; 15] = [
         name: "pairs between walls",
         scene: FLUID,
         changes: &[r#"space.walls={"z":{"lower_velocity":[-1,0.5,0],"upper_velocity":[1,0,0]}}"#],
+        twice: true,
+    },
+    Case {
+        name: "pairs in shear",
+        scene: FLUID,
+        changes: &[r#"space.shear={"rate":0.7,"gradient":"z"}"#],
         twice: true,
     },
     Case { name: "bonds and angles", scene: CHAINS, changes: &[], twice: false },
@@ -254,6 +260,7 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     if model.exchanges_momentum() {
         let name = match (model.conserves_momentum(), model.particles().walls.is_empty()) {
             (true, _) => "momentum",
+            (false, true) if model.particles().shear.is_some() => "momentum with what boundaries took",
             (false, true) => "momentum less what body forces put in",
             (false, false) => "momentum with what walls took up",
         };
@@ -348,6 +355,7 @@ mod tests {
                 "coloured noise, Langevin bath and tethers" => &[],
                 "pairs and a body force" => &["momentum less what body forces put in"],
                 "pairs between walls" => &["momentum with what walls took up"],
+                "pairs in shear" => &["momentum with what boundaries took"],
                 "Voronoi cells" => &["momentum", "mass"],
                 "Voronoi cells with energy" => &["momentum", "mass", "energy"],
                 name if name.starts_with("shallow water") => &["mass"],

@@ -73,6 +73,7 @@ fn fluids() -> Vec<Case> {
     }
     for integrator in [SPLITTING, PREDICTED] {
         add(&[integrator, r#"space.walls={"z":{"upper_velocity":[1,-0.3,0]}}"#], false);
+        add(&[integrator, MIXTURE, r#"space.shear={"rate":0.8,"gradient":"z"}"#], false);
     }
     cases
 }

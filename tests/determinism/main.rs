@@ -14,6 +14,7 @@ mod particles;
 mod paths;
 mod resumed_analyses;
 mod shallow_water;
+mod shear;
 mod timing;
 mod voronoi;
 mod walls;

@@ -13,6 +13,7 @@ mod many_body;
 mod molecules;
 mod scenes;
 mod shallow_water;
+mod shear;
 mod states;
 mod voronoi;
 mod walls;

@@ -11,5 +11,6 @@ mod every_family;
 mod many_body;
 mod particles;
 mod shallow_water;
+mod shear;
 mod voronoi;
 mod walls;

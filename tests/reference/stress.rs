@@ -127,3 +127,22 @@ fn stresses_of_bonds_and_angles_agree_with_the_reference() {
         agree(&scene, Options::default(), &format!("couplings {edges:?}"));
     }
 }
+
+/// Between copies across boundaries that shear, and of velocities relative to the profile.
+#[test]
+fn stresses_in_shear_agree_with_the_reference() {
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 40}});
+    let sheared = INTEGRATORS.iter().filter(|integrator| **integrator != crate::support::COTTER_REICH);
+    for (row, integrator) in sheared.enumerate() {
+        let interactions = if row % 2 == 0 { json!([dpd]) } else { json!([dpd, bonds]) };
+        let mut scene = scene(BOXES[row % 2], integrator, &interactions, row % 2 == 1);
+        let shear =
+            if row % 2 == 0 { json!({"rate": 0.8, "gradient": "y"}) } else { json!({"rate": 0.8, "gradient": "z"}) };
+        scene.space.shear = serde_json::from_value(shear).unwrap();
+        for traversal in traversals() {
+            let options = Options { traversal: Some(traversal), ..Options::default() };
+            agree(&scene, options, &format!("shear {integrator} {traversal:?}"));
+        }
+    }
+}

@@ -15,6 +15,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
+use mesoscope::shaders::external::Jump;
 use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
@@ -62,6 +63,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             long_range_plans,
             driven_plans,
             walled_plans,
+            sheared_plans,
             water_plans,
             coupled_plans,
             noise_plans,
@@ -293,6 +295,42 @@ fn walled_plans() -> Vec<(String, Plan)> {
                 for integrator in INTEGRATORS {
                     let changes = [&[particles, interactions.as_str(), space, integrator], &samplers[..]].concat();
                     plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Pairs and chains in boxes whose boundaries shear. Most analyses take none.
+fn sheared_plans() -> Vec<(String, Plan)> {
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50}]"#,
+    ];
+    let spaces = [
+        r#"space={"box":[9,7],"shear":{"rate":0.2,"gradient":"y"}}"#,
+        r#"space={"box":[9,7,8],"shear":{"rate":-0.2,"gradient":"y"}}"#,
+        r#"space={"box":[2,7,3],"shear":{"rate":0.2,"gradient":"z"}}"#,
+    ];
+    let bonds = r#",{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":9}},
+        {"type":"angles","triples":[[0,1,2]],"stiffness":3}"#;
+    let mut plans = Vec::new();
+    for particles in particles {
+        for space in spaces {
+            for others in ["", bonds] {
+                let interactions = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}}{others}]"#);
+                for integrator in INTEGRATORS.iter().filter(|integrator| !integrator.contains("cotter-reich")) {
+                    let alone = fluid(&[particles, "interactions=[]", space, integrator]);
+                    plans.extend(plans_of(&format!("alone {space} {integrator}"), &alone, Options::default()));
+                    for traversal in [Traversal::Rows, Traversal::Clusters] {
+                        let stress = r#"output.stress={"every":2}"#;
+                        let changes = [particles, interactions.as_str(), space, integrator, stress];
+                        let options = Options { traversal: Some(traversal), ..Options::default() };
+                        let name = format!("{} {traversal:?}", changes.join(" "));
+                        plans.extend(plans_of(&name, &fluid(&changes), options));
+                    }
                 }
             }
         }
@@ -975,8 +1013,10 @@ fn host_structs_lie_as_in_the_shaders() {
                     2
                 };
                 let pairs = 2 * rows;
-                // Body forces have one an axis and a species.
-                let entries = pairs + if plan.has_buffer(Array::Account) { 2 * 3 } else { 0 };
+                // Body forces have one an axis and a species, shear one a species.
+                let sheared = plan.kernels.iter().any(|kernel| kernel.choices.has(Jump::BySpecies));
+                let entries =
+                    pairs + if plan.has_buffer(Array::Account) { 2 * 3 } else { 0 } + if sheared { 2 } else { 0 };
                 match texels(Array::Coefficients) {
                     None => assert_eq!(bytes(Array::Coefficients), Some(16 * entries)),
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),

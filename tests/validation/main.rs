@@ -9,4 +9,5 @@ mod many_body;
 mod phases;
 mod published;
 mod readers;
+mod shear;
 mod states;

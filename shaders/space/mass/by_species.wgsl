@@ -20,15 +20,3 @@ fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) ->
         + select(mine, theirs, in_order) * select(my_inverse, their_inverse, in_order);
     return own * both + weighed / both * (1.0 / f32(DIMENSION));
 }
-// The difference of two velocities, odd under exchange to the last bit. Masses may differ by twelve orders of magnitude: products
-// of sums and differences of both would lose the digits of the lighter.
-fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
-    let in_order = mine_first(me, other);
-    let first = Vector(select(theirs, mine, in_order));
-    let second = Vector(select(mine, theirs, in_order));
-    let mine_inverse = inverse_mass_of(species_of(me));
-    let theirs_inverse = inverse_mass_of(species_of(other));
-    let difference = first * select(theirs_inverse, mine_inverse, in_order)
-        - second * select(mine_inverse, theirs_inverse, in_order);
-    return select(-difference, difference, in_order);
-}

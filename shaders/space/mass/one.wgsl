@@ -15,7 +15,3 @@ fn rate_scale_of(species: i32) -> f32 { return 1.0; }
 fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
     return 2.0 * own + (mine + theirs) * (0.5 / f32(DIMENSION));
 }
-// The difference of two momenta, exact in integers: odd under exchange to the last bit.
-fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
-    return Vector(mine - theirs);
-}

@@ -21,6 +21,9 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     if model.particles().walls_move() {
         ways.push("put in by moving walls, whose work is `wall_work` in the table of energies");
     }
+    if model.particles().shear.is_some() {
+        ways.push("put in by shear, at the rate of the shear stress times the shear rate and the volume");
+    }
     if thermal {
         ways.push("exchanged with the heat bath");
     }
@@ -40,7 +43,10 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 /// Whether something beside baths puts energy in.
 fn is_driven(model: &Model) -> bool {
     let particles = model.particles();
-    particles.coloured_noise.is_some() || particles.body_forces.is_some() || particles.walls_move()
+    particles.coloured_noise.is_some()
+        || particles.body_forces.is_some()
+        || particles.walls_move()
+        || particles.shear.is_some()
 }
 
 /// Whether neither a bath nor a noise exchanges energy with the particles.
@@ -91,6 +97,11 @@ pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
     }
     if !model.particles().walls.is_empty() {
         reasons.push("walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say");
+    }
+    if model.particles().shear.is_some() {
+        reasons.push(
+            "boundaries that shear take it from what crosses them, as much as `shear_momentum` in the table of energies says",
+        );
     }
     if model.particles().position_bath.is_some() {
         reasons.push("friction and noise act on every particle by itself");

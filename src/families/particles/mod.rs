@@ -20,7 +20,7 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 use super::reference::Stepper;
 use super::{
     Angles, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model,
-    Observables, PairForce, Physics, PlaneWalls, PositionBath, Species, units,
+    Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
 };
 use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -43,6 +43,8 @@ pub struct Particles {
     pub body_forces: Option<BodyForces>,
     /// Walls that reflect particles, in the order of their axes.
     pub walls: Vec<PlaneWalls>,
+    /// Boundaries that shear, if there are any.
+    pub shear: Option<ShearedBox>,
     /// Groups of chains.
     pub chain_groups: Vec<ChainGroup>,
     /// Bonds, if there are any.
@@ -64,6 +66,7 @@ pub(super) static NONE: Particles = Particles {
     tether: None,
     body_forces: None,
     walls: Vec::new(),
+    shear: None,
     chain_groups: Vec::new(),
     bonds: None,
     angles: None,
@@ -134,6 +137,7 @@ impl Particles {
             tether,
             body_forces,
             walls: PlaneWalls::of(scene),
+            shear: ShearedBox::of(scene),
             chain_groups: topology::chain_groups(scene, |name| index_of(species, name)),
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
@@ -210,7 +214,7 @@ impl Physics for Particles {
     }
 
     fn reaches_equilibrium(&self) -> bool {
-        self.chains.is_none() && self.body_forces.is_none() && !self.walls_move()
+        self.chains.is_none() && self.body_forces.is_none() && !self.walls_move() && self.shear.is_none()
     }
 
     fn is_conservative(&self, model: &Model) -> bool {
@@ -255,13 +259,16 @@ impl Physics for Particles {
         if !self.are_coupled {
             stability::check_friction(scene, model, problems);
         }
+        if let Some(shear) = &self.shear {
+            checks::shear::check_step(scene, model, shear, problems);
+        }
         if let Some(forces) = &self.body_forces {
             checks::body_force::check_impulses(scene, model, forces, problems);
         }
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        let may_be_listed = self.walls.is_empty() && !self.have_local_densities();
+        let may_be_listed = self.walls.is_empty() && self.shear.is_none() && !self.have_local_densities();
         if self.are_coupled || (options.listed && may_be_listed) {
             self::plan::couplings::plan(model, measured, options)
         } else {
@@ -292,7 +299,8 @@ impl Physics for Particles {
         let walls = observables::walls_place(model);
         let of_axis = |(axis, sum): (usize, KeptSum)| {
             let sum = put_in.map_or(sum, |first| sum.but_for(first + axis));
-            walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number))
+            let sum = walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number));
+            if self.shear.is_some() { sum.with_shear() } else { sum }
         };
         momentum.into_iter().enumerate().map(of_axis).collect()
     }

@@ -50,7 +50,7 @@ fn own_sums(model: &Model) -> usize {
 
 /// The place of the first sum of what walls have taken up, and their number, if there are any.
 pub(super) fn walls_place(model: &Model) -> Option<(usize, usize)> {
-    let number = 2 * model.particles().walls.len();
+    let number = walls::count(model);
     (number > 0).then(|| (own_sums(model), number))
 }
 
@@ -85,6 +85,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
         columns.extend(column::put_in(model.units.dimension));
     }
     columns.extend(column::on_walls(particles.walls.iter().map(|walls| walls.axis), model.units.dimension));
+    columns.extend(particles.shear.is_some().then_some(column::SHEAR_MOMENTUM));
     columns.extend(particles.walls_move().then_some(column::WALL_WORK));
     columns
 }

@@ -1,5 +1,6 @@
 //! How particles start, once their places and momenta are known: at rest together, and with variables of baths.
 
+use super::plan::walls;
 use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
@@ -29,7 +30,13 @@ pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, 
     if particles.body_forces.is_some() {
         state.account = vec![Account::default()];
     }
-    state.walls = vec![WallImpulse::default(); 2 * particles.walls.len()];
+    state.walls = vec![WallImpulse::default(); walls::count(model)];
+    if let Some(shear) = &particles.shear {
+        for &id in thermal {
+            let flow = shear.flow(state.species[id] as usize, state.positions[id][shear.gradient], model);
+            state.momenta[id][0] += flow.round_ties_even() as i32;
+        }
+    }
 }
 
 /// Draws the bath variables of all coordinates from their law at rest.

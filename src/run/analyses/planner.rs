@@ -119,7 +119,11 @@ impl<'a> Planner<'a> {
     /// How kernels read velocities in a frame, and the kernels that have to run before.
     pub(super) fn velocities(&mut self, asked: Option<Frame>) -> (Choices, Vec<usize>) {
         let apart = self.reported.is_some_and(|reported| reported.momenta.is_some());
-        let velocity = Choices::new().with(if apart { Sampled::Momentum } else { Sampled::Velocity });
+        let velocity = Choices::new().with(match (apart, self.model.particles().shear.is_some()) {
+            (true, _) => Sampled::Momentum,
+            (false, true) => Sampled::PeculiarVelocity,
+            (false, false) => Sampled::Velocity,
+        });
         let natural = if self.model.conserves_momentum() { Frame::Box } else { Frame::CentreOfMass };
         if asked.unwrap_or(natural) == Frame::Box {
             return (velocity, Vec::new());

@@ -1,4 +1,4 @@
-//! The pressure tensor, the surface tension of a slab, and the viscosity from the autocorrelation of the stress.
+//! The pressure tensor, the surface tension of a slab, and the viscosity from the autocorrelation of the stress or from shear.
 
 use super::{
     Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, SumSampler,
@@ -21,6 +21,8 @@ const PRESSURE: &str = "pressure";
 const PARTS: [&str; 3] = ["kinetic", "conservative", "frictional"];
 const SURFACE_TENSION: &str = "surface_tension";
 const VISCOSITY: &str = "shear_viscosity";
+/// Of the stress in a box whose boundaries shear.
+const SHEARED: &str = "viscosity_in_shear";
 
 /// The pressure tensor.
 pub(super) struct Stress;
@@ -73,7 +75,8 @@ impl Descriptor for Stress {
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         let tension = printed_mean(&result[SURFACE_TENSION]);
         let tension = tension.map(|mean| ("surface tension".to_owned(), mean));
-        tension.into_iter().chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
+        let sheared = printed_mean(&result[SHEARED]).map(|mean| ("viscosity in shear".to_owned(), mean));
+        tension.into_iter().chain(sheared).chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
     }
 
     fn kept_bytes(&self, scene: &Scene, _: &Model) -> u64 {
@@ -94,6 +97,8 @@ struct Tensors {
     volume: f64,
     temperature: f64,
     length: f64,
+    /// The shear rate, and the component of the stress that it makes.
+    shear: Option<(f64, usize)>,
     /// The value of a unit of the sums of each part.
     units: [f64; 3],
     /// Steps, and the three parts of the pressure tensor.
@@ -110,6 +115,7 @@ impl Tensors {
             volume: model.units.volume(),
             temperature: model.temperature,
             length: asked.normal.map_or(0.0, |axis| model.units.lengths[axis as usize]),
+            shear: model.particles().shear.map(|shear| (shear.rate(model), shear.gradient + 2)),
             units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
             samples: Vec::new(),
         }
@@ -207,6 +213,10 @@ impl Analysis for Tensors {
                 |sample: &[f64; KEPT]| surface_tension(&Self::whole(sample), normal as usize, dimension, self.length);
             let series: Vec<f64> = self.samples.iter().map(tension).collect();
             result[SURFACE_TENSION] = json!(estimate(&series));
+        }
+        if let Some((rate, component)) = self.shear {
+            let series: Vec<f64> = self.samples.iter().map(|sample| -Self::whole(sample)[component] / rate).collect();
+            result[SHEARED] = json!(estimate(&series));
         }
         let correlation = self.correlation();
         if let Some(correlation) = &correlation {

@@ -83,6 +83,7 @@ pub fn features() -> Vec<Feature> {
                 "pairs",
                 "report_pairs",
                 "scan",
+                "stress",
                 "settle",
                 "square_forces",
                 "take_stock",
@@ -237,7 +238,7 @@ pub fn features() -> Vec<Feature> {
             with: |scene| scene["integrator"] = json!({"type": "splitting", "relaxation": "two-stages"}),
             without: |scene| scene["integrator"] = json!({"type": "splitting"}),
             own: Some(&["relax_first", "first_stage", "staged", "file pairs/friction/stages", "constant STAGE_"]),
-            more: &["relax_first", "report_first_stage", "staged", "staged_momenta"],
+            more: &["relax_first", "report_first_stage", "stress_of_first_stage", "staged", "staged_momenta"],
             instead: &[],
             // Lists of neighbours are for other integrators.
             always: false,
@@ -344,6 +345,32 @@ pub fn features() -> Vec<Feature> {
             own: Some(&["wall_motion", "LOWER_", "UPPER_"]),
             more: &[],
             instead: &[],
+            always: true,
+        },
+        Feature {
+            name: "shear",
+            // Most analyses take no shear, and neither do body forces.
+            ground: |scene| {
+                no_analyses(scene);
+                remove(scene, "body-force");
+                if let Some(space) = scene["space"].as_object_mut() {
+                    space.remove("walls");
+                }
+            },
+            with: |scene| {
+                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() {
+                    scene["space"]["shear"] = json!({"rate": 0.1, "gradient": "y"});
+                }
+            },
+            without: |scene| {
+                if let Some(space) = scene["space"].as_object_mut() {
+                    space.remove("shear");
+                }
+            },
+            own: Some(&["shear", "SHEAR", "JUMP", "pairs/faces", "external/jump", "external/shift", "reported_motion"]),
+            more: &["report_walls", "wall_impulses"],
+            // The prefilter reads positions then.
+            instead: &["probes"],
             always: true,
         },
         Feature {

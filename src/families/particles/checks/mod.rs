@@ -4,6 +4,7 @@ pub(super) mod body_force;
 pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
 mod many_body;
+pub(super) mod shear;
 pub(super) mod walls;
 
 use std::collections::{HashMap, HashSet};
@@ -43,6 +44,7 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     body_force::check_together(scene, problems);
     many_body::check_together(scene, problems);
     walls::check(scene, problems);
+    shear::check(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
     if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {

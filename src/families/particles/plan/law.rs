@@ -18,7 +18,6 @@ pub(super) fn law(force: &PairForce) -> Choices {
             (true, false) => pairs::Repulsion::ManyBody,
             (true, true) => pairs::Repulsion::ManyBodyOfPair,
         }))
-        .with_if(force.many_body.is_some(), pairs::Separation::Noted)
 }
 
 /// Rows of the table of coefficients with what each pair of species has of its own: the largest cutoff over its cutoff and half the

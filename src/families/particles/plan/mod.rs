@@ -6,6 +6,7 @@ pub(crate) mod external;
 mod law;
 pub(crate) mod pair;
 pub(crate) mod quanta;
+mod shear;
 mod species;
 mod stress;
 pub(crate) mod walls;

@@ -3,7 +3,7 @@
 use super::law::have_ranges;
 use crate::families::Model;
 use crate::shaders::Choices;
-use crate::shaders::space::{Coefficients, Mass, MassOfParticle};
+use crate::shaders::space::{Coefficients, Mass, MassOfParticle, RelativeMotion};
 
 /// Where kernels find the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +13,8 @@ pub(crate) struct Species {
     mass: Option<f64>,
     /// Whether pairs of species have cutoffs or exponents of their own.
     ranges: bool,
+    /// Whether particles may be copies that shear gives another velocity.
+    sheared: bool,
 }
 
 impl Species {
@@ -21,7 +23,7 @@ impl Species {
         let first = masses.next().unwrap_or(Some(1.0));
         let mass = first.filter(|mass| masses.all(|other| other == Some(*mass)));
         let ranges = model.particles().pair_force.as_ref().is_some_and(have_ranges);
-        Self { count: model.species.len(), mass, ranges }
+        Self { count: model.species.len(), mass, ranges, sheared: model.particles().shear.is_some() }
     }
 
     /// Whether there is a table: all coefficients of a single species that can move are constants.
@@ -46,7 +48,14 @@ impl Species {
             (true, false) => Coefficients::Table,
             (true, true) => Coefficients::Ranges,
         };
+        let motion = match (self.have_one_mass(), self.sheared) {
+            (true, false) => RelativeMotion::Momenta,
+            (true, true) => RelativeMotion::ShearedMomenta,
+            (false, false) => RelativeMotion::Velocities,
+            (false, true) => RelativeMotion::ShearedVelocities,
+        };
         Choices::new()
+            .with(motion)
             .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
             .with(MassOfParticle::OfSpecies)
             .with(coefficients)

@@ -6,9 +6,9 @@ use crate::families::{Model, PlaneWalls};
 use crate::plan::{Kernel, Plan};
 use crate::shaders::{Array, Choices, Constant, Entry, core, external, pairs};
 
-/// Walls of a model.
-pub(super) fn count(model: &Model) -> usize {
-    2 * model.particles().walls.len()
+/// What a model has that takes up momentum: its walls, and boundaries that shear as one.
+pub(crate) fn count(model: &Model) -> usize {
+    2 * model.particles().walls.len() + usize::from(model.particles().shear.is_some())
 }
 
 /// Sums that a report has for walls: three components of momentum for each.

@@ -1,5 +1,6 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
+use super::shear;
 use super::walls::{self, Flight, Way};
 use crate::document::Integrator;
 use crate::families::Model;
@@ -49,6 +50,10 @@ pub(super) fn move_on(
 ) -> Result<Vec<[i64; 3]>, Unstable> {
     let whole = drifts(model, masses, momenta, of_parts);
     let ways: Vec<[i64; 3]> = whole.iter().map(|way| way.map(|units| units / of_parts * parts)).collect();
+    if let Some(shear) = &model.particles().shear {
+        shear::move_on((model, shear), masses, state, momenta, parts, of_parts)?;
+        return Ok(vec![[1; 3]; state.len()]);
+    }
     if model.particles().walls.is_empty() {
         drift(state, &ways)?;
         state.momenta = momenta.to_vec();

@@ -9,6 +9,7 @@ mod motion;
 mod observables;
 pub(crate) mod pairs;
 mod potential;
+mod shear;
 mod splitting;
 mod stress;
 mod walls;
@@ -23,6 +24,7 @@ use crate::families::Observables;
 use crate::families::reference::{Unstable, add, narrow};
 use crate::state::State;
 use pairs::Pair;
+use shear::Images;
 use stress::Virials;
 
 /// What an integrator finds at the report point of a step.
@@ -105,9 +107,9 @@ impl Reference {
     pub fn observe(&self) -> Result<Observables, Unstable> {
         let report = self.report(&self.pairs())?;
         Ok(if self.model.particles().splits(&self.model) {
-            observables::observe(self, &self.state_between_forces()?, &report)
+            observables::observe(self, &self.state_between_forces()?, 1, &report)
         } else {
-            observables::observe(self, &self.state, &report)
+            observables::observe(self, &self.state, 0, &report)
         })
     }
 
@@ -167,7 +169,7 @@ impl Reference {
 
     fn pairs(&self) -> Vec<Pair> {
         let Some(force) = self.model.particles().pair_force.as_ref() else { return Vec::new() };
-        pairs::find_pairs(&self.model.units, &self.state.positions, force.cutoff)
+        pairs::find_pairs(&Images::of_step(&self.model, self.state.step), &self.state.positions, force.cutoff)
     }
 
     fn report(&self, found: &[Pair]) -> Result<Report, Unstable> {
@@ -184,11 +186,12 @@ impl Reference {
         if self.model.particles().splits(&self.model) { 2 } else { 1 }
     }
 
-    /// vᵢ - vⱼ of a pair.
+    /// vᵢ - vⱼ of a pair, of j's image.
     fn relative_velocity(&self, momenta: &[[i64; 3]], pair: &Pair) -> [f64; 3] {
         let scale_i = self.model.units.momentum / self.masses[pair.first];
         let scale_j = self.model.units.momentum / self.masses[pair.second];
-        let (momentum_i, momentum_j) = (momenta[pair.first], momenta[pair.second]);
+        let (momentum_i, mut momentum_j) = (momenta[pair.first], momenta[pair.second]);
+        momentum_j[0] += shear::jump(&self.model, self.state.species[pair.second], pair.boxes_up);
         std::array::from_fn(|axis| momentum_i[axis] as f64 * scale_i - momentum_j[axis] as f64 * scale_j)
     }
 }

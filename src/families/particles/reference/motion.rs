@@ -12,6 +12,8 @@ pub(super) struct Motion {
     drifts: Vec<[f64; 3]>,
     /// The velocities that white baths see, where they see velocities.
     velocities: Option<Vec<[f64; 3]>>,
+    /// By how much a velocity along x is larger one box up, where boundaries shear.
+    jump: f64,
     time_step: f64,
 }
 
@@ -26,6 +28,7 @@ impl Motion {
             drifts: drifts.iter().map(|d| std::array::from_fn(|axis| d[axis] as f64 * length(axis))).collect(),
             velocities: matches!(model.integrator, Integrator::GrootWarren { .. })
                 .then(|| seen.iter().zip(masses).map(velocity).collect()),
+            jump: model.particles().shear.as_ref().map_or(0.0, |shear| shear.velocity),
             time_step: model.time_step,
         }
     }
@@ -68,7 +71,8 @@ impl Motion {
     pub fn approach(&self, pair: &Pair) -> Option<f64> {
         let velocities = self.velocities.as_ref()?;
         let (first, second) = (velocities[pair.first], velocities[pair.second]);
-        let relative = std::array::from_fn(|axis| first[axis] - second[axis]);
+        let mut relative: [f64; 3] = std::array::from_fn(|axis| first[axis] - second[axis]);
+        relative[0] -= pair.boxes_up as f64 * self.jump;
         Some(self.time_step * dot(pair.direction(), relative))
     }
 }

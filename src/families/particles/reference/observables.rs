@@ -3,6 +3,7 @@
 use super::body_force;
 use super::couplings::observables::of_configuration;
 use super::pairs::find_pairs;
+use super::shear::{self, Images};
 use super::walls;
 use super::{Reference, Report};
 use crate::families::{Model, Observables};
@@ -12,10 +13,12 @@ use crate::state::State;
 pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &[[i64; 3]]) -> Observables {
     let mut total = [0_i64; 3];
     let mut kinetic_energy = 0.0;
-    for (momentum, mass) in momenta.iter().zip(masses) {
+    for (particle, (momentum, mass)) in momenta.iter().zip(masses).enumerate() {
+        let flow = [shear::flow(model, state, particle), 0.0, 0.0];
         for axis in 0..3 {
             total[axis] += momentum[axis];
-            kinetic_energy += (momentum[axis] as f64 * model.units.momentum).powi(2) / (2.0 * mass);
+            let peculiar = momentum[axis] as f64 - flow[axis];
+            kinetic_energy += (peculiar * model.units.momentum).powi(2) / (2.0 * mass);
         }
     }
     Observables {
@@ -28,17 +31,19 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
     }
 }
 
-/// All observables of the report point, with the configuration of a state.
-pub(super) fn observe(reference: &Reference, configuration: &State, report: &Report) -> Observables {
+/// All observables of the report point, with the configuration of a state some halves of a step after the step began.
+pub(super) fn observe(reference: &Reference, configuration: &State, halves: u64, report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
     let motion = of_motion(model, state, &reference.masses, &report.momenta);
-    of_configuration(model, configuration, &Observables { total_virial: report.virials.total, ..motion })
+    let images = Images::after(model, state.step.wrapping_mul(2).wrapping_add(halves));
+    of_configuration(model, configuration, &images, &Observables { total_virial: report.virials.total, ..motion })
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.
 pub(super) fn radial_distribution(reference: &Reference, range: f64, bins: usize) -> Vec<u64> {
     let mut counts = vec![0; bins];
-    for pair in find_pairs(&reference.model.units, &reference.state.positions, range) {
+    for pair in find_pairs(&Images::of_step(&reference.model, reference.state.step), &reference.state.positions, range)
+    {
         // Rounding may carry a distance just under the range to the end of the last bin.
         let bin = (pair.distance / range * bins as f64) as usize;
         if let Some(count) = counts.get_mut(bin) {

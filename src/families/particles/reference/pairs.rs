@@ -1,10 +1,10 @@
 //! Which particles interact, and the numbers of a pair that every integrator needs.
 
 use super::potential::Potential;
+use super::shear::Images;
 use crate::document::Distribution;
 use crate::families::Model;
 use crate::noise;
-use crate::state::Units;
 
 /// Two particles within range of each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,13 +17,15 @@ pub(super) struct Pair {
     pub separation: [f64; 3],
     /// |rᵢ - rⱼ|.
     pub distance: f64,
+    /// By how many boxes the image of j is above j across boundaries that shear.
+    pub boxes_up: i64,
 }
 
 impl Pair {
     /// Two particles where they are, i < j or the ends of a bond.
-    pub fn of(units: &Units, positions: &[[u32; 3]], first: usize, second: usize) -> Self {
-        let separation = units.displacement(positions[first], positions[second]);
-        Self { first, second, separation, distance: dot(separation, separation).sqrt() }
+    pub fn of(images: &Images<'_>, positions: &[[u32; 3]], first: usize, second: usize) -> Self {
+        let (separation, boxes_up) = images.displacement(positions[first], positions[second]);
+        Self { first, second, separation, distance: dot(separation, separation).sqrt(), boxes_up }
     }
 
     /// The unit vector e along rᵢ - rⱼ. Two particles in the same place have none: e = 0, and they exert no force.
@@ -33,7 +35,8 @@ impl Pair {
 }
 
 /// All pairs closer than `range`, which is at most half of every box edge or sees nearest images only.
-pub(super) fn find_pairs(units: &Units, positions: &[[u32; 3]], range: f64) -> Vec<Pair> {
+pub(super) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64) -> Vec<Pair> {
+    let units = images.units;
     let dimension = units.dimension;
     // Smaller cells than this would mostly be empty.
     let most = (positions.len() as f64).powf(1.0 / dimension as f64).ceil().max(3.0);
@@ -41,8 +44,8 @@ pub(super) fn find_pairs(units: &Units, positions: &[[u32; 3]], range: f64) -> V
     for (cells, length) in cells.iter_mut().zip(units.lengths).take(dimension) {
         *cells = (length / range).floor().min(most) as usize;
     }
-    let mut pairs = Pairs { units, range_squared: range * range, found: Vec::with_capacity(4 * positions.len()) };
-    if cells[..dimension].iter().all(|&cells| cells >= 3) {
+    let mut pairs = Pairs { images, range_squared: range * range, found: Vec::with_capacity(4 * positions.len()) };
+    if cells[..dimension].iter().all(|&cells| cells >= 3) && !images.shear() {
         linked_cells(positions, cells, dimension, &mut pairs);
     } else {
         for second in 0..positions.len() {
@@ -55,7 +58,7 @@ pub(super) fn find_pairs(units: &Units, positions: &[[u32; 3]], range: f64) -> V
 }
 
 struct Pairs<'a> {
-    units: &'a Units,
+    images: &'a Images<'a>,
     range_squared: f64,
     found: Vec<Pair>,
 }
@@ -63,14 +66,15 @@ struct Pairs<'a> {
 impl Pairs<'_> {
     #[inline]
     fn consider(&mut self, i: usize, j: usize, position_i: [u32; 3], position_j: [u32; 3]) {
-        let separation = self.units.displacement(position_i, position_j);
+        let (separation, boxes_up) = self.images.displacement(position_i, position_j);
         let squared = dot(separation, separation);
         if squared < self.range_squared {
             let distance = squared.sqrt();
             self.found.push(if i < j {
-                Pair { first: i, second: j, separation, distance }
+                Pair { first: i, second: j, separation, distance, boxes_up }
             } else {
-                Pair { first: j, second: i, separation: separation.map(|component| -component), distance }
+                let separation = separation.map(|component| -component);
+                Pair { first: j, second: i, separation, distance, boxes_up: -boxes_up }
             });
         }
     }
@@ -204,6 +208,7 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::state::Units;
 
     fn scattered(count: u32, dimension: usize) -> Vec<[u32; 3]> {
         (0..count)
@@ -226,9 +231,10 @@ mod tests {
         ] {
             let units = Units { dimension, lengths, gaps: [0.0; 3], momentum: 1.0 };
             let positions = scattered(300, dimension);
-            let mut found: Vec<_> = find_pairs(&units, &positions, 1.0);
+            let images = Images::at_rest(&units);
+            let mut found: Vec<_> = find_pairs(&images, &positions, 1.0);
             found.sort_by_key(|pair| (pair.second, pair.first));
-            let mut expected = Pairs { units: &units, range_squared: 1.0, found: Vec::new() };
+            let mut expected = Pairs { images: &images, range_squared: 1.0, found: Vec::new() };
             for j in 0..positions.len() {
                 for i in 0..j {
                     expected.consider(i, j, positions[i], positions[j]);
@@ -242,14 +248,14 @@ mod tests {
     #[test]
     fn coincident_particles_have_no_direction() {
         let units = Units { dimension: 3, lengths: [4.0; 3], gaps: [0.0; 3], momentum: 1.0 };
-        let pairs = find_pairs(&units, &[[5, 6, 7], [5, 6, 7]], 1.0);
+        let pairs = find_pairs(&Images::at_rest(&units), &[[5, 6, 7], [5, 6, 7]], 1.0);
         assert_eq!(pairs.len(), 1);
         assert_eq!(pairs[0].direction(), [0.0; 3]);
     }
 
     #[test]
     fn an_impulse_is_rounded_alike_for_both_ends() {
-        let pair = Pair { first: 0, second: 1, separation: [1.0, 0.0, 0.0], distance: 1.0 };
+        let pair = Pair { first: 0, second: 1, separation: [1.0, 0.0, 0.0], distance: 1.0, boxes_up: 0 };
         let mut sums = [[0; 3]; 2];
         exchange(&mut sums, &pair, [1.25, -0.75, 0.3], 0.5);
         assert_eq!(sums, [[2, -2, 1], [-2, 2, -1]]);

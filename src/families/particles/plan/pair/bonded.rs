@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::families::particles::plan::bonded::{self, Bonded, Observed, Scales};
-use crate::families::particles::plan::stress;
+use crate::families::particles::plan::{shear, stress};
 use crate::shaders::{Array, Choices, Constant, couplings};
 
 /// Kernels of bonds and angles.
@@ -44,7 +44,11 @@ impl Builder<'_> {
             let [whole, between] = bonded.reports;
             if splits {
                 kernels.report.extend(bonded.motion.as_ref().map(|motion| report(whole, motion, &Choices::new())));
-                kernels.configuration.push(report(between, &bonded.configuration, &kicks));
+                let kernel = report(between, &bonded.configuration, &kicks);
+                kernels.configuration.push(kernel);
+                if self.is_sheared() {
+                    self.plan.kernels[kernel].constants.push(shear::moment(1));
+                }
             } else {
                 kernels.report.push(report(whole, &bonded.observed, &Choices::new()));
             }

@@ -9,6 +9,7 @@ use super::law::{law, ranges};
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
+use super::shear;
 use super::species::Species;
 use super::walls;
 use super::{
@@ -36,7 +37,12 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
     let particles = model.particle_count();
     let free = PairForce::none(&model.units, model.species.len());
     let force = model.particles().pair_force.as_ref().unwrap_or(&free);
-    let grid = Grid::new(&model.units, force.cutoff, particles);
+    let mut least = [1; 3];
+    if let Some(shear) = &model.particles().shear {
+        // Between boundaries that shear there are rows that are next to one of them only.
+        least[shear.gradient] = 3;
+    }
+    let grid = Grid::with_least(&model.units, force.cutoff, particles, least);
     let traversal = match (force.acts(), options.traversal) {
         (false, _) => Traversal::Alone,
         (true, Some(traversal)) => traversal,
@@ -222,6 +228,7 @@ impl Builder<'_> {
             .with_if(self.is_bonded(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
+            .and(&shear::choices(self.model, self.species.have_table()))
     }
 
     fn ordering(&mut self) {
@@ -275,7 +282,12 @@ impl Builder<'_> {
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
     /// more it would be one buffer too many.
     fn keeps_probes(&self) -> bool {
-        self.traversal != Traversal::Alone && !self.texels && self.more_buffers() < 2
+        self.traversal != Traversal::Alone && !self.texels && self.more_buffers() < 2 && !self.is_sheared()
+    }
+
+    /// Whether boundaries shear.
+    fn is_sheared(&self) -> bool {
+        self.model.particles().shear.is_some()
     }
 
     /// Whether friction has two stages.
@@ -287,8 +299,16 @@ impl Builder<'_> {
     fn law(&self) -> Choices {
         let force = self.force;
         let frictional = force.largest_friction() > 0.0;
+        let noted = if self.is_sheared() { pairs::Separation::ShearedNoted } else { pairs::Separation::Noted };
         let choices = law(force)
-            .with(if self.keeps_probes() { pairs::PrefilterSource::Words } else { pairs::PrefilterSource::Positions })
+            .with_if(force.many_body.is_some(), noted)
+            .with(if self.is_sheared() {
+                pairs::PrefilterSource::Sheared
+            } else if self.keeps_probes() {
+                pairs::PrefilterSource::Words
+            } else {
+                pairs::PrefilterSource::Positions
+            })
             .with_any(frictional.then_some(match self.model.integrator {
                 Integrator::Splitting { .. } if self.relaxes_in_two_stages() => pairs::Friction::Stages,
                 Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
@@ -309,12 +329,14 @@ impl Builder<'_> {
 
     /// A kernel that visits all pairs.
     fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
-        let choices = self.choices().and(&self.law()).and(pass).with_any(match masks {
-            Masks::Unkept => None,
+        let visits = self.law().and(&shear::of_visits(self.model));
+        let choices = self.choices().and(&visits).and(pass).with_any(match masks {
+            Masks::Unkept => self.is_sheared().then_some(pairs::Hits::Sheared),
             Masks::Keep => Some(pairs::Hits::Keep),
             Masks::Kept => Some(pairs::Hits::Kept),
         });
         let (entry, lanes) = match traversal {
+            Traversal::Alone if self.is_sheared() => (Entry::VisitAloneInShear, self.workgroup_size()),
             Traversal::Alone => (Entry::VisitAlone, self.workgroup_size()),
             Traversal::Rows => (Entry::VisitRows, self.workgroup_size()),
             Traversal::Clusters => (Entry::VisitClusters, 8),
@@ -416,12 +438,16 @@ impl Builder<'_> {
         let added = (two_stages && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
-        let rest = if walls::count(self.model) == 0 {
-            self.kernel("drift_rest", Entry::DriftRest, self.choices(), self.particles)
-        } else {
-            let choices = self.choices().and(&walls::booking(self.model));
-            self.kernel("drift_rest", Entry::DriftRestBetweenWalls, choices, self.particles)
+        let entry = match (self.is_sheared(), walls::count(self.model)) {
+            (true, _) => Entry::DriftRestSheared,
+            (false, 0) => Entry::DriftRest,
+            (false, _) => Entry::DriftRestBetweenWalls,
         };
+        let choices = self.choices().and(&walls::booking(self.model));
+        let rest = self.kernel("drift_rest", entry, choices, self.particles);
+        if self.is_sheared() {
+            self.plan.kernels[configuration].constants.push(shear::moment(1));
+        }
         for kernel in [find, motion, configuration] {
             self.plan.kernels[kernel].constants.push((Constant::Halves, 1.0));
         }
@@ -492,7 +518,9 @@ impl Builder<'_> {
     /// The particles of a report.
     fn reported(&self) -> Reported {
         Reported {
-            choices: space_of(&self.model.units, self.predicted()).and(&self.species.choices()),
+            choices: space_of(&self.model.units, self.predicted())
+                .and(&self.species.choices())
+                .and(&shear::of_species(self.model, self.species.have_table())),
             particles: Array::Particles,
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some(Array::ReportedMomenta),
@@ -512,7 +540,7 @@ impl Builder<'_> {
             return None;
         }
         self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
-        Some(pairs::ReportedMomentum::Kept)
+        Some(if self.is_sheared() { pairs::ReportedMomentum::Peculiar } else { pairs::ReportedMomentum::Kept })
     }
 
     /// Keeps the forces of a report, where an analysis needs them.
@@ -562,6 +590,7 @@ impl Builder<'_> {
         if self.scans_at_end {
             self.plan.add_buffer(Array::WorkgroupsDone, 4);
         }
+        let parts = if self.splits() { 2 } else { 1 };
         if self.species.have_table() {
             let count = self.model.species.len();
             let mut table: Vec<f32> = Vec::with_capacity(4 * count * count);
@@ -579,10 +608,13 @@ impl Builder<'_> {
             }
             external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
             table.extend(external::entries(self.model));
+            shear::add_constants(self.model, parts, Some(table.len() / 4), &mut self.plan);
+            table.extend(shear::entries(self.model));
             let bytes = bytemuck::cast_slice(&table).to_vec();
             self.plan.add_table(Array::Coefficients, bytes);
         } else {
             external::add_constants(self.model, None, &mut self.plan);
+            shear::add_constants(self.model, parts, None, &mut self.plan);
         }
     }
 

@@ -2,8 +2,10 @@
 
 use super::push;
 use crate::families::particles::reference::pairs::dot;
+use crate::families::particles::reference::shear::Images;
 use crate::families::particles::reference::stress::Virials;
 use crate::families::{Angle, Angles, Model};
+use crate::state::State;
 
 /// An angle where it is, with arms from its middle to its ends.
 pub(super) struct Corner {
@@ -17,9 +19,9 @@ pub(super) struct Corner {
 
 impl Corner {
     /// None where an arm has no length: then there is no angle, and no force.
-    pub fn of(model: &Model, angle: &Angle, positions: &[[u32; 3]]) -> Option<Self> {
+    pub fn of(images: &Images<'_>, angle: &Angle, positions: &[[u32; 3]]) -> Option<Self> {
         let [first, middle, last] = angle.ends.map(|end| positions[end as usize]);
-        let arms = [first, last].map(|end| model.units.displacement(end, middle));
+        let arms = [first, last].map(|end| images.displacement(end, middle).0);
         let lengths = arms.map(|arm| dot(arm, arm).sqrt());
         if lengths.contains(&0.0) {
             return None;
@@ -60,15 +62,10 @@ impl Corner {
 }
 
 /// Adds the half kicks of all angles, of which those of the ends are rounded and the middle gets minus their sum, and the virials.
-pub(super) fn kick(
-    model: &Model,
-    angles: &Angles,
-    positions: &[[u32; 3]],
-    kick: &mut [[i64; 3]],
-    virials: &mut Virials,
-) {
+pub(super) fn kick(model: &Model, angles: &Angles, state: &State, kick: &mut [[i64; 3]], virials: &mut Virials) {
+    let images = Images::of_step(model, state.step);
     for angle in angles.iter() {
-        let Some(corner) = Corner::of(model, &angle, positions) else { continue };
+        let Some(corner) = Corner::of(&images, &angle, &state.positions) else { continue };
         let stiffness = angles.stiffness[angle.kind as usize];
         for (arm, gradient) in corner.arms().into_iter().zip(corner.gradients()) {
             virials.add_arm(angle.ends[1] as usize, arm, gradient.map(|slope| -stiffness * slope));

@@ -3,6 +3,7 @@
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::pairs::{self, Pair};
 use crate::families::particles::reference::potential::Potential;
+use crate::families::particles::reference::shear::Images;
 use crate::families::particles::reference::stress::Virials;
 use crate::families::reference::Unstable;
 use crate::families::reference::bath::{self, BathSums};
@@ -11,9 +12,9 @@ use crate::noise::{self, stream};
 use crate::state::State;
 
 /// The ends of a bond where they are.
-pub(super) fn span(model: &Model, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
+pub(super) fn span(images: &Images<'_>, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
     let [first, second] = bond.ends.map(|end| end as usize);
-    Pair::of(&model.units, positions, first, second)
+    Pair::of(images, positions, first, second)
 }
 
 /// Adds the half kicks of all bonds and their virials, and returns the bath variables after the step, where bonds remember.
@@ -27,10 +28,11 @@ pub(super) fn kick(
     virials: &mut Virials,
 ) -> Result<Vec<u32>, Unstable> {
     let key = noise::step_key(model.seed, stream::BOND, state.step);
+    let images = Images::of_step(model, state.step);
     let mut baths = state.bond_baths.clone();
     for (index, bond) in bonds.iter().enumerate() {
         let kind = &bonds.kinds[bond.kind as usize];
-        let pair = span(model, &bond, &state.positions);
+        let pair = span(&images, &bond, &state.positions);
         let Some(potential) = Potential::of_bond(kind.potential.as_ref(), pair.distance) else {
             return Err(Unstable::Bond { step: state.step, bond: index });
         };

@@ -153,7 +153,7 @@ impl CouplingsReference {
             baths.bond_baths = bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums, &mut virials)?;
         }
         if let Some(angles) = model.particles().angles.as_ref() {
-            angles::kick(model, angles, &state.positions, &mut kick, &mut virials);
+            angles::kick(model, angles, state, &mut kick, &mut virials);
         }
         if let Some(bath) = model.particles().position_bath.as_ref() {
             baths.position_baths = position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
@@ -198,7 +198,7 @@ pub(super) fn bonded_kicks(
         bonds::kick(model, bonds, state, &motion, kick, &mut BathSums::default(), virials)?;
     }
     if let Some(angles) = model.particles().angles.as_ref() {
-        angles::kick(model, angles, &state.positions, kick, virials);
+        angles::kick(model, angles, state, kick, virials);
     }
     Ok(())
 }

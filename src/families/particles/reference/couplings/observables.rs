@@ -10,6 +10,7 @@ use crate::families::particles::reference::densities::Densities;
 use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
+use crate::families::particles::reference::shear::Images;
 use crate::families::{Bonds, Model, Observables};
 use crate::state::State;
 
@@ -65,7 +66,7 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
         total_virial: evaluation.virials.total,
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
-        ..of_configuration(model, state, &motion)
+        ..of_configuration(model, state, &Images::of_step(model, state.step), &motion)
     }
 }
 
@@ -73,9 +74,10 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
 pub(in crate::families::particles::reference) fn of_configuration(
     model: &Model,
     state: &State,
+    images: &Images<'_>,
     motion: &Observables,
 ) -> Observables {
-    let configuration = configuration(model, state);
+    let configuration = configuration(model, state, images);
     let mobile = |particle: &usize| !is_fixed(model, state, *particle);
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     Observables {
@@ -87,7 +89,7 @@ pub(in crate::families::particles::reference) fn of_configuration(
     }
 }
 
-fn configuration(model: &Model, state: &State) -> Configuration {
+fn configuration(model: &Model, state: &State, images: &Images<'_>) -> Configuration {
     let count = state.len();
     let dimension = model.units.dimension;
     let mut sums = Configuration {
@@ -99,7 +101,7 @@ fn configuration(model: &Model, state: &State) -> Configuration {
     };
     if let Some(force) = model.particles().pair_force.as_ref() {
         let excluded = pairs::excluded_pairs(model);
-        let found = find_pairs(&model.units, &state.positions, force.cutoff);
+        let found = find_pairs(images, &state.positions, force.cutoff);
         for pair in &found {
             if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
                 continue;
@@ -112,7 +114,7 @@ fn configuration(model: &Model, state: &State) -> Configuration {
     }
     for bond in model.particles().bonds.as_ref().into_iter().flat_map(Bonds::iter) {
         let kind = model.particles().bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
-        let pair = bonds::span(model, &bond, &state.positions);
+        let pair = bonds::span(images, &bond, &state.positions);
         let potential = kind.and_then(|kind| kind.potential.as_ref());
         if let Some(potential) = Potential::of_bond(potential, pair.distance) {
             sums.add(&pair, &potential);
@@ -121,7 +123,7 @@ fn configuration(model: &Model, state: &State) -> Configuration {
     if let Some(angles) = model.particles().angles.as_ref() {
         for angle in angles.iter() {
             let stiffness = angles.stiffness[angle.kind as usize];
-            let Some(corner) = Corner::of(model, &angle, &state.positions) else { continue };
+            let Some(corner) = Corner::of(images, &angle, &state.positions) else { continue };
             sums.potential += stiffness * corner.energy();
             let [first, last] = corner.gradients();
             let middle = std::array::from_fn(|axis| -first[axis] - last[axis]);
@@ -277,7 +279,8 @@ mod tests {
                     laplacian += (more - 2.0 * here.potential_energy + less) / (0.5 * length).powi(2);
                 }
             }
-            let configuration = configuration(&reference.model, &reference.state);
+            let images = Images::at_rest(&reference.model.units);
+            let configuration = configuration(&reference.model, &reference.state, &images);
             let found = configuration.gradients[..4].iter().flatten().map(|slope| slope * slope).sum::<f64>();
             assert!((found / squares - 1.0).abs() < 1e-6, "{dimension}: {found} {squares}");
             let found = configuration.laplacians[..4].iter().sum::<f64>();

@@ -5,6 +5,7 @@
 //! constant, so that a bath follows the law at rest after some time there: a pair that is new to the list draws from it.
 
 use crate::families::particles::reference::pairs::{dot, find_pairs};
+use crate::families::particles::reference::shear::Images;
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::state::{PairBath, State};
@@ -22,7 +23,7 @@ pub(super) fn renew(model: &Model, force: &PairForce, state: &State) -> (Vec<Pai
     }
     let key = noise::step_key(model.seed, stream::PAIR_START, state.step);
     let excluded = super::pairs::excluded_pairs(model);
-    let pairs = find_pairs(&model.units, &state.positions, force.cutoff + force.skin);
+    let pairs = find_pairs(&Images::of_step(model, state.step), &state.positions, force.cutoff + force.skin);
     let mut numbers: Vec<[u32; 2]> = pairs.iter().map(|pair| [pair.first as u32, pair.second as u32]).collect();
     numbers.sort_unstable();
     let mut known = state.pair_baths.iter().peekable();

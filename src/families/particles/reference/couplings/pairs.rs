@@ -6,6 +6,7 @@
 use crate::families::particles::reference::leapfrog::{self, coupling};
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::pairs::{self, Forces, Pair, find_pairs};
+use crate::families::particles::reference::shear::Images;
 use crate::families::particles::reference::stress::Virials;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PairForce};
@@ -22,15 +23,16 @@ pub(super) fn kick(
     bath_sums: &mut BathSums,
     virials: &mut Virials,
 ) {
+    let images = Images::of_step(model, state.step);
     if !force.remembers() {
-        let found = find_pairs(&model.units, &state.positions, force.cutoff);
+        let found = find_pairs(&images, &state.positions, force.cutoff);
         leapfrog::half_kicks((model, force), state, motion, &found, &excluded_pairs(model), kick, virials);
         return;
     }
     let key = noise::step_key(model.seed, stream::PAIR, state.step);
     for memory in baths {
         let (first, second) = (memory.first as usize, memory.second as usize);
-        let pair = Pair::of(&model.units, &state.positions, first, second);
+        let pair = Pair::of(&images, &state.positions, first, second);
         if pair.distance >= force.cutoff {
             continue;
         }

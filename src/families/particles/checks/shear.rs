@@ -1,0 +1,143 @@
+//! Checks of shear that a schema cannot express.
+
+use super::{is_coupled, reason};
+use crate::document::{Axis, DpdInteraction, Integrator, Interaction, Output, Problem, Problems, Scene, brief};
+use crate::families::{Model, ShearedBox};
+
+/// The largest jump of momentum at a boundary, in its units: half of it, the flow at a boundary, leaves room for heat.
+const LARGEST: f64 = (1_u64 << 28) as f64;
+
+/// Checks the shear of a scene, with what else is in it.
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    let Some(shear) = &scene.space.shear else { return };
+    let mut refuse = |path: &str, found: String, accepted: &str| {
+        problems.push(Problem::new(path, found, accepted));
+    };
+    let at = "space.shear";
+    if let Some(index) = scene.interactions.iter().position(|interaction| !interaction.is_of_particles()) {
+        let found = format!("found in a scene of another kind, by interactions[{index}]");
+        refuse(at, found, "shear of particles only: meshes and tessellations are periodic without a shift");
+        return;
+    }
+    if !shear.rate.is_finite() {
+        refuse("space.shear.rate", format!("found {}", shear.rate), "a finite number");
+    }
+    let dimension = scene.space.lengths.len();
+    if shear.flow != Axis::X {
+        let found = format!("found \"{}\"", shear.flow.name());
+        refuse("space.shear.flow", found, "x: cells of neighbours lie in rows along x, which slide past each other");
+    }
+    if shear.gradient as usize >= dimension {
+        let found = format!("found \"{}\", an axis that the box has not", shear.gradient.name());
+        refuse("space.shear.gradient", found, if dimension == 3 { "y or z" } else { "y, in two dimensions" });
+    } else if shear.gradient == Axis::X {
+        let found = format!("found \"{}\", along the flow", shear.gradient.name());
+        refuse("space.shear.gradient", found, if dimension == 3 { "y or z" } else { "y, in two dimensions" });
+    } else {
+        check_edge(scene, shear.gradient, &mut refuse);
+    }
+    if is_coupled(scene) {
+        refuse(
+            at,
+            format!("found together with {}", reason(scene)),
+            "shear of particles that interact in pairs without memory, and by bonds and angles without a bath, in two or three dimensions: \
+             lists of neighbours do not follow the boundaries",
+        );
+    }
+    if !scene.space.walls.is_empty() {
+        let named = scene.space.walls.of_axes()[shear.gradient as usize].is_some();
+        let found = if named { "found across an axis with walls" } else { "found together with `space.walls`" };
+        refuse(at, found.to_owned(), "either of them: walls that move also make a shear flow");
+    }
+    if let Some(index) =
+        scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::BodyForce(_)))
+    {
+        let found = format!("found together with a body force in interactions[{index}]");
+        refuse(at, found, "no body force: its work on what crosses a boundary is not booked");
+    }
+    if scene.integrator == (Integrator::CotterReich {}) && !is_coupled(scene) {
+        let accepted =
+            "`splitting` or `groot-warren`: its friction sees distances before a drift, in which a boundary has moved";
+        refuse("integrator", "found `cotter-reich` and `space.shear`".to_owned(), accepted);
+    }
+    check_output(&scene.output, &mut refuse);
+}
+
+/// Rows at one boundary are not next to the other.
+fn check_edge(scene: &Scene, gradient: Axis, refuse: &mut impl FnMut(&str, String, &str)) {
+    let cutoffs = |dpd: &DpdInteraction| dpd.pairs.iter().filter_map(|pair| pair.cutoff).fold(dpd.cutoff, f64::max);
+    let largest = scene.interactions.iter().filter_map(|interaction| match interaction {
+        Interaction::Dpd(dpd) => Some(cutoffs(dpd)),
+        _ => None,
+    });
+    let cutoff = largest.fold(0.0, f64::max);
+    let edge = scene.space.lengths[gradient as usize];
+    if edge < 3.0 * cutoff {
+        let accepted = format!(
+            "at least {}, three cutoffs of {cutoff}: what is at one boundary that shears is not at the other",
+            3.0 * cutoff
+        );
+        refuse(&format!("space.box[{}]", gradient as usize), format!("found {edge}"), &accepted);
+    }
+}
+
+/// What is written in a box whose boundaries move.
+fn check_output(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
+    let paths = "follows paths of particles, whose copies move past each other";
+    let distances = "finds pairs further than the cutoff round a box at rest";
+    let analyses = [
+        ("trajectory", output.trajectory.is_some(), paths),
+        ("diffusion", output.diffusion.is_some(), paths),
+        ("radial_distribution", output.radial_distribution.is_some(), distances),
+        ("chain_sizes", output.chain_sizes.is_some(), "adds up bonds round a box at rest"),
+        (
+            "viscosity",
+            output.viscosity.is_some(),
+            "is that of waves in a periodic box; `stress` has the viscosity of shear",
+        ),
+        ("autocorrelations", !output.autocorrelations.is_empty(), "is that of velocities in a box at rest"),
+        ("histograms", !output.histograms.is_empty(), "is that of velocities in a box at rest"),
+    ];
+    if output.stress.as_ref().is_some_and(|stress| stress.window.is_some()) {
+        let accepted = "no `window`: Green and Kubo's viscosity is that of a fluid at rest; in shear it is that of the mean stress";
+        refuse("output.stress.window", "found in a scene with shear".to_owned(), accepted);
+    }
+    for (name, _, why) in analyses.into_iter().filter(|(_, asked, _)| *asked) {
+        let found = format!("found in a scene with shear, and this analysis {why}");
+        refuse(&format!("output.{name}"), found, "none in a scene with shear");
+    }
+}
+
+/// Refuses a shear that integers do not hold, or that takes particles too far in a step.
+pub(in crate::families::particles) fn check_step(
+    scene: &Scene,
+    model: &Model,
+    shear: &ShearedBox,
+    problems: &mut Problems,
+) {
+    let path = "space.shear.rate";
+    let Some(asked) = &scene.space.shear else { return };
+    let edge = scene.space.lengths[shear.gradient];
+    let (reach, speed) = (model.physics().reach(model), asked.speed(&scene.space.lengths));
+    if speed * scene.time.step > reach {
+        let found = format!(
+            "found {}, with which the flow at a boundary goes {} in a step",
+            brief(asked.rate),
+            brief(speed * scene.time.step)
+        );
+        let accepted = format!(
+            "at most {}, so that a step takes particles no further than {}, {}",
+            brief(2.0 * reach / (scene.time.step * edge)),
+            model.physics().reach_in_words(),
+            brief(reach)
+        );
+        problems.push(Problem::new(path, found, accepted));
+        return;
+    }
+    let heaviest = model.species.iter().map(|species| species.mass).fold(0.0, f64::max);
+    let most = LARGEST * model.units.momentum / (heaviest * edge);
+    if asked.rate.abs() > most {
+        let accepted = format!("at most {}, whose jump of momentum at a boundary integers hold", brief(most));
+        problems.push(Problem::new(path, format!("found {}", brief(asked.rate)), accepted));
+    }
+}

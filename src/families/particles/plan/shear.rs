@@ -1,0 +1,63 @@
+//! Shear: what kernels choose and know of boundaries that move.
+
+use crate::families::Model;
+use crate::plan::Plan;
+use crate::shaders::{Choices, Constant, core, external, pairs};
+
+/// What all kernels choose, if there is shear; `has_table` where species have one.
+pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
+    if model.particles().shear.is_none() {
+        return Choices::new();
+    }
+    Choices::new()
+        .with(pairs::Advance::Sheared)
+        .with(pairs::Separation::Sheared)
+        .with(pairs::RowVisits::Sheared)
+        .with(pairs::ClusterRows::Sheared)
+        .with(pairs::ReportedMotion::Peculiar)
+        .with(core::Reported::WithWalls)
+        .and(&of_species(model, has_table))
+}
+
+/// Where kernels find what is different between species.
+pub(super) fn of_species(model: &Model, has_table: bool) -> Choices {
+    Choices::new().with_if(model.particles().shear.is_some() && has_table, external::Jump::BySpecies)
+}
+
+/// What kernels choose beside that visit all pairs.
+pub(super) fn of_visits(model: &Model) -> Choices {
+    Choices::new().with_if(model.particles().shear.is_some(), external::Shift::Kept)
+}
+
+/// The positions that a kernel sees, in half steps since the step began.
+pub(super) fn moment(halves: u8) -> (Constant, f64) {
+    (Constant::ShearMoment, f64::from(halves))
+}
+
+/// Adds the constants, where steps drift in some parts; without a table of species that of the only one.
+pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usize>, plan: &mut Plan) {
+    let Some(shear) = model.particles().shear.as_ref() else { return };
+    let [low, high] = shear.increment();
+    let rows_of_a_layer = if shear.gradient == 2 { plan.cells[1] } else { 1 };
+    plan.constants.extend([
+        (Constant::ShearAxis, shear.gradient as f64),
+        (Constant::ShearLevels, f64::from(plan.cells[shear.gradient])),
+        (Constant::ShearStride, f64::from(rows_of_a_layer)),
+        (Constant::ShearLow, f64::from(low)),
+        (Constant::ShearHigh, f64::from(high)),
+        moment(0),
+        (Constant::ShearPart, 2.0 / f64::from(parts)),
+        match entries_before {
+            Some(entries) => (Constant::JumpEntries, entries as f64),
+            None if model.species.is_empty() => (Constant::ShearJump, 0.0),
+            None => (Constant::ShearJump, f64::from(shear.jump(0, model))),
+        },
+    ]);
+}
+
+/// The entries of a table of species: one for each, of halves that single precision holds.
+pub(super) fn entries(model: &Model) -> Vec<f32> {
+    let Some(shear) = model.particles().shear.as_ref() else { return Vec::new() };
+    let jumps = (0..model.species.len()).map(|species| shear.jump(species, model));
+    jumps.flat_map(|jump| [(jump >> 16) as f32, (jump & 0xffff) as f32, 0.0, 0.0]).collect()
+}

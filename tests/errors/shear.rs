@@ -1,0 +1,110 @@
+//! Shear with mistakes.
+
+use serde_json::{Value, json};
+
+use crate::support::mistakes::Correct;
+
+const SHEARED: Correct = Correct(base);
+
+fn base() -> Value {
+    json!({
+        "title": "test",
+        "space": {"box": [10, 10, 10], "shear": {"rate": 0.1, "flow": "x", "gradient": "y"}},
+        "time": {"step": 0.01, "steps": 100},
+        "temperature": 1,
+        "particles": [{"species": "water", "count": 300}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+    })
+}
+
+#[test]
+fn the_base_is_right() {
+    SHEARED.accepted(&[]);
+    assert_eq!(SHEARED.warnings(&[]), Vec::<String>::new());
+    SHEARED.accepted(&[r#"space.shear={"rate":-0.1,"gradient":"z"}"#]);
+    SHEARED.accepted(&["space.box=[10,10]"]);
+    SHEARED.accepted(&[r#"integrator={"type":"groot-warren","lambda":0.65}"#]);
+}
+
+#[test]
+fn axes() {
+    SHEARED.refused_with(
+        &[r#"space.shear.gradient="x""#],
+        &["space.shear.gradient: found \"x\", along the flow", "y or z"],
+    );
+    SHEARED.refused_with(
+        &[r#"space.shear.flow="y""#],
+        &["space.shear.flow: found \"y\"", "cells of neighbours lie in rows"],
+    );
+    SHEARED.refused_with(&[r#"space.shear.gradient="w""#], &["space.shear.gradient"]);
+    SHEARED.refused_with(&[r#"space.shear={"rate":1}"#], &["space.shear", "gradient"]);
+    SHEARED.refused_with(
+        &["space.box=[10,10]", r#"space.shear.gradient="z""#],
+        &["space.shear.gradient: found \"z\", an axis that the box has not", "y, in two dimensions"],
+    );
+    SHEARED.refused_with(
+        &["space.box=[10,2.5,10]"],
+        &["space.box[1]: found 2.5", "at least 3, three cutoffs of 1", "not at the other"],
+    );
+    SHEARED.accepted(&["space.box=[10,3,10]"]);
+    SHEARED.accepted(&["space.box=[2,3,2]"]);
+}
+
+#[test]
+fn rates() {
+    SHEARED.refused_with(&[r#"space.shear.rate="fast""#], &["space.shear.rate"]);
+    // The flow at a boundary goes half of the edge times the rate times the step.
+    SHEARED.refused_with(
+        &["space.shear.rate=25"],
+        &["space.shear.rate: found 25.000", "goes 1.250 in a step", "at most 20.000", "the cutoff, 1.000"],
+    );
+    SHEARED.accepted(&["space.shear.rate=19"]);
+    SHEARED.refused_with(&["space.shear.rate=-1e30"], &["space.shear.rate: found -1.00e30"]);
+    SHEARED.accepted(&["space.shear.rate=0"]);
+}
+
+/// Whatever is bound to a box at rest is refused with the reason.
+#[test]
+fn what_takes_no_shear() {
+    SHEARED.refused_with(
+        &[r#"interactions.0.bath={"type":"memory","rate":3}"#],
+        &["space.shear: found together with a bath with memory in interactions[0]", "lists of neighbours"],
+    );
+    SHEARED
+        .refused_with(&["particles.0.fixed=true"], &["space.shear: found together with particles[0], which are fixed"]);
+    SHEARED.refused_with(
+        &[r#"space.walls={"y":{}}"#],
+        &["space.shear: found across an axis with walls", "walls that move also make a shear flow"],
+    );
+    SHEARED.refused_with(&[r#"space.walls={"z":{}}"#], &["space.shear: found together with `space.walls`"]);
+    SHEARED.refused_with(
+        &[r#"integrator={"type":"cotter-reich"}"#],
+        &["integrator: found `cotter-reich` and `space.shear`", "`splitting` or `groot-warren`"],
+    );
+    SHEARED.refused_with(
+        &[r#"interactions=[{"type":"dpd","repulsion":25},{"type":"body-force","force":[1,0,0]}]"#],
+        &["space.shear: found together with a body force in interactions[1]"],
+    );
+    for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
+        let problems = SHEARED.problems(&["space.box=[10,10]", &format!("interactions=[{other}]")]);
+        assert!(
+            problems.iter().any(|problem| problem.contains("space.shear: found in a scene of another kind")),
+            "{problems:#?}"
+        );
+    }
+    SHEARED.refused_with(
+        &[r#"output.stress={"every":1,"window":8}"#],
+        &["output.stress.window: found in a scene with shear", "that of the mean stress"],
+    );
+    SHEARED.accepted(&[r#"output.stress={"every":10}"#, r#"output.profiles={"axis":"y","every":10}"#]);
+    for analysis in [
+        r#"trajectory={"every":10}"#,
+        r#"diffusion={"every":2,"window":8}"#,
+        r#"radial_distribution={"every":10,"range":2}"#,
+        r#"viscosity={"every":2,"window":8}"#,
+    ] {
+        let name = analysis.split('=').next().unwrap();
+        let named = format!("output.{name}: found in a scene with shear");
+        SHEARED.refused_with(&[&format!("output.{analysis}")], &[&named, "none in a scene with shear"]);
+    }
+}
