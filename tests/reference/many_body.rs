@@ -133,7 +133,8 @@ fn two_particles_have_the_energy_and_force_of_the_paper() {
             "integrator": integrator_of(integrator),
             "particles": [{"species": "A", "velocities": {"type": "rest"},
                 "placement": {"type": "listed", "positions": [at(3.0), at(3.0 + distance)]}}],
-            "interactions": [{"type": "dpd", "repulsion": attraction, "many_body": {"repulsion": repulsion, "cutoff": range}}],
+            "interactions": [
+                {"type": "dpd", "repulsion": attraction, "many_body": {"repulsion": repulsion, "cutoff": range}}],
             "output": {"energies": {"every": 1}},
         });
         let scene = read(&document);

@@ -1,11 +1,12 @@
-//! Many-body dissipative particle dynamics: the local densities of a state, and what follows from the energies ψ(ρ̄ᵢ) of its particles.
+//! Many-body dissipative particle dynamics: the local densities of a state, and what follows from the energies ψ(ρ̄ᵢ) of its
+//! particles.
 //!
 //! ```text
 //! ρ̄ᵢ = Σ w(rᵢⱼ) over all j ≠ i,   w(r) = C (1 - r/rd)² within rd,   V = Σ ψ(ρ̄ᵢ),   ψ = K ρ̄²
 //! Fᵢⱼ = -[ψ'(ρ̄ᵢ) + ψ'(ρ̄ⱼ)] w'(rᵢⱼ) e = B (ρ̄ᵢ + ρ̄ⱼ) (1 - rᵢⱼ/rd) e
 //! ∇ᵢ²V = ψ''(ρ̄ᵢ) |Σ w' e|² + Σ { ψ'' w'² + [ψ'(ρ̄ᵢ) + ψ'(ρ̄ⱼ)] (w'' + (d - 1) w'/r) }
 //! ```
-//! Warren, Phys. Rev. E 68, 066702 (2003), doi:10.1103/PhysRevE.68.066702, equations (4)-(6), with K = πrd⁴B/30 in three dimensions.
+//! Warren, doi:10.1103/PhysRevE.68.066702, with K = πrd⁴B/30 in three dimensions.
 
 use super::pairs::Pair;
 use crate::families::{ManyBodyForce, Model};
