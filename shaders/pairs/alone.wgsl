@@ -17,8 +17,8 @@ fn visit_alone(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     pass_finish(group, lane);
 }
 
-// Visits every particle, and notes for reports where it is in the flow of shear. One invocation a particle at a time; SEGMENTS workgroups share a row of cells. The pass decides what
-// is read and written: slot pairs/pass, see pairs/rows.
+// Visits every particle, and notes for reports where it is in the flow of shear. One invocation a particle at a time; SEGMENTS
+// workgroups share a row of cells. The pass decides what is read and written: slot pairs/pass, see pairs/rows.
 @compute @workgroup_size(WORKGROUP)
 fn visit_alone_in_shear(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

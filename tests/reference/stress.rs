@@ -140,9 +140,9 @@ fn stresses_in_shear_agree_with_the_reference() {
         let shear =
             if row % 2 == 0 { json!({"rate": 0.8, "gradient": "y"}) } else { json!({"rate": 0.8, "gradient": "z"}) };
         scene.space.shear = serde_json::from_value(shear).unwrap();
-        for traversal in traversals() {
-            let options = Options { traversal: Some(traversal), ..Options::default() };
-            agree(&scene, options, &format!("shear {integrator} {traversal:?}"));
-        }
+        let traversals = traversals();
+        let traversal = traversals[row / 2 % traversals.len()];
+        let options = Options { traversal: Some(traversal), ..Options::default() };
+        agree(&scene, options, &format!("shear {integrator} {traversal:?}"));
     }
 }
