@@ -4,7 +4,6 @@ use mesoscope::families::Model;
 use mesoscope::families::reference::Reference;
 use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
-use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
@@ -263,8 +262,7 @@ fn thermal_starts_flow_with_the_profile() {
     let observed = observables(&mut engine(&scene, &state, Options::default()), &scene);
     // d N = 1620 degrees of freedom.
     assert!((observed.kinetic_temperature() - 1.0).abs() < 5.0 * (2.0_f64 / 1620.0).sqrt());
-    let total: State = state;
-    assert!(total.total_momentum()[1] == 0);
+    assert_eq!(state.total_momentum()[1], 0);
 }
 
 /// Profiles of the velocity along the gradient are about that of the flow, which is up to 30 here; sums over a layer scatter by √(Σm kT), 16.
