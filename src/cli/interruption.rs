@@ -1,4 +1,5 @@
-//! Signals that ask to stop: an interrupt from the keyboard, the end of a job's time, or a terminal that is closed.
+//! Signals that ask to stop: an interrupt from the keyboard, the end of a job's time or a warning before it, or a terminal that is
+//! closed.
 
 use std::io;
 use std::sync::Arc;
@@ -44,7 +45,8 @@ fn requests() -> Vec<i32> {
 
 #[cfg(unix)]
 fn requests() -> Vec<i32> {
-    let mut signals = vec![SIGINT, SIGTERM];
+    // Batch systems warn with one of the user's signals, which launchers of MPI pass on where they take SIGTERM for themselves.
+    let mut signals = vec![SIGINT, SIGTERM, signal_hook::consts::SIGUSR1, signal_hook::consts::SIGUSR2];
     if !hangup::is_ignored() {
         signals.push(signal_hook::consts::SIGHUP);
     }

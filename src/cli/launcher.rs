@@ -15,16 +15,38 @@ struct Launcher {
     size: &'static str,
     /// The number of a copy among those on its machine, from zero.
     local: &'static [&'static str],
+    /// The number of copies on its machine.
+    on_machine: &'static [&'static str],
 }
 
 /// The one that is nearest to the program comes first: `mpirun` within a job of Slurm leaves Slurm's variables as they are.
 const LAUNCHERS: [Launcher; 4] = [
-    Launcher { rank: "OMPI_COMM_WORLD_RANK", size: "OMPI_COMM_WORLD_SIZE", local: &["OMPI_COMM_WORLD_LOCAL_RANK"] },
-    Launcher { rank: "MV2_COMM_WORLD_RANK", size: "MV2_COMM_WORLD_SIZE", local: &["MV2_COMM_WORLD_LOCAL_RANK"] },
+    Launcher {
+        rank: "OMPI_COMM_WORLD_RANK",
+        size: "OMPI_COMM_WORLD_SIZE",
+        local: &["OMPI_COMM_WORLD_LOCAL_RANK"],
+        on_machine: &["OMPI_COMM_WORLD_LOCAL_SIZE"],
+    },
+    Launcher {
+        rank: "MV2_COMM_WORLD_RANK",
+        size: "MV2_COMM_WORLD_SIZE",
+        local: &["MV2_COMM_WORLD_LOCAL_RANK"],
+        on_machine: &["MV2_COMM_WORLD_LOCAL_SIZE"],
+    },
     // MPICH, Intel MPI, Cray.
-    Launcher { rank: "PMI_RANK", size: "PMI_SIZE", local: &["MPI_LOCALRANKID", "PALS_LOCAL_RANKID"] },
+    Launcher {
+        rank: "PMI_RANK",
+        size: "PMI_SIZE",
+        local: &["MPI_LOCALRANKID", "PALS_LOCAL_RANKID"],
+        on_machine: &["MPI_LOCALNRANKS", "PALS_LOCAL_SIZE"],
+    },
     // Of `srun`. In the script of a job SLURM_NTASKS says how many copies a job may start, and one copy runs.
-    Launcher { rank: "SLURM_PROCID", size: "SLURM_STEP_NUM_TASKS", local: &["SLURM_LOCALID"] },
+    Launcher {
+        rank: "SLURM_PROCID",
+        size: "SLURM_STEP_NUM_TASKS",
+        local: &["SLURM_LOCALID"],
+        on_machine: &["SLURM_NTASKS_PER_NODE"],
+    },
 ];
 
 /// What starts jobs that differ in a number.
@@ -138,6 +160,18 @@ pub fn shard() -> Result<Shard, Failure> {
 pub fn local_rank() -> Option<usize> {
     let (launcher, ..) = launcher(&environment)?;
     launcher.local.iter().find_map(|name| number(&environment, name)).and_then(|rank| usize::try_from(rank).ok())
+}
+
+/// The number of copies on this machine, where a launcher says it; else one.
+pub fn local_copies() -> usize {
+    let found = launcher(&environment).and_then(|(launcher, ..)| {
+        launcher
+            .on_machine
+            .iter()
+            .find_map(|name| number(&environment, name))
+            .and_then(|count| usize::try_from(count).ok())
+    });
+    found.unwrap_or(1).max(1)
 }
 
 /// Refuses to be one of several copies that all would write the same files.

@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use mesoscope::gpu::prepare_environment;
+use mesoscope::gpu::prepare_environment_among;
 
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
@@ -99,7 +99,7 @@ pub fn main() -> ExitCode {
         return ExitCode::from(failure.exit_code());
     }
     if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
-        prepare_environment();
+        prepare_environment_among(launcher::local_copies());
     }
     let result = match command {
         Command::Run(arguments) => run::execute(&arguments),

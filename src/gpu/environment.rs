@@ -19,12 +19,18 @@
 ///     Ok(())
 /// }
 /// ```
-#[cfg(target_os = "linux")]
 pub fn prepare_environment() {
+    prepare_environment_among(1);
+}
+
+/// The same for one of so many processes that share a machine: two threads for each of its share of the cores.
+#[cfg(target_os = "linux")]
+pub fn prepare_environment_among(processes: usize) {
     use std::os::unix::process::CommandExt as _;
 
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let wanted = [("LP_NUM_THREADS", (2 * cores).to_string()), ("XDG_RUNTIME_DIR", "/nonexistent".to_owned())];
+    let own = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = 2 * cores_of_one(own, machine::cores(), processes);
+    let wanted = [("LP_NUM_THREADS", threads.to_string()), ("XDG_RUNTIME_DIR", "/nonexistent".to_owned())];
     let set = |variable: &str| match std::env::var_os(variable) {
         Some(path) if variable == "XDG_RUNTIME_DIR" => std::path::Path::new(&path).is_absolute(),
         found => found.is_some(),
@@ -40,4 +46,46 @@ pub fn prepare_environment() {
 
 /// Nothing to do here.
 #[cfg(not(target_os = "linux"))]
-pub fn prepare_environment() {}
+pub fn prepare_environment_among(_: usize) {}
+
+/// The cores that one of several processes of a machine should take: those that it may run on, or fewer where all may run on the same.
+#[cfg(target_os = "linux")]
+fn cores_of_one(own: usize, machine: Option<usize>, processes: usize) -> usize {
+    let share = machine.unwrap_or(own) / processes.max(1);
+    share.clamp(1, own.max(1))
+}
+
+#[cfg(target_os = "linux")]
+mod machine {
+    /// The cores of the machine, whichever of them this process may run on.
+    pub(super) fn cores() -> Option<usize> {
+        number(&std::fs::read_to_string("/sys/devices/system/cpu/online").ok()?)
+    }
+
+    /// The number of entries of a list like `0-3,8-11`.
+    pub(super) fn number(list: &str) -> Option<usize> {
+        list.trim().split(',').try_fold(0, |sum, part| {
+            let (first, last) = part.split_once('-').unwrap_or((part, part));
+            let [first, last]: [usize; 2] = [first.parse().ok()?, last.parse().ok()?];
+            Some(sum + last.checked_sub(first)? + 1)
+        })
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::{cores_of_one, machine};
+
+    #[test]
+    fn processes_share_the_cores_of_a_machine() {
+        assert_eq!(cores_of_one(8, Some(8), 1), 8);
+        assert_eq!(cores_of_one(8, Some(8), 3), 2);
+        assert_eq!(cores_of_one(2, Some(2), 5), 1);
+        // A launcher that binds copies has shared the cores out already.
+        assert_eq!(cores_of_one(2, Some(8), 4), 2);
+        assert_eq!(cores_of_one(4, None, 2), 2);
+        assert_eq!(["0", "0-3", "0-3,8-11"].map(machine::number), [Some(1), Some(4), Some(8)]);
+        assert_eq!(["", "3-0", "x"].map(machine::number), [None; 3]);
+        assert!(machine::cores().is_none_or(|cores| cores > 0));
+    }
+}

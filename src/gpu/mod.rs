@@ -11,6 +11,6 @@ pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, list_adapters}
 pub use compiled::Rewriting;
 pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
-pub use environment::prepare_environment;
+pub use environment::{prepare_environment, prepare_environment_among};
 pub use error::GpuError;
 pub use shader::{Binding, LinkedShader, link, validate};

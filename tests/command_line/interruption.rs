@@ -87,7 +87,7 @@ fn step_of(directory: &Path) -> u64 {
 
 #[test]
 fn an_interrupted_run_goes_on_where_it_was() {
-    for signal in ["-INT", "-TERM"] {
+    for signal in ["-INT", "-TERM", "-USR1", "-USR2"] {
         let place = place();
         let (parts, table) = (place.argument("parts"), place.path("parts").join(files::ENERGIES));
         let (code, said) = interrupted(&["run", &place.scene(), "--out", &parts], signal, &table);

@@ -90,6 +90,19 @@ fn shear_agrees_with_the_reference() {
     }
 }
 
+/// Local densities of copies, and forces that depend on them.
+#[test]
+fn densities_across_boundaries_agree_with_the_reference() {
+    for (number, integrator) in SHEARED.iter().enumerate() {
+        let (edges, shear) = &boxes()[number];
+        let mut document = fluid(edges, shear, integrator, number % 2 == 1);
+        document["interactions"][0]["repulsion"] = json!(-10);
+        document["interactions"][0]["many_body"] = json!({"repulsion": 6, "cutoff": 0.8});
+        let traversal = [None, Some(Traversal::Rows)][number / 2];
+        agree(&document, Options { traversal, ..Options::default() });
+    }
+}
+
 /// Bonds and angles between copies.
 #[test]
 fn chains_across_boundaries_agree_with_the_reference() {
