@@ -456,6 +456,11 @@ impl Builder<'_> {
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
         let densities = self.densities(Masks::Keep, &mut rows);
+        if self.is_sheared() {
+            for kernel in &densities.report {
+                self.plan.kernels[*kernel].constants.push(shear::moment(1));
+            }
+        }
         self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find]].concat();
         self.plan.advance = vec![relax];
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
