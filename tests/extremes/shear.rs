@@ -26,7 +26,7 @@ fn run(scene: &Scene, state: &State, steps: u64) -> State {
 #[test]
 fn next_to_no_shear() {
     for integrator in [SPLITTING, GROOT_WARREN] {
-        let [none, zero, least] = [r#"space.box=[5,4,5]"#.to_owned(), sheared(0.0), sheared(1e-30)].map(|space| {
+        let [none, zero, least] = ["space.box=[5,4,5]".to_owned(), sheared(0.0), sheared(1e-30)].map(|space| {
             let scene = fluid(&[&space, integrator]);
             let (_, state) = start(&scene);
             run(&scene, &state, 20)
