@@ -209,7 +209,7 @@ fn baths() {
 fn integrators() {
     let split = r#"integrator={"type":"splitting"}"#;
     CHAINS.accepted(&[split, "interactions.1.exclude_repulsion=true"]);
-    let both = "integrator.type: found `splitting`, which relaxes pairs only, together with";
+    let both = "integrator.type: found `splitting`, whose steps are split for baths without memory only, together with";
     CHAINS.refused_with(
         &[split, "interactions.1.friction=2"],
         &[&format!("{both} a bath on every bond in interactions[1]; accepted: `cotter-reich`")],

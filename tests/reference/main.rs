@@ -8,6 +8,7 @@ mod body_forces;
 mod bonds;
 mod pair_coefficients;
 mod particles;
+mod relaxation;
 mod single_steps;
 mod smoothing;
 mod stress;

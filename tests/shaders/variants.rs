@@ -19,7 +19,7 @@ use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
-use crate::support::{INTEGRATORS, STAGED, cells, fluid, water};
+use crate::support::{INTEGRATORS, SPLITTING, STAGED, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -64,6 +64,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             walled_plans,
             water_plans,
             coupled_plans,
+            relaxed_plans,
             noise_plans,
             bond_plans,
             voronoi_plans,
@@ -317,6 +318,38 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                         let changes = [interactions.as_str(), particles, space, &generator, &integrator];
                         let options =
                             Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
+                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Split steps with baths without memory on particles: alone, and with pairs that have friction and that have none.
+fn relaxed_plans() -> Vec<(String, Plan)> {
+    let pairs = ["", r#",{"type":"dpd","repulsion":25}"#, r#",{"type":"dpd","repulsion":25,"friction":4.5}"#];
+    let bonds =
+        r#",{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},{"type":"body-force","force":[1,2]}"#;
+    let particles = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}}]"#,
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let baths = [
+        (r#""bath":{"type":"white"}"#, r#"noise={"generator":"pcg4d"}"#),
+        (r#""bath":{"type":"white"}"#, r#"noise={"generator":"threefry2x32-20"}"#),
+        (r#""bath":{"type":"white","temperature":0}"#, r#"noise={"generator":"pcg4d"}"#),
+    ];
+    let mut plans = Vec::new();
+    for (pair, particles) in pairs.iter().flat_map(|pair| particles.map(|particles| (pair, particles))) {
+        for (space, more) in [("space.box=[9,7]", ""), ("space.box=[9,7]", bonds), ("space.box=[9,7,8]", "")] {
+            for (bath, noise) in baths {
+                let interactions = format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#);
+                for (samplers, integrator) in [(&[][..], SPLITTING), (SAMPLERS, SPLITTING), (SAMPLERS, STAGED)] {
+                    let changes = [&[interactions.as_str(), particles, space, noise, integrator], samplers].concat();
+                    for traversal in [Traversal::Rows, Traversal::Clusters] {
+                        let options = Options { traversal: Some(traversal), ..Options::default() };
                         plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                     }
                 }

@@ -51,8 +51,9 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than pairs without memory, and bonds and angles without a bath, in two or three dimensions: then
-    /// every coupling adds its impulses up on its own, and listed pairs persist.
+    /// Whether there is more than steps of pairs take: pairs without memory, bonds and angles without a bath, in two or three
+    /// dimensions, and where steps are split baths without memory on particles. Then every coupling adds its impulses up on its
+    /// own, and listed pairs persist.
     pub are_coupled: bool,
 }
 
@@ -82,15 +83,29 @@ impl Particles {
     /// split.
     #[must_use]
     pub fn splits(&self, model: &Model) -> bool {
+        self.relaxes_pairs(model) || self.relaxes_particles(model)
+    }
+
+    /// Whether a split step relaxes the velocities of pairs.
+    #[must_use]
+    pub fn relaxes_pairs(&self, model: &Model) -> bool {
         matches!(model.integrator, Integrator::Splitting { .. })
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
+    /// Whether a split step relaxes the momentum of every particle by itself.
+    #[must_use]
+    pub fn relaxes_particles(&self, model: &Model) -> bool {
+        !self.are_coupled
+            && matches!(model.integrator, Integrator::Splitting { .. })
+            && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
     /// Whether a split step relaxes the velocities of pairs in two stages.
     #[must_use]
     pub fn relaxes_in_two_stages(&self, model: &Model) -> bool {
         let asked = Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) };
-        self.splits(model) && model.integrator == asked
+        self.relaxes_pairs(model) && model.integrator == asked
     }
 
     /// What acts on the particles of a scene; harmonic chains add their species.
@@ -254,7 +269,8 @@ impl Physics for Particles {
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        if self.are_coupled || (options.listed && self.walls.is_empty()) {
+        let listed = options.listed && self.walls.is_empty() && !self.relaxes_particles(model);
+        if self.are_coupled || listed {
             self::plan::couplings::plan(model, measured, options)
         } else {
             self::plan::pair::plan(model, measured, hardware, options)

@@ -109,14 +109,29 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     }
 }
 
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions; of other
-/// families it has not.
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and where steps
+/// are split baths without memory on particles; of other families it has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
+    let splits = matches!(scene.integrator, Integrator::Splitting { .. });
+    has_more_than(scene, |interaction| match interaction {
+        Interaction::Langevin(langevin) => splits && matches!(langevin.bath, Bath::White { .. }),
+        _ => false,
+    })
+}
+
+/// Whether scenes of couplings are the only ones that can have this one.
+pub(crate) fn is_coupled_unless_split(scene: &Scene) -> bool {
+    has_more_than(scene, |_| false)
+}
+
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and what else
+/// is taken.
+fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
         Interaction::Bonds(bonds) => bonds.has_bath(),
         Interaction::Angles(_) | Interaction::BodyForce(_) => false,
-        other => acts(other),
+        other => acts(other) && !taken(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
@@ -238,7 +253,10 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
     match scene.integrator {
         Integrator::Splitting { .. } => {
-            let found = format!("found `splitting`, which relaxes pairs only, together with {}", reason(scene));
+            let found = format!(
+                "found `splitting`, whose steps are split for baths without memory only, together with {}",
+                reason(scene)
+            );
             let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
             problems.push(Problem::new("integrator.type", found, accepted));
         }

@@ -28,7 +28,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             problems,
             found,
             "walls with particles that interact in pairs without memory, by bonds and angles without a bath, and by body forces, in two or \
-             three dimensions",
+             three dimensions; with `splitting` also a bath without memory on particles",
         );
     }
     let dimension = scene.space.lengths.len();

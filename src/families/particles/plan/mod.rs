@@ -5,6 +5,7 @@ pub(crate) mod couplings;
 pub(crate) mod external;
 mod law;
 pub(crate) mod pair;
+mod position_bath;
 pub(crate) mod quanta;
 mod species;
 mod stress;

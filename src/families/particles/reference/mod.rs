@@ -1,4 +1,4 @@
-//! Pairs without memory, with bonds and angles where steps are split, and all couplings and baths, in float64.
+//! Pairs without memory, with bonds, angles and baths of particles where steps are split, and all couplings and baths, in float64.
 
 mod body_force;
 mod couplings;
@@ -8,6 +8,7 @@ mod motion;
 mod observables;
 pub(crate) mod pairs;
 mod potential;
+mod relaxation;
 mod splitting;
 mod stress;
 mod walls;

@@ -57,6 +57,8 @@ impl Builder<'_> {
         if self.is_bonded() {
             bonded::add_tables(&scales, &mut self.plan);
             self.plan.add_buffer(Array::Slots, 4 * self.particles);
+        }
+        if self.gathers() {
             self.plan.add_buffer(Array::Kicks, 16 * (self.particles + self.frame_capacity()));
         }
         kernels

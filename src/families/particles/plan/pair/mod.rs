@@ -1,6 +1,8 @@
-//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub.
+//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub; in split steps with
+//! baths without memory on particles.
 
 mod bonded;
+mod particle_bath;
 mod stress;
 
 use super::external;
@@ -59,6 +61,8 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         scan: Vec::new(),
         plan: empty_plan(model, &grid, options),
     };
+    // What ends a step that visits pairs once is no traversal.
+    builder.scans_at_end &= !builder.visits_once();
     builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
@@ -182,6 +186,7 @@ impl Builder<'_> {
             ]);
         }
         self.plan.constants = constants;
+        self.particle_constants();
         walls::add_constants(self.model, &mut self.plan);
     }
 
@@ -216,7 +221,7 @@ impl Builder<'_> {
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
-            .with_if(self.is_bonded(), couplings::Gathered::Kept)
+            .with_if(self.gathers(), couplings::Gathered::Kept)
             .with_if(self.is_bonded(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
@@ -266,9 +271,29 @@ impl Builder<'_> {
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
     /// of the impulses of bonds, what walls take up and a table of species it would be one buffer too many.
     fn keeps_probes(&self) -> bool {
-        let more = [self.is_bonded(), walls::count(self.model) > 0, self.species.have_table()];
+        let more = [self.gathers(), walls::count(self.model) > 0, self.species.have_table()];
         let crowded = more.into_iter().filter(|there| *there).count() > 1;
         self.traversal != Traversal::Alone && !self.texels && !crowded
+    }
+
+    /// Whether steps relax the momentum of every particle by itself.
+    fn relaxes_particles(&self) -> bool {
+        self.model.particles().relaxes_particles(self.model)
+    }
+
+    /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to repeat the
+    /// kick, which only an analysis of forces looks at.
+    fn visits_once(&self) -> bool {
+        self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
+    }
+
+    /// Whether impulses wait in an array for the passes over pairs.
+    fn gathers(&self) -> bool {
+        self.is_bonded() || self.visits_once()
+    }
+
+    fn relaxes_pairs(&self) -> bool {
+        self.model.particles().relaxes_pairs(self.model)
     }
 
     /// Whether friction has two stages.
@@ -393,16 +418,24 @@ impl Builder<'_> {
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, kept: &Choices) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
-        let find = self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find));
-        self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
+        let once = self.visits_once();
+        let find = if once {
+            self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick))
+        } else {
+            self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find))
+        };
+        if !once {
+            self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
+        }
+        let last = if once { Traversal::Alone } else { self.traversal };
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
-        let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
+        let relax = self.traversal("relax", last, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
         let to_the_report = with(pairs::Pass::Relax).and(&walls::booking(self.model));
-        let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
+        let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
-        let two_stages = self.relaxes_in_two_stages();
-        let added = (two_stages && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
+        let earlier = self.relaxes_in_two_stages() || self.relaxes_particles();
+        let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
         let rest = if walls::count(self.model) == 0 {
@@ -418,7 +451,8 @@ impl Builder<'_> {
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
-        self.plan.before_report = [&bonded.kicks[..], &[find]].concat();
+        let particles = self.relax_particles();
+        self.plan.before_report = [&bonded.kicks[..], &[find], &particles].concat();
         self.plan.advance = vec![relax];
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
         self.plan.report = [&motion_there[..], &again, &bonded.configuration, &[configuration]].concat();
@@ -436,7 +470,9 @@ impl Builder<'_> {
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
-        let report = self.observation("report_first_stage", kept.clone().with(pairs::Pass::ObserveFirstStage));
+        let later = self.relaxes_particles() && kept.has(pairs::ReportedForce::Kept);
+        let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
+        let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);
@@ -465,7 +501,7 @@ impl Builder<'_> {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
         let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
-        let visits = if self.splits() { 1.0 + relaxations } else { 1.0 };
+        let visits = if self.splits() && !self.visits_once() { 1.0 + relaxations } else { 1.0 };
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
         let frictional = self.force.largest_friction() > 0.0;
         let pair = visits * (22.0 + cost(self.force.largest_repulsion() > 0.0, 8.0))
@@ -518,7 +554,7 @@ impl Builder<'_> {
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let copies = self.frame_capacity();
         self.plan.add_buffer(Array::Control, 64);
-        if !self.texels && self.is_bonded() && self.species.have_table() && walls::count(self.model) > 0 {
+        if !self.texels && self.gathers() && self.species.have_table() && walls::count(self.model) > 0 {
             // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these three.
             self.plan.storage_buffers = 9;
         }
@@ -557,11 +593,13 @@ impl Builder<'_> {
                 }
             }
             let ranges = ranges(self.force, count);
-            if !ranges.is_empty() {
-                // In the place of the baths of positions, which no such plan has.
+            if self.relaxes_particles() {
+                table.extend(self.particle_entries());
+            } else if !ranges.is_empty() {
+                // In the place of the baths of particles.
                 table.resize(4 * count * (count + 1), 0.0);
-                table.extend(ranges);
             }
+            table.extend(ranges);
             external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
             table.extend(external::entries(self.model));
             let bytes = bytemuck::cast_slice(&table).to_vec();
