@@ -1,8 +1,8 @@
-// What the passes over pairs of a split step have in common with baths that are not of pairs: those relax the momenta of sorted
-// particles between the closing kick and the relaxation of pairs, in place.
+// What the passes over pairs of a split step have in common with baths that are not of pairs: those relax the momenta
+// of sorted particles between the closing kick and the relaxation of pairs, in place.
 
-// Gives a sorted particle another momentum, and its copy in the frame of its row too. The species' word stays, with what the first
-// pass has left in it.
+// Gives a sorted particle another momentum, and its copy in the frame of its row too. The species' word stays, with
+// what the first pass has left in it.
 fn replace_momentum(index: u32, me: Particle, momentum: Steps) {
     let word = momentum_word(momentum, me.momentum.w);
     keep_momentum(index, word);

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
-    /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the standard fluid; with
-    /// strong friction they are too low unless `relaxation` has two stages. In Voronoi DPD O is friction and noise by
-    /// Crank-Nicolson.
+    /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the
+    /// standard fluid; with strong friction they are too low unless `relaxation` has two stages. Baths without memory
+    /// on particles and along bonds relax exactly. In Voronoi DPD O is friction and noise by Crank-Nicolson.
     Splitting {
         /// How O relaxes pairs that share particles; `mean-field` unless it is given.
         #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -24,8 +24,8 @@ fn scenes() -> Vec<Scene> {
     vec![
         scene(r#",{"type":"dpd","repulsion":25}"#, &[MIXTURE, "space.box=[9,7]", "output.autocorrelations=[]"]),
         scene(
-            r#",{"type":"dpd","repulsion":25,"friction":4.5},
-            {"type":"bonds","potential":{"type":"harmonic","stiffness":9}}"#,
+            r#",{"type":"dpd","repulsion":25,"friction":4.5},{"type":"tether","stiffness":5},
+            {"type":"bonds","potential":{"type":"harmonic","stiffness":9},"friction":7}"#,
             &[chains],
         ),
     ]
@@ -37,6 +37,22 @@ fn reruns_batches_scans_and_storage_give_the_same_bytes() {
         let plain = bytes::same_in_every_way(&scene, STEPS);
         let mut random = rand::rngs::StdRng::seed_from_u64(3);
         assert!(same(&plain, &bytes::shuffled(&scene, Options::default(), STEPS, 8, &mut random)));
+    }
+}
+
+#[test]
+fn friction_along_bonds_keeps_the_total_momentum_to_the_last_bit() {
+    for friction in [3.0, 1e9] {
+        let interactions = format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{{"type":"bonds","friction":{friction}}}]"#
+        );
+        let chains = r#"particles=[{"species":"A","count":200,"chain":{"beads":5,"closed":true},"mass":3},
+            {"species":"B","count":90}]"#;
+        let scene = fluid(&[SPLITTING, "time.step=0.02", &interactions, chains]);
+        let (_, state) = start(&scene);
+        let mut engine = engine(&scene, &state, Options::default());
+        engine.advance(200, 50).unwrap();
+        assert_eq!(engine.state().unwrap().total_momentum(), state.total_momentum());
     }
 }
 

@@ -210,9 +210,19 @@ fn integrators() {
     let split = r#"integrator={"type":"splitting"}"#;
     CHAINS.accepted(&[split, "interactions.1.exclude_repulsion=true"]);
     let both = "integrator.type: found `splitting`, whose steps are split for baths without memory only, together with";
+    CHAINS.accepted(&[split, "interactions.1.friction=2"]);
     CHAINS.refused_with(
-        &[split, "interactions.1.friction=2"],
+        &[split, "interactions.1.friction=2", r#"interactions.1.bath={"type":"memory","rate":3}"#],
         &[&format!("{both} a bath on every bond in interactions[1]; accepted: `cotter-reich`")],
+    );
+    let star = |arms: u32| {
+        let pairs: Vec<[u32; 2]> = (1..=arms).map(|arm| [0, arm]).collect();
+        format!(r#"interactions.1={{"type":"bonds","friction":1,"pairs":{pairs:?}}}"#)
+    };
+    CHAINS.parse(&[split, &star(32)]).unwrap();
+    CHAINS.refused_with(
+        &[split, &star(33)],
+        &["found `splitting` and 33 bonds with friction at particle 0; accepted: at most 32 at one particle"],
     );
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     CHAINS

@@ -9,8 +9,8 @@ fn crowd(edges: &[f64], interactions: &[Value]) -> Value {
     let volume: f64 = edges.iter().product();
     let chains = (0.2 * volume).round() as u64;
     json!({
-        "title": "relaxation", "seed": 11, "space": {"box": edges}, "time": {"step": 0.02, "steps": 1}, "temperature": 1.3,
-        "integrator": {"type": "splitting"},
+        "title": "relaxation", "seed": 11, "space": {"box": edges}, "time": {"step": 0.02, "steps": 1},
+        "temperature": 1.3, "integrator": {"type": "splitting"},
         "particles": [
             {"species": "A", "count": 4 * chains, "mass": 2, "chain": {"beads": 4, "spacing": 0.8}},
             {"species": "B", "count": 6 * chains},
@@ -46,13 +46,50 @@ fn particles_in_a_bath_agree_with_the_reference() {
     in_turn(0, &[langevin()], nothing);
     in_turn(1, &[langevin(), repulsion.clone()], nothing);
     in_turn(0, &[langevin(), repulsion.clone(), bonds.clone()], |document| {
-        document["space"]["walls"] = json!({"y": {}})
+        document["space"]["walls"] = json!({"y": {}});
     });
     in_turn(1, &[langevin(), rubbing.clone()], |document| document["integrator"]["relaxation"] = json!("two-stages"));
     in_turn(1, &[langevin(), bonds.clone(), json!({"type": "angles", "stiffness": 4})], nothing);
     for (number, edges) in BOXES.into_iter().enumerate() {
         in_turn(number, &[rubbing.clone(), langevin(), bonds.clone(), body(edges.len())], nothing);
     }
+}
+
+#[test]
+fn tethers_agree_with_the_reference() {
+    let tether = json!({"type": "tether", "stiffness": 30});
+    let rubbing = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 40, "length": 0.8}});
+    let far = |document: &mut Value| document["time"]["step"] = json!(0.05);
+    in_turn(0, std::slice::from_ref(&tether), far);
+    in_turn(1, &[tether.clone(), langevin()], far);
+    in_turn(0, &[tether.clone(), langevin(), json!({"type": "dpd", "repulsion": 25})], far);
+    in_turn(1, &[tether.clone(), rubbing.clone()], |_| {});
+    in_turn(0, &[tether, rubbing, bonds, langevin()], |_| {});
+}
+
+#[test]
+fn friction_along_bonds_agrees_with_the_reference() {
+    let rubbing = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let repulsion = json!({"type": "dpd", "repulsion": 25});
+    let harmonic = json!({"type": "harmonic", "stiffness": 40, "length": 0.8});
+    let bonds = json!({"type": "bonds", "potential": harmonic, "friction": 6, "exclude_repulsion": true});
+    let strong = json!({"type": "bonds", "friction": 1e9});
+    let cold = json!({"type": "bonds", "friction": 3, "bath": {"type": "white", "temperature": 0}});
+    // A ring has three rounds, and bonds across it more; particles of two masses.
+    let across = json!({"type": "bonds", "potential": harmonic, "pairs": [[0, 2], [1, 3], [4, 400], [400, 401]]});
+    let rings = |document: &mut Value| document["particles"][0]["chain"]["closed"] = json!(true);
+    let one = |document: &mut Value| {
+        document["particles"] = json!([{"species": "A", "count": 120, "chain": {"beads": 3, "closed": true}}]);
+        document["noise"] = json!({"generator": "threefry2x32-20"});
+    };
+    in_turn(0, std::slice::from_ref(&strong), |_| {});
+    in_turn(1, &[bonds.clone(), rubbing.clone()], rings);
+    in_turn(0, &[bonds.clone(), repulsion, langevin()], one);
+    in_turn(1, &[strong, rubbing, cold, json!({"type": "angles", "stiffness": 3})], one);
+    let mut crossed = across;
+    crossed["friction"] = json!(2);
+    agree(&crowd(&[20.0, 20.0], &[bonds, crossed]));
 }
 
 #[test]

@@ -9,7 +9,6 @@ use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
-use mesoscope::families::particles::CoupledLayout;
 use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
@@ -64,11 +63,11 @@ pub fn plans() -> &'static [(String, Plan)] {
             walled_plans,
             water_plans,
             coupled_plans,
-            relaxed_plans,
             noise_plans,
             bond_plans,
             voronoi_plans,
             range_plans,
+            relaxed_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -327,11 +326,14 @@ fn coupled_plans() -> Vec<(String, Plan)> {
     plans
 }
 
-/// Split steps with baths without memory on particles: alone, and with pairs that have friction and that have none.
+/// Split steps with baths without memory on particles and along bonds: alone, and with pairs that have friction and
+/// that have none.
 fn relaxed_plans() -> Vec<(String, Plan)> {
     let pairs = ["", r#",{"type":"dpd","repulsion":25}"#, r#",{"type":"dpd","repulsion":25,"friction":4.5}"#];
     let bonds =
         r#",{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},{"type":"body-force","force":[1,2]}"#;
+    let tether = r#",{"type":"tether","stiffness":9}"#;
+    let rubbing = "friction along bonds";
     let particles = [
         r#"particles=[{"species":"A","count":200,"chain":{"beads":2}}]"#,
         r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"mass":2.5}]"#,
@@ -343,14 +345,27 @@ fn relaxed_plans() -> Vec<(String, Plan)> {
     ];
     let mut plans = Vec::new();
     for (pair, particles) in pairs.iter().flat_map(|pair| particles.map(|particles| (pair, particles))) {
-        for (space, more) in [("space.box=[9,7]", ""), ("space.box=[9,7]", bonds), ("space.box=[9,7,8]", "")] {
+        for (space, more) in [
+            ("space.box=[9,7]", ""),
+            ("space.box=[9,7]", bonds),
+            ("space.box=[9,7,8]", ""),
+            ("space.box=[9,7,8]", tether),
+            ("space.box=[9,7,8]", rubbing),
+        ] {
+            // What is tied to places has no stress to measure.
+            let samplers = if more == tether { &SAMPLERS[..7] } else { SAMPLERS };
             for (bath, noise) in baths {
-                let interactions = format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#);
-                for (samplers, integrator) in [(&[][..], SPLITTING), (SAMPLERS, SPLITTING), (SAMPLERS, STAGED)] {
+                let interactions = if more == rubbing {
+                    format!(r#"interactions=[{{"type":"bonds","friction":1,{bath}}}{pair}]"#)
+                } else {
+                    format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#)
+                };
+                for (samplers, integrator) in [(&[][..], SPLITTING), (samplers, SPLITTING), (samplers, STAGED)] {
                     let changes = [&[interactions.as_str(), particles, space, noise, integrator], samplers].concat();
                     for traversal in [Traversal::Rows, Traversal::Clusters] {
                         let options = Options { traversal: Some(traversal), ..Options::default() };
-                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                        let name = format!("{} {traversal:?}", changes.join(" "));
+                        plans.extend(plans_of(&name, &fluid(&changes), options));
                     }
                 }
             }
@@ -950,12 +965,12 @@ fn host_structs_lie_as_in_the_shaders() {
             }
             if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
-                // Coupled scenes add a row for the species by themselves.
+                // Baths on particles add a row for the species by themselves, which couplings always have.
                 // Pairs with ranges of their own have one row more each, after a row for each species.
                 let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
                 let rows = if ranges {
                     2 + 1 + 2
-                } else if plan.layout.of::<CoupledLayout>().is_some() {
+                } else if plan.kernels.iter().any(|kernel| ["move", "relax_particles"].contains(&kernel.name)) {
                     3
                 } else {
                     2

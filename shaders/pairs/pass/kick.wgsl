@@ -1,5 +1,5 @@
-// The only visit of pairs in a split step whose pairs have no friction: the closing half kick. With that of other couplings it stays
-// in `kicks` for the opening one, which the last pass finds there without a visit.
+// The only visit of pairs in a split step whose pairs have no friction: the closing half kick. With that of other
+// couplings it stays in `kicks` for the opening one, which the last pass finds there without a visit.
 struct Sums { kick: Steps, strain: f32 }
 
 fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0.0); }

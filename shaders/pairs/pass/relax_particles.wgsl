@@ -1,5 +1,5 @@
-// Friction and noise on every particle by itself, in the O of a split step: each component of a momentum relaxes as the equation
-// of Ornstein and Uhlenbeck has it, however long the step is and however strong the friction,
+// Friction and noise on every particle by itself, in the O of a split step: each component of a momentum relaxes as the
+// equation of Ornstein and Uhlenbeck has it, however long the step is and however strong the friction,
 //
 //     p' = c p + sqrt(m kT (1 - c^2)) xi,   c = exp(-gamma dt/m).
 //

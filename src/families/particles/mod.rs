@@ -51,9 +51,9 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than steps of pairs take: pairs without memory, bonds and angles without a bath, in two or three
-    /// dimensions, and where steps are split baths without memory on particles. Then every coupling adds its impulses up on its
-    /// own, and listed pairs persist.
+    /// Whether there is more than steps of pairs take: pairs without memory, bonds and angles without a bath, in two or
+    /// three dimensions, and where steps are split baths without memory on particles and bonds, and tethers. Then every
+    /// coupling adds its impulses up on its own, and listed pairs persist.
     pub are_coupled: bool,
 }
 
@@ -83,7 +83,7 @@ impl Particles {
     /// split.
     #[must_use]
     pub fn splits(&self, model: &Model) -> bool {
-        self.relaxes_pairs(model) || self.relaxes_particles(model)
+        self.relaxes_pairs(model) || self.relaxes_particles(model) || self.relaxes_bonds(model)
     }
 
     /// Whether a split step relaxes the velocities of pairs.
@@ -99,6 +99,14 @@ impl Particles {
         !self.are_coupled
             && matches!(model.integrator, Integrator::Splitting { .. })
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
+    }
+
+    /// Whether a split step relaxes the velocities along bonds.
+    #[must_use]
+    pub fn relaxes_bonds(&self, model: &Model) -> bool {
+        !self.are_coupled
+            && matches!(model.integrator, Integrator::Splitting { .. })
+            && self.bonds.as_ref().is_some_and(Bonds::have_friction)
     }
 
     /// Whether a split step relaxes the velocities of pairs in two stages.
@@ -160,6 +168,11 @@ impl Particles {
     /// Whether a wall moves.
     pub(crate) fn walls_move(&self) -> bool {
         self.walls.iter().any(PlaneWalls::move_along)
+    }
+
+    /// Whether there are bonds, angles or tethers.
+    pub(crate) fn are_sprung(&self) -> bool {
+        self.are_bonded() || self.tether.is_some()
     }
 
     /// Whether there are bonds or angles.
@@ -257,11 +270,14 @@ impl Physics for Particles {
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.are_coupled || self.are_bonded() {
+        if self.are_coupled || self.are_sprung() {
             stability::check(scene, model, problems);
         }
         if !self.are_coupled {
             stability::check_friction(scene, model, problems);
+        }
+        if self.relaxes_bonds(model) {
+            checks::check_rounds(self, problems);
         }
         if let Some(forces) = &self.body_forces {
             checks::body_force::check_impulses(scene, model, forces, problems);
@@ -269,7 +285,7 @@ impl Physics for Particles {
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        let listed = options.listed && self.walls.is_empty() && !self.relaxes_particles(model);
+        let listed = options.listed && self.walls.is_empty() && !self.relaxes_particles(model) && self.tether.is_none();
         if self.are_coupled || listed {
             self::plan::couplings::plan(model, measured, options)
         } else {
@@ -329,8 +345,8 @@ impl Physics for Particles {
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
         let (model, state) = (model.clone(), state.clone());
-        // Whose steps are not split, bonds are couplings like others.
-        Some(if self.are_coupled || (self.are_bonded() && !self.splits(&model)) {
+        // Whose steps are not split, bonds and tethers are couplings like others.
+        Some(if self.are_coupled || (self.are_sprung() && !self.splits(&model)) {
             Box::new(CouplingsReference::new(model, state))
         } else {
             Box::new(Reference::new(model, state))

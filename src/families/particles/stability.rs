@@ -297,6 +297,8 @@ fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f
             None => 0.0,
         };
         let bath = match asked.get(index) {
+            // What relaxes exactly puts no strain on the step.
+            _ if model.particles().relaxes_bonds(model) => 0.0,
             Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling,
             // The baths of harmonic chains are white: 2γ/dt.
             None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),

@@ -11,6 +11,7 @@ use crate::document::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
     LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
+use crate::families::{Bonds, Particles};
 
 /// Checks one interaction by itself.
 pub(crate) fn check_interaction(
@@ -109,27 +110,36 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     }
 }
 
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and where steps
-/// are split baths without memory on particles; of other families it has not.
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
+/// where steps are split baths without memory on particles and bonds, and tethers; of other families it has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
-    let splits = matches!(scene.integrator, Integrator::Splitting { .. });
-    has_more_than(scene, |interaction| match interaction {
-        Interaction::Langevin(langevin) => splits && matches!(langevin.bath, Bath::White { .. }),
-        _ => false,
-    })
+    has_more_than(scene, |interaction| is_split(scene, interaction))
 }
 
-/// Whether scenes of couplings are the only ones that can have this one.
-pub(crate) fn is_coupled_unless_split(scene: &Scene) -> bool {
+/// Whether an interaction that is one of couplings is part of split steps, and the steps of the scene are split.
+fn is_split(scene: &Scene, interaction: &Interaction) -> bool {
+    let splits = matches!(scene.integrator, Integrator::Splitting { .. });
+    let bath = match interaction {
+        Interaction::Langevin(langevin) => &langevin.bath,
+        Interaction::Bonds(bonds) => &bonds.bath,
+        Interaction::Tether(_) => return splits,
+        _ => return false,
+    };
+    splits && matches!(bath, Bath::White { .. })
+}
+
+/// Whether a scene that names no integrator is one of couplings: where there is more than pairs without memory, and bonds
+/// and angles without a bath.
+pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
     has_more_than(scene, |_| false)
 }
 
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and what else
-/// is taken.
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
+/// what else is taken.
 fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
-        Interaction::Bonds(bonds) => bonds.has_bath(),
+        Interaction::Bonds(bonds) => bonds.has_bath() && !taken(interaction),
         Interaction::Angles(_) | Interaction::BodyForce(_) => false,
         other => acts(other) && !taken(other),
     };
@@ -266,9 +276,17 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
 }
 
+/// Where the velocities along bonds relax one after the other, a particle has few enough of them.
+pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
+    let Some((particle, bonds)) = particles.bonds.as_ref().and_then(Bonds::most_crowded) else { return };
+    let found = format!("found `splitting` and {bonds} bonds with friction at particle {particle}");
+    let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_RUBBING);
+    problems.push(Problem::new("integrator.type", found, accepted));
+}
+
 /// What makes a scene a coupled one, for messages.
 fn reason(scene: &Scene) -> String {
-    for (index, interaction) in acting(scene) {
+    for (index, interaction) in acting(scene).filter(|(_, interaction)| !is_split(scene, interaction)) {
         let what = match interaction {
             Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
             Interaction::Langevin(_) => "a bath on every particle",

@@ -1,4 +1,5 @@
-//! Pairs without memory, with bonds, angles and baths of particles where steps are split, and all couplings and baths, in float64.
+//! Pairs without memory, with bonds, angles and baths of particles where steps are split, and all couplings and baths,
+//! in float64.
 
 mod body_force;
 mod couplings;

@@ -1,6 +1,9 @@
-//! The part of O that is exact, whatever the friction and the step: the relaxation of single particles, on momenta that are
-//! rounded to whole units once.
+//! The part of O that is exact, whatever the friction and the step: the relaxation of single particles, and of bonds
+//! one after the other, on momenta that are rounded to whole units once.
 
+use super::couplings::bonds::span;
+use super::pairs::{self, dot};
+use super::stress::Virials;
 use crate::families::Model;
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -19,5 +22,32 @@ pub(super) fn of_particles(model: &Model, state: &State, masses: &[f64], momenta
             let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
             *component = (kept * *component as f64 + deviation * gaussian).round_ties_even() as i64;
         }
+    }
+}
+
+/// Friction and noise along bonds, in rounds of bonds that share no particle. The velocity u along a bond of reduced
+/// mass μ is an Ornstein-Uhlenbeck process, u' = c u + √(kT(1 - c²)/μ) ξ with c = exp(-γdt/μ), and the ends get ±μ(u' -
+/// u).
+pub(super) fn of_bonds(model: &Model, state: &State, masses: &[f64], momenta: &mut [[i64; 3]], virials: &mut Virials) {
+    let Some(bonds) = model.particles().bonds.as_ref().filter(|_| model.particles().relaxes_bonds(model)) else {
+        return;
+    };
+    let key = noise::step_key(model.seed, stream::BOND, state.step);
+    for (place, bond) in bonds.rounds().into_iter().flatten() {
+        let kind = &bonds.kinds[bond.kind as usize];
+        let Some(bath) = &kind.bath else { continue };
+        let pair = span(model, &bond, &state.positions);
+        let [first, second] = [pair.first, pair.second]
+            .map(|end| momenta[end].map(|units| units as f64 * model.units.momentum / masses[end]));
+        let velocity = dot(pair.direction(), std::array::from_fn(|axis| first[axis] - second[axis]));
+        let reduced_mass = 1.0 / (1.0 / masses[pair.first] + 1.0 / masses[pair.second]);
+        let friction = 0.5 * model.time_step * bath.coupling;
+        let kept = (-friction * model.time_step / reduced_mass).exp();
+        let gaussian = noise::gaussian(noise::words(model.generator, key, [place, 0]));
+        let after = kept * velocity + (kind.temperature * (1.0 - kept * kept) / reduced_mass).sqrt() * gaussian;
+        let impulse = reduced_mass * (after - velocity);
+        let impulses = pair.direction().map(|component| impulse * component);
+        pairs::exchange(momenta, &pair, impulses, model.units.momentum);
+        virials.add(&pair, 0.0, impulse / model.time_step);
     }
 }

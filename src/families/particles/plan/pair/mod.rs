@@ -1,9 +1,11 @@
-//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub; in split steps with
-//! baths without memory on particles.
+//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub; in
+//! split steps with baths without memory on particles and along bonds, and tethers.
 
+mod bond_baths;
 mod bonded;
 mod particle_bath;
 mod stress;
+mod tethers;
 
 use super::external;
 use super::law::{law, ranges};
@@ -17,7 +19,7 @@ use super::{
     Traversal, deviate, texture_candidates, words,
 };
 use crate::document::Integrator;
-use crate::families::particles::ParticleLayout;
+use crate::families::particles::{CoupledLayout, ParticleLayout};
 use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
@@ -83,7 +85,18 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let account = external::rows(model, options.workgroup()) as usize;
     let layout = ParticleLayout { dimension: model.units.dimension, predicted, account, walls: walls::count(model) };
-    model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
+    if model.particles().tether.is_none() {
+        return model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR);
+    }
+    let tied = CoupledLayout {
+        particles: layout,
+        list: None,
+        position_baths: false,
+        bond_baths: 0,
+        holds: false,
+        tethers: true,
+    };
+    model.empty_plan(grid.cells, tied, quanta(model), noise::stream::PAIR)
 }
 
 /// What a traversal does with the hits of the prefilter.
@@ -281,15 +294,15 @@ impl Builder<'_> {
         self.model.particles().relaxes_particles(self.model)
     }
 
-    /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to repeat the
-    /// kick, which only an analysis of forces looks at.
+    /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to
+    /// repeat the kick, which only an analysis of forces looks at.
     fn visits_once(&self) -> bool {
         self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
     }
 
     /// Whether impulses wait in an array for the passes over pairs.
     fn gathers(&self) -> bool {
-        self.is_bonded() || self.visits_once()
+        self.is_bonded() || self.is_tethered() || self.visits_once()
     }
 
     fn relaxes_pairs(&self) -> bool {
@@ -434,7 +447,8 @@ impl Builder<'_> {
         let to_the_report = with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
-        let earlier = self.relaxes_in_two_stages() || self.relaxes_particles();
+        let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
+        let earlier = self.relaxes_in_two_stages() || bathed;
         let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
@@ -451,8 +465,8 @@ impl Builder<'_> {
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
-        let particles = self.relax_particles();
-        self.plan.before_report = [&bonded.kicks[..], &[find], &particles].concat();
+        let baths = [self.relax_particles(), self.relax_bonds()].concat();
+        self.plan.before_report = [&bonded.kicks[..], &[find], &baths].concat();
         self.plan.advance = vec![relax];
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
         self.plan.report = [&motion_there[..], &again, &bonded.configuration, &[configuration]].concat();
@@ -470,7 +484,8 @@ impl Builder<'_> {
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
-        let later = self.relaxes_particles() && kept.has(pairs::ReportedForce::Kept);
+        let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
+        let later = bathed && kept.has(pairs::ReportedForce::Kept);
         let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
         let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
         let [first_stage, second_stage] = stages();

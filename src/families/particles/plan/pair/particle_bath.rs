@@ -6,8 +6,8 @@ use crate::plan::{Need, Traversal};
 use crate::shaders::{Choices, Constant, baths, pairs};
 
 impl Builder<'_> {
-    /// The kernel that relaxes the momenta of particles, if they have a bath; it leaves its part of the forces where an analysis
-    /// needs them.
+    /// The kernel that relaxes the momenta of particles, if they have a bath; it leaves its part of the forces where an
+    /// analysis needs them.
     pub(super) fn relax_particles(&mut self) -> Vec<usize> {
         if !self.relaxes_particles() {
             return Vec::new();
@@ -43,8 +43,8 @@ impl Builder<'_> {
         (0..self.model.species.len()).flat_map(entry).collect()
     }
 
-    /// What the momentum of a particle of a species loses in a step, as a part of it, and the standard deviation of what it gains, in
-    /// momentum units: 1 - c and √(m kT (1 - c²)), c = exp(-γdt/m).
+    /// What the momentum of a particle of a species loses in a step, as a part of it, and the standard deviation of
+    /// what it gains, in momentum units: 1 - c and √(m kT (1 - c²)), c = exp(-γdt/m).
     fn relaxation(&self, species: usize) -> [f64; 2] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 2] };
         let mass = self.model.species[species].mass;
