@@ -128,10 +128,11 @@ fn is_split(scene: &Scene, interaction: &Interaction) -> bool {
     splits && matches!(bath, Bath::White { .. })
 }
 
-/// Whether a scene that names no integrator is one of couplings: where there is more than pairs without memory, and bonds
-/// and angles without a bath.
+/// Whether a scene that names no integrator, and has the default of all, is one of couplings: where it cannot be split,
+/// and where there is more than bonds and angles but no pair force, for particles that nobody searches need no order.
 pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
-    has_more_than(scene, |_| false)
+    let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
+    is_coupled(scene) || (has_more_than(scene, |_| false) && !scene.interactions.iter().any(pairs))
 }
 
 /// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
