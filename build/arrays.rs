@@ -82,6 +82,7 @@ pub const ARRAYS: &[Array] = &[
     array("position_baths", "array<vec4<f32>>", "bath of each coordinate, by id"),
     table("bonds", "array<vec4<u32>>", "bonds and what they are like"),
     array("bond_baths", "array<f32>", "bath of each bond"),
+    array("bond_impulses", "array<f32>", "impulse of the friction and noise of each bond in a step"),
     table("angles", "array<vec4<u32>>", "angles and their stiffness"),
     array("excluded_pairs", "array<vec2<u32>>", "pairs of particles, by id, that bonds spare the repulsion"),
     table("exclusions", "array<u32>", "partners that bonds spare from the pair force, in rows of one length, by id"),

@@ -72,7 +72,8 @@ struct Stretch {
 fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.0, 0.0, true); }
 
 // Slot baths/bonds: friction and noise of a bond, an impulse of half a step away from each other, even under exchange;
-// `prepare_bonds` comes first. Default: off. The plan chooses `memory` if any bath has one, else `white`.
+// `prepare_bonds` comes first. Default: off. The plan chooses `memory` if any bath has one, else `white`;
+// `relaxed` for the report of a split step.
 fn prepare_bonds() {}
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 { return 0.0; }
 

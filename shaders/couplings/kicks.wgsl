@@ -7,7 +7,8 @@ fn add_kick(slot: u32, kick: Steps) {}
 
 // Slot couplings/gathered: the impulses of half a step that couplings have added to a sorted particle, for the passes over
 // pairs; `take_gathered_kick` also clears them for the next step.
-// Default: off, no coupling but pairs. The plan of pairs chooses `kept` if the scene has bonds or angles.
+// Default: off, no coupling but pairs. The plan of pairs chooses `kept` if the scene has bonds, angles or tethers,
+// or if a split step visits its pairs once.
 fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
 fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 

@@ -22,6 +22,7 @@ fn repulsion_of(c: Coefficients, contact: Contact) -> Repulsion { return Repulsi
 // plan follows the integrator. The variants relaxation and stages provide `relaxation_impulse` for split steps instead, from the
 // rates of pairs/rates.
 fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }
+fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }
 
 // Slot pairs/random: the random impulse. The plan chooses `thermal` if there are friction and a temperature.
 fn random_impulse(c: Coefficients, root: f32, me: Particle, other: Particle) -> f32 { return 0.0; }

@@ -5,8 +5,9 @@
 // `pass_pair` adds the pair with a sorted particle that may be within the cutoff, `pass_end` finishes the particle;
 // `pass_finish` ends the workgroup. Every pair is visited from both ends, which must round the same impulse. Variants: leapfrog
 // and observe_leapfrog; find, relax, observe_motion and observe_configuration of split steps; leapfrog_stress, split_stress and
-// first_stage_stress for an analysis of the stress; sum_densities and
-// observe_densities before the others, if forces depend on local densities. The plan of pairs chooses; no default.
+// first_stage_stress for an analysis of the stress. Of split steps also kick, which stands for find where pairs have no friction,
+// and those of particles without their pairs: relax_particles, pull_tethers, forget_forces; sum_densities and observe_densities
+// before the others, if forces depend on local densities. The plan of pairs chooses; no default.
 
 // Slot pairs/row_visits: visits one particle and its pairs. The plan chooses `sheared` if the scene has shear.
 // Default: the cells around that of the particle.

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
-    /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the standard fluid; with
-    /// strong friction they are too low unless `relaxation` has two stages. In Voronoi DPD O is friction and noise by
-    /// Crank-Nicolson.
+    /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the
+    /// standard fluid; with strong friction they are too low unless `relaxation` has two stages. Baths without memory
+    /// on particles and along bonds relax exactly. In Voronoi DPD O is friction and noise by Crank-Nicolson.
     Splitting {
         /// How O relaxes pairs that share particles; `mean-field` unless it is given.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -24,8 +24,9 @@ pub enum Integrator {
         lambda: f64,
     },
     /// The Markov limit (18)-(21) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8: friction from the discrete
-    /// gradient of the coupling function. With memory, friction along bonds, and for couplings on single particles, their scheme
-    /// (14)-(17): the default of scenes that have those.
+    /// gradient of the coupling function. With memory, friction along bonds, and for couplings on single particles,
+    /// their scheme (14)-(17): the default of scenes with memory, coloured noise, fixed particles or one dimension, and
+    /// of those with friction along bonds or couplings on single particles and no pair force.
     CotterReich {},
     /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
     /// circles. Symplectic in its magnetic form, so that it conserves the circulation of material loops at any time step.

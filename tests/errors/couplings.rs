@@ -37,9 +37,14 @@ fn the_base_is_right_and_has_nothing_to_be_warned_of() {
 fn scenes_of_couplings_have_an_integrator_of_their_own() {
     use mesoscope::scene::Integrator;
     let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator;
-    assert_eq!(integrator(&["interactions.1.friction=1"]), Integrator::CotterReich {});
-    // Bonds and angles without a bath are no couplings of their own.
-    assert_eq!(integrator(&[]), Integrator::default());
+    // Bonds and angles without a bath are no couplings of their own, and beside pairs what remembers nothing is none.
+    for beside in [&[][..], &["interactions.1.friction=1"], &[r#"interactions.2={"type":"langevin","friction":1}"#]] {
+        assert_eq!(integrator(beside), Integrator::default());
+    }
+    let alone = r#"interactions=[{"type":"bonds","friction":1}]"#;
+    let memory = r#"interactions.1.bath={"type":"memory","rate":2}"#;
+    assert_eq!(integrator(&[alone]), Integrator::CotterReich {});
+    assert_eq!(integrator(&["interactions.1.friction=1", memory]), Integrator::CotterReich {});
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     assert_eq!(integrator(&[fluid]), Integrator::Splitting { relaxation: None });
     assert_eq!(integrator(&[fluid, LINE]), Integrator::CotterReich {});
@@ -209,10 +214,20 @@ fn baths() {
 fn integrators() {
     let split = r#"integrator={"type":"splitting"}"#;
     CHAINS.accepted(&[split, "interactions.1.exclude_repulsion=true"]);
-    let both = "integrator.type: found `splitting`, which relaxes pairs only, together with";
+    let both = "integrator.type: found `splitting`, whose steps are split for baths without memory only, together with";
+    CHAINS.accepted(&[split, "interactions.1.friction=2"]);
     CHAINS.refused_with(
-        &[split, "interactions.1.friction=2"],
+        &[split, "interactions.1.friction=2", r#"interactions.1.bath={"type":"memory","rate":3}"#],
         &[&format!("{both} a bath on every bond in interactions[1]; accepted: `cotter-reich`")],
+    );
+    let star = |arms: u32| {
+        let pairs: Vec<[u32; 2]> = (1..=arms).map(|arm| [0, arm]).collect();
+        format!(r#"interactions.1={{"type":"bonds","friction":1,"pairs":{pairs:?}}}"#)
+    };
+    CHAINS.parse(&[split, &star(32)]).unwrap();
+    CHAINS.refused_with(
+        &[split, &star(33)],
+        &["found `splitting` and 33 bonds with friction at particle 0; accepted: at most 32 at one particle"],
     );
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
     CHAINS

@@ -571,7 +571,8 @@ fn frictions_and_rates_from_none_to_enormous() {
         // What is right from nothing on, with what is refused when it is enormous; and what is right even then.
         let (limited, unlimited) = match kind {
             Splitting | GrootWarren => (vec![(friction(0), "times over")], vec![]),
-            Chains => (vec![(friction(0), "times over"), (friction(1), "B + W is ")], vec![]),
+            // Along bonds it relaxes exactly.
+            Chains => (vec![(friction(0), "times over")], vec![friction(1)]),
             Memory | Oscillators => (vec![(friction(0), "B + W is ")], vec!["interactions.0.bath.rate".to_owned()]),
             ColouredNoise => {
                 let strength = ("interactions.1.strength".to_owned(), "velocities of the random force");

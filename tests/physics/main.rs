@@ -13,5 +13,6 @@ mod edpd;
 mod fluid;
 mod harmonic_chain;
 mod profiles;
+mod relaxation;
 mod shallow_water;
 mod voronoi;

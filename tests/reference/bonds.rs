@@ -42,7 +42,7 @@ fn polymers(edges: &[f64], interactions: &Value) -> Value {
 const UNITS: i64 = 100;
 
 /// Lets the device and the reference take some steps; returns both.
-fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
+pub fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
     let scene = read(document);
     let (model, state) = start(&scene);
     let mut device = engine(&scene, &state, Options::default());
@@ -69,7 +69,7 @@ fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
     (device, reference)
 }
 
-fn agree(document: &Value) {
+pub fn agree(document: &Value) {
     let (mut device, mut reference) = step_alike(document);
     let scene = read(document);
     let measured = observables(&mut device, &scene);

@@ -9,6 +9,7 @@ mod bonds;
 mod many_body;
 mod pair_coefficients;
 mod particles;
+mod relaxation;
 mod shear;
 mod single_steps;
 mod smoothing;

@@ -9,7 +9,6 @@ use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
-use mesoscope::families::particles::CoupledLayout;
 use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
@@ -20,7 +19,7 @@ use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
-use crate::support::{INTEGRATORS, STAGED, cells, fluid, water};
+use crate::support::{INTEGRATORS, SPLITTING, STAGED, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -71,6 +70,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             voronoi_plans,
             range_plans,
             many_body_plans,
+            relaxed_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -403,6 +403,54 @@ fn coupled_plans() -> Vec<(String, Plan)> {
                         let options =
                             Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
                         plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                    }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Split steps with baths without memory on particles and along bonds: alone, and with pairs that have friction and
+/// that have none.
+fn relaxed_plans() -> Vec<(String, Plan)> {
+    let pairs = ["", r#",{"type":"dpd","repulsion":25}"#, r#",{"type":"dpd","repulsion":25,"friction":4.5}"#];
+    let bonds =
+        r#",{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},{"type":"body-force","force":[1,2]}"#;
+    let tether = r#",{"type":"tether","stiffness":9}"#;
+    let rubbing = "friction along bonds";
+    let particles = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}}]"#,
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let baths = [
+        (r#""bath":{"type":"white"}"#, r#"noise={"generator":"pcg4d"}"#),
+        (r#""bath":{"type":"white"}"#, r#"noise={"generator":"threefry2x32-20"}"#),
+        (r#""bath":{"type":"white","temperature":0}"#, r#"noise={"generator":"pcg4d"}"#),
+    ];
+    let mut plans = Vec::new();
+    for (pair, particles) in pairs.iter().flat_map(|pair| particles.map(|particles| (pair, particles))) {
+        for (space, more) in [
+            ("space.box=[9,7]", ""),
+            ("space.box=[9,7]", bonds),
+            ("space.box=[9,7,8]", ""),
+            ("space.box=[9,7,8]", tether),
+            ("space.box=[9,7,8]", rubbing),
+        ] {
+            // What is tied to places has no stress to measure.
+            let samplers = if more == tether { &SAMPLERS[..7] } else { SAMPLERS };
+            for (bath, noise) in baths {
+                let interactions = if more == rubbing {
+                    format!(r#"interactions=[{{"type":"bonds","friction":1,{bath}}}{pair}]"#)
+                } else {
+                    format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#)
+                };
+                for (samplers, integrator) in [(&[][..], SPLITTING), (samplers, SPLITTING), (samplers, STAGED)] {
+                    let changes = [&[interactions.as_str(), particles, space, noise, integrator], samplers].concat();
+                    for traversal in [Traversal::Rows, Traversal::Clusters] {
+                        let options = Options { traversal: Some(traversal), ..Options::default() };
+                        let name = format!("{} {traversal:?}", changes.join(" "));
+                        plans.extend(plans_of(&name, &fluid(&changes), options));
                     }
                 }
             }
@@ -1002,12 +1050,12 @@ fn host_structs_lie_as_in_the_shaders() {
             }
             if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
-                // Coupled scenes add a row for the species by themselves.
+                // Baths on particles add a row for the species by themselves, which couplings always have.
                 // Pairs with ranges of their own have one row more each, after a row for each species.
                 let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
                 let rows = if ranges {
                     2 + 1 + 2
-                } else if plan.layout.of::<CoupledLayout>().is_some() {
+                } else if plan.kernels.iter().any(|kernel| ["move", "relax_particles"].contains(&kernel.name)) {
                     3
                 } else {
                     2

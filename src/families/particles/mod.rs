@@ -53,8 +53,9 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than pairs without memory, and bonds and angles without a bath, in two or three dimensions: then
-    /// every coupling adds its impulses up on its own, and listed pairs persist.
+    /// Whether there is more than steps of pairs take: pairs without memory, bonds and angles without a bath, in two or
+    /// three dimensions, and where steps are split baths without memory on particles and bonds, and tethers. Then every
+    /// coupling adds its impulses up on its own, and listed pairs persist.
     pub are_coupled: bool,
 }
 
@@ -85,15 +86,37 @@ impl Particles {
     /// split.
     #[must_use]
     pub fn splits(&self, model: &Model) -> bool {
+        self.relaxes_pairs(model) || self.relaxes_particles(model) || self.relaxes_bonds(model)
+    }
+
+    /// Whether a split step relaxes the velocities of pairs.
+    #[must_use]
+    pub fn relaxes_pairs(&self, model: &Model) -> bool {
         matches!(model.integrator, Integrator::Splitting { .. })
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
+    }
+
+    /// Whether a split step relaxes the momentum of every particle by itself.
+    #[must_use]
+    pub fn relaxes_particles(&self, model: &Model) -> bool {
+        !self.are_coupled
+            && matches!(model.integrator, Integrator::Splitting { .. })
+            && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
+    }
+
+    /// Whether a split step relaxes the velocities along bonds.
+    #[must_use]
+    pub fn relaxes_bonds(&self, model: &Model) -> bool {
+        !self.are_coupled
+            && matches!(model.integrator, Integrator::Splitting { .. })
+            && self.bonds.as_ref().is_some_and(Bonds::have_friction)
     }
 
     /// Whether a split step relaxes the velocities of pairs in two stages.
     #[must_use]
     pub fn relaxes_in_two_stages(&self, model: &Model) -> bool {
         let asked = Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) };
-        self.splits(model) && model.integrator == asked
+        self.relaxes_pairs(model) && model.integrator == asked
     }
 
     /// What acts on the particles of a scene; harmonic chains add their species.
@@ -156,6 +179,11 @@ impl Particles {
     /// Whether forces depend on the density around particles.
     pub(crate) fn have_local_densities(&self) -> bool {
         self.pair_force.as_ref().is_some_and(|force| force.many_body.is_some())
+    }
+
+    /// Whether there are bonds, angles or tethers.
+    pub(crate) fn are_sprung(&self) -> bool {
+        self.are_bonded() || self.tether.is_some()
     }
 
     /// Whether there are bonds or angles.
@@ -253,7 +281,7 @@ impl Physics for Particles {
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.are_coupled || self.are_bonded() {
+        if self.are_coupled || self.are_sprung() {
             stability::check(scene, model, problems);
         }
         if !self.are_coupled {
@@ -262,13 +290,20 @@ impl Physics for Particles {
         if let Some(shear) = &self.shear {
             checks::shear::check_step(scene, model, shear, problems);
         }
+        if self.relaxes_bonds(model) {
+            checks::check_rounds(self, problems);
+        }
         if let Some(forces) = &self.body_forces {
             checks::body_force::check_impulses(scene, model, forces, problems);
         }
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
-        let may_be_listed = self.walls.is_empty() && self.shear.is_none() && !self.have_local_densities();
+        let may_be_listed = self.walls.is_empty()
+            && self.shear.is_none()
+            && !self.have_local_densities()
+            && !self.relaxes_particles(model)
+            && self.tether.is_none();
         if self.are_coupled || (options.listed && may_be_listed) {
             self::plan::couplings::plan(model, measured, options)
         } else {
@@ -329,8 +364,8 @@ impl Physics for Particles {
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
         let (model, state) = (model.clone(), state.clone());
-        // Whose steps are not split, bonds are couplings like others.
-        Some(if self.are_coupled || (self.are_bonded() && !self.splits(&model)) {
+        // Whose steps are not split, bonds and tethers are couplings like others.
+        Some(if self.are_coupled || (self.are_sprung() && !self.splits(&model)) {
             Box::new(CouplingsReference::new(model, state))
         } else {
             Box::new(Reference::new(model, state))

@@ -1,9 +1,12 @@
 //! What means are in equilibrium, exactly: those of linear systems with a bath on each coordinate, and those of what baths remember.
 //!
-//! A coordinate q with V = Kq²/2 and mass m, and a bath variable s coupled to it. The continuous motion has ⟨p²⟩ = m kT, ⟨q²⟩ = kT/K and
-//! ⟨s²⟩ = kT λ. The schemes of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, with B = λₑ dt²/m and W = K dt²/m have
-//! ⟨p²⟩ = m kT, ⟨q²⟩ = (kT/K) (4 - B)/(4 - B - W) and ⟨s²⟩ = kT λₑ (4 - W)/(4 - B - W) at the report, whatever e. Particles of one
-//! mass and one bath that springs without a length join are such oscillators, too: their normal modes.
+//! A coordinate q with V = Kq²/2 and mass m, and a bath variable s coupled to it. The continuous motion has ⟨p²⟩ = m
+//! kT, ⟨q²⟩ = kT/K and ⟨s²⟩ = kT λ. The schemes of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, with B = λₑ dt²/m
+//! and W = K dt²/m have ⟨p²⟩ = m kT, ⟨q²⟩ = (kT/K) (4 - B)/(4 - B - W) and ⟨s²⟩ = kT λₑ (4 - W)/(4 - B - W) at the
+//! report, whatever e. A split step A(½) B(½) O B(½) A(½) without memory has ⟨p²⟩ = m kT where O ends and ⟨q²⟩ = kT/K
+//! where the step does, whatever the friction: both halves together and O leave the law where they meet as it is, of
+//! independent p and q with ⟨q²⟩ = (kT/K) 4/(4 - W). Particles of one mass and one bath that springs without a length
+//! join are such oscillators, too: their normal modes.
 
 use super::{conservation, normal_modes};
 use crate::families::{BathStep, ExactMean, Model, Particles, Species};
@@ -34,6 +37,7 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
         return None;
     }
     let coordinates = coordinates(model, particles)?;
+    let splits = particles.relaxes_particles(model);
     let (kt, square) = (bath.temperature, model.time_step.powi(2));
     let (mut count, mut curvature, mut gradient) = (0.0, 0.0, [0.0; 2]);
     // Sums over all coordinates, of the motion and of the scheme.
@@ -41,7 +45,8 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
     for group in coordinates {
         let (step, mass) = (&bath.steps[group.species], model.species[group.species].mass);
         let (b, w) = (step.coupling * square / mass, group.stiffness * square / mass);
-        let margin = 4.0 - b - w;
+        let margin = if splits { 4.0 - w } else { 4.0 - b - w };
+        let spread = if splits { 1.0 } else { (4.0 - b) / margin };
         if margin <= 0.0 {
             return None;
         }
@@ -52,8 +57,8 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
             sum[1] += group.count * continuous * discrete;
         };
         if group.stiffness > 0.0 {
-            add(&mut potential, 0.5 * kt, (4.0 - b) / margin);
-            add(&mut gradient, kt * group.stiffness, (4.0 - b) / margin);
+            add(&mut potential, 0.5 * kt, spread);
+            add(&mut gradient, kt * group.stiffness, spread);
         }
         if step.remembers() {
             let discrete = step.coupling / step.continuous_coupling * (4.0 - w) / margin;
@@ -168,6 +173,11 @@ mod tests {
             }
         }
         assert!(found(&[white]).iter().all(|mean| mean.column != "bath_square"));
+        let split = found(&["time.step=1.5", white, r#"integrator={"type":"splitting"}"#]);
+        assert_eq!(split.len(), 5);
+        for mean in split {
+            assert_eq!(mean.discrete, Some(mean.continuous), "a split step errs in none: {mean:?}");
+        }
         // Repulsion, no noise, no friction.
         for change in [
             r#"interactions=[{"type":"tether","stiffness":1},{"type":"langevin","friction":1},{"type":"dpd","repulsion":1}]"#,

@@ -247,7 +247,10 @@ fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
             let own = langevin.species.iter().find(|entry| entry.name == species.name);
             own.map_or(langevin.friction, |entry| entry.friction)
         });
-        let bath = langevin.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
+        // What relaxes exactly puts no strain on the step.
+        let relaxes = model.particles().relaxes_particles(model);
+        let bath = langevin.filter(|_| !relaxes);
+        let bath = bath.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
         let spring = model.particles().tether.unwrap_or(0.0);
         let scale = step * step * inverse_mass(model, index);
         let what = format!("every `{}` of mass {}", species.name, species.mass);
@@ -294,6 +297,8 @@ fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f
             None => 0.0,
         };
         let bath = match asked.get(index) {
+            // What relaxes exactly puts no strain on the step.
+            _ if model.particles().relaxes_bonds(model) => 0.0,
             Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling,
             // The baths of harmonic chains are white: 2γ/dt.
             None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),

@@ -13,6 +13,7 @@ use crate::document::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
     LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
+use crate::families::{Bonds, Particles};
 
 /// Checks one interaction by itself.
 pub(crate) fn check_interaction(
@@ -113,14 +114,39 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     }
 }
 
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions; of other
-/// families it has not.
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
+/// where steps are split baths without memory on particles and bonds, and tethers; of other families it has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
+    has_more_than(scene, |interaction| is_split(scene, interaction))
+}
+
+/// Whether an interaction that is one of couplings is part of split steps, and the steps of the scene are split.
+fn is_split(scene: &Scene, interaction: &Interaction) -> bool {
+    let splits = matches!(scene.integrator, Integrator::Splitting { .. });
+    let bath = match interaction {
+        Interaction::Langevin(langevin) => &langevin.bath,
+        Interaction::Bonds(bonds) => &bonds.bath,
+        Interaction::Tether(_) => return splits,
+        _ => return false,
+    };
+    splits && matches!(bath, Bath::White { .. })
+}
+
+/// Whether a scene that names no integrator, and has the default of all, is one of couplings: where it cannot be split,
+/// and where there is more than bonds and angles but no pair force, for particles that nobody searches need no order.
+pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
+    let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
+    is_coupled(scene) || (has_more_than(scene, |_| false) && !scene.interactions.iter().any(pairs))
+}
+
+/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
+/// what else is taken.
+fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
     let coupled = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
-        Interaction::Bonds(bonds) => bonds.has_bath(),
+        Interaction::Bonds(bonds) => bonds.has_bath() && !taken(interaction),
         Interaction::Angles(_) | Interaction::BodyForce(_) => false,
-        other => acts(other),
+        other => acts(other) && !taken(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
@@ -242,7 +268,10 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
     match scene.integrator {
         Integrator::Splitting { .. } => {
-            let found = format!("found `splitting`, which relaxes pairs only, together with {}", reason(scene));
+            let found = format!(
+                "found `splitting`, whose steps are split for baths without memory only, together with {}",
+                reason(scene)
+            );
             let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
             problems.push(Problem::new("integrator.type", found, accepted));
         }
@@ -252,9 +281,27 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
 }
 
+/// Where the velocities along bonds relax one after the other, a particle has few enough of them.
+pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
+    let Some((particle, bonds)) = particles.bonds.as_ref().and_then(Bonds::most_crowded) else { return };
+    let found = format!("found `splitting` and {bonds} bonds with friction at particle {particle}");
+    let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_RUBBING);
+    problems.push(Problem::new("integrator.type", found, accepted));
+}
+
 /// What makes a scene a coupled one, for messages.
 fn reason(scene: &Scene) -> String {
-    for (index, interaction) in acting(scene) {
+    first_of_more(scene, |interaction| is_split(scene, interaction))
+}
+
+/// What a scene has beyond pairs without memory, bonds and angles without a bath, if anything.
+fn beyond_pairs(scene: &Scene) -> Option<String> {
+    has_more_than(scene, |_| false).then(|| first_of_more(scene, |_| false))
+}
+
+/// The first thing beyond pairs, bonds and angles, and what else is taken.
+fn first_of_more(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> String {
+    for (index, interaction) in acting(scene).filter(|(_, interaction)| !taken(interaction)) {
         let what = match interaction {
             Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
             Interaction::Langevin(_) => "a bath on every particle",

@@ -1,6 +1,6 @@
 //! Checks of shear that a schema cannot express.
 
-use super::{is_coupled, reason};
+use super::{beyond_pairs, is_coupled};
 use crate::document::{Axis, DpdInteraction, Integrator, Interaction, Output, Problem, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
@@ -36,12 +36,12 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     } else {
         check_edge(scene, shear.gradient, &mut refuse);
     }
-    if is_coupled(scene) {
+    if let Some(more) = beyond_pairs(scene) {
         refuse(
             at,
-            format!("found together with {}", reason(scene)),
+            format!("found together with {more}"),
             "shear of particles that interact in pairs without memory, and by bonds and angles without a bath, in two or three dimensions: \
-             lists of neighbours do not follow the boundaries",
+             neither lists of neighbours nor places and velocities of single particles follow the boundaries",
         );
     }
     if !scene.space.walls.is_empty() {

@@ -1,6 +1,6 @@
 //! Checks of walls that a schema cannot express.
 
-use super::{is_coupled, reason};
+use super::{acts, is_coupled, reason};
 use crate::document::{
     BodyForceInteraction, ForceProfile, Interaction, Placement, Problem, Problems, Reflection, Scene, WallPair,
 };
@@ -28,8 +28,13 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             problems,
             found,
             "walls with particles that interact in pairs without memory, by bonds and angles without a bath, and by body forces, in two or \
-             three dimensions",
+             three dimensions; with `splitting` also a bath without memory on particles",
         );
+    }
+    let ties = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction);
+    if let Some(index) = scene.interactions.iter().position(ties).filter(|_| !is_coupled(scene)) {
+        let found = format!("found together with tethers in interactions[{index}]");
+        refuse(problems, found, "walls without tethers, which would pull through them");
     }
     let dimension = scene.space.lengths.len();
     for (axis, walls) in scene.space.walls.of_axes().into_iter().enumerate() {

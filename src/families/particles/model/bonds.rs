@@ -3,6 +3,7 @@
 use super::topology::{Alike, Runs};
 use crate::document::{BondPotential, BondsInteraction, Scene};
 use crate::families::BathStep;
+use std::collections::HashMap;
 
 /// All bonds of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -98,6 +99,58 @@ impl Bonds {
     /// Number of bonds whose ends are spared each other's repulsion.
     pub(crate) fn excluding(&self) -> u64 {
         self.runs.count_of(|kind| self.kinds[kind as usize].exclude_repulsion)
+    }
+
+    /// The bonds with friction and their places among all bonds, in rounds: those of a round share no particle. Each is
+    /// in the first round in which its ends are free; bonds that do not find one among [`Self::MOST_ROUNDS`] are left
+    /// out, which no scene has whose particles have at most half as many.
+    pub(crate) fn rounds(&self) -> Vec<Vec<(u32, Bond)>> {
+        let mut rounds: Vec<Vec<(u32, Bond)>> = Vec::new();
+        // A bit of each round that a particle has a bond in.
+        let mut taken: HashMap<u32, u64> = HashMap::new();
+        for (place, bond) in self.rubbing() {
+            let both = bond.ends.iter().fold(0, |both, end| both | taken.get(end).copied().unwrap_or(0));
+            let round = both.trailing_ones();
+            if round >= Self::MOST_ROUNDS {
+                continue;
+            }
+            for end in bond.ends {
+                *taken.entry(end).or_default() |= 1 << round;
+            }
+            if rounds.len() <= round as usize {
+                rounds.push(Vec::new());
+            }
+            rounds[round as usize].push((place, bond));
+        }
+        rounds
+    }
+
+    /// The most rounds.
+    const MOST_ROUNDS: u32 = u64::BITS;
+
+    /// The most bonds with friction that a particle may have where they relax in rounds: two that share a bond exclude
+    /// that from one round less than twice as many.
+    pub(crate) const MOST_RUBBING: u32 = Self::MOST_ROUNDS / 2;
+
+    /// A particle with more bonds with friction than that, and how many.
+    pub(crate) fn most_crowded(&self) -> Option<(u32, u32)> {
+        let mut bonds: HashMap<u32, u32> = HashMap::new();
+        for end in self.rubbing().flat_map(|(_, bond)| bond.ends) {
+            *bonds.entry(end).or_default() += 1;
+        }
+        let most = bonds.into_iter().max_by_key(|(particle, bonds)| (*bonds, std::cmp::Reverse(*particle)));
+        most.filter(|(_, bonds)| *bonds > Self::MOST_RUBBING)
+    }
+
+    /// The bonds with friction, with their places among all.
+    fn rubbing(&self) -> impl Iterator<Item = (u32, Bond)> {
+        let rubs = |bond: &Bond| self.kinds[bond.kind as usize].bath.is_some();
+        self.iter().enumerate().filter(move |(_, bond)| rubs(bond)).map(|(place, bond)| (place as u32, bond))
+    }
+
+    /// Number of bonds with friction.
+    pub(crate) fn rubbing_count(&self) -> u64 {
+        self.runs.count_of(|kind| self.kinds[kind as usize].bath.is_some())
     }
 
     /// Whether any bond remembers.

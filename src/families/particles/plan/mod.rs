@@ -5,10 +5,12 @@ pub(crate) mod couplings;
 pub(crate) mod external;
 mod law;
 pub(crate) mod pair;
+mod position_bath;
 pub(crate) mod quanta;
 mod shear;
 mod species;
 mod stress;
+mod tethers;
 pub(crate) mod walls;
 
 use super::layout::PARTICLE;
@@ -30,8 +32,10 @@ fn texture_candidates(plan: &Plan) -> Vec<Array> {
         Array::Memories,
         Array::MemoriesNext,
     ];
-    // Where the hits of a split step share the buffer of the particles, it stays one.
-    if !plan.kernels.iter().any(|kernel| kernel.choices.has(pairs::Hits::Keep)) {
+    // Where the hits of a split step share the buffer of the particles, it stays one; so it does where a split step has
+    // none, because its kernels are the same.
+    let splits = |kernel: &Kernel| kernel.choices.has(pairs::Hits::Keep) || kernel.choices.has(pairs::Pass::Kick);
+    if !plan.kernels.iter().any(splits) {
         candidates.push(Array::Particles);
     }
     // Where another buffer takes its place in some kernels, it stays one.

@@ -1,4 +1,5 @@
-//! Pairs without memory, with bonds and angles where steps are split, and all couplings and baths, in float64.
+//! Pairs without memory, with bonds, angles and baths of particles where steps are split, and all couplings and baths,
+//! in float64.
 
 mod body_force;
 mod couplings;
@@ -9,6 +10,7 @@ mod motion;
 mod observables;
 pub(crate) mod pairs;
 mod potential;
+mod relaxation;
 mod shear;
 mod splitting;
 mod stress;

@@ -1,12 +1,14 @@
 //! The splitting A(½) B(½) O B(½) A(½), with friction and noise applied at the half-drifted positions.
 //!
-//! A drifts, B kicks by the conservative forces of pairs, bonds and angles and by body forces, O relaxes the relative velocities of all pairs along their lines of
-//! centres. Its report point is in the middle, just after O, where B and O see the same pairs; what the state keeps is
-//! cut just before the closing B: two half drifts make one.
+//! A drifts, B kicks by the conservative forces of pairs, bonds, angles and tethers and by body forces, O relaxes the
+//! momenta of particles in baths of their own, then the velocities along bonds, and last the relative velocities of all
+//! pairs along their lines of centres. Its report point is in the middle, just after O, where B and O see the same
+//! pairs; what the state keeps is cut just before the closing B: two half drifts make one.
 //!
 //! ```text
 //! p'   = p(n-½) + C(n)           closing kick, C = dt/2 F(r(n))
-//! p(n) = p' + Σ J                O
+//! p"   = c p' + √(mkT(1 - c²)) ξ  O of single particles, c = exp(-γdt/m)
+//! p(n) = p" + Σ J                O of bonds, one after the other, and of pairs
 //! p(n+½) = p(n) + C(n)           opening kick
 //! r(n+1) = r(n) + dt p(n+½) / m
 //! ```
@@ -17,6 +19,7 @@ use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
 use super::densities::Densities;
 use super::pairs::{self, Forces, Pair, dot};
+use super::relaxation;
 use super::stress::Virials;
 use super::{Reference, Report};
 use crate::families::Model;
@@ -76,6 +79,8 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
     let mut momenta = widen(&state.momenta);
     if state.step > 0 {
         add(&mut momenta, &kick);
+        relaxation::of_particles(model, state, &reference.masses, &mut momenta);
+        relaxation::of_bonds(model, state, &reference.masses, &mut momenta, &mut virials);
         let impulses = relax(reference, found, &momenta, &mut virials);
         add(&mut momenta, &impulses);
     }

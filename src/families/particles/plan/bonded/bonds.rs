@@ -2,7 +2,7 @@
 
 use super::{Bonded, Observed, Scales};
 use crate::document::BondPotential;
-use crate::families::{BondKind, Bonds};
+use crate::families::{BondKind, Bonds, Model};
 use crate::noise::{self, stream};
 use crate::plan::{Plan, Words};
 use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds};
@@ -10,20 +10,27 @@ use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds};
 pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
+    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
+    let forces = if relaxes { Choices::new().with_any(potential(bonds)) } else { choices(bonds) };
     let report = |part, scales| {
-        let choices = choices(bonds).with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
+        let choices = forces.clone().with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
         Observed { choices, scales }
+    };
+    // The motion of a split step has felt friction, its configuration has none.
+    let of_motion = |part, scales| {
+        let Observed { choices, scales } = report(part, scales);
+        Observed { choices: choices.with_if(relaxes, baths::Bonds::Relaxed), scales }
     };
     Bonded {
         name: "bonds",
         reports: ["report_bonds", "report_bonds_between"],
         entry: Entry::PullBonds,
         count: bonds.count(),
-        choices: choices(bonds),
+        choices: forces.clone(),
         observed: report(bonds::BondReport::Observed, &[Constant::PairVirial, Constant::Laplacian]),
-        motion: Some(report(bonds::BondReport::Motion, &[Constant::PairVirial])),
+        motion: Some(of_motion(bonds::BondReport::Motion, &[Constant::PairVirial])),
         configuration: report(bonds::BondReport::Configuration, &[Constant::PairVirial, Constant::Laplacian]),
-        stress: ("stress_of_bonds", report(bonds::BondReport::Stress, &[]).choices),
+        stress: ("stress_of_bonds", of_motion(bonds::BondReport::Stress, &[]).choices),
         constants: vec![
             (Constant::Bonds, bonds.count() as f64),
             (Constant::FirstKind, species as f64),
@@ -44,7 +51,8 @@ pub(super) fn add_table(scales: &Scales<'_>, bonds: &Bonds, plan: &mut Plan) {
     for kind in &bonds.kinds {
         head.extend(coefficients(scales, kind).map(f32::to_bits));
     }
-    plan.add_long_table(Array::Bonds, BondTable { head, bonds: bonds.clone() });
+    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
+    plan.add_long_table(Array::Bonds, BondTable { head, bonds: bonds.clone(), relaxes });
 }
 
 fn coefficients(scales: &Scales<'_>, kind: &BondKind) -> [f32; 8] {
@@ -54,7 +62,15 @@ fn coefficients(scales: &Scales<'_>, kind: &BondKind) -> [f32; 8] {
         Some(BondPotential::Fene { stiffness, extent, length }) => (stiffness, length, 1.0 / extent),
     };
     let remembers = kind.bath.is_some_and(|bath| bath.remembers());
+    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
     let bath = kind.bath.map_or([1.0, 0.0, 0.0, 0.0], |bath| {
+        if relaxes {
+            // γdt/m, λₑ = 2γ/dt, and √(m kT) in units of momentum.
+            let mass = scales.species.mass();
+            let rate = 0.5 * bath.coupling * scales.model.time_step.powi(2) / mass;
+            let noise = (mass * kind.temperature).sqrt() / scales.model.units.momentum;
+            return [1.0, rate.min(LARGEST_RATE), noise, 0.0];
+        }
         let energy = if remembers { 0.5 / bath.continuous_coupling / scales.quanta.pair_energy } else { 0.0 };
         [1.0 - bath.persistence, bath.response(), bath.noise(kind.temperature), energy]
     });
@@ -64,38 +80,59 @@ fn coefficients(scales: &Scales<'_>, kind: &BondKind) -> [f32; 8] {
     all.map(|value| value as f32)
 }
 
-/// The cheapest potential and bath that hold those of all bonds.
-fn choices(bonds: &Bonds) -> Choices {
+/// A rate at which nothing is left of a velocity after a step, whatever the masses; single precision holds it.
+const LARGEST_RATE: f64 = 1e30;
+
+/// Where the bonds with friction are once more, in rounds: after all bonds.
+pub(in crate::families::particles::plan) fn first_relaxed(model: &Model, bonds: &Bonds) -> u64 {
+    (model.species.len() + 2 * bonds.kinds.len()) as u64 + bonds.count()
+}
+
+/// The cheapest potential that holds those of all bonds.
+fn potential(bonds: &Bonds) -> Option<bonds::Potential> {
     let any = |what: fn(&BondKind) -> bool| bonds.kinds.iter().any(what);
-    let potential = if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
+    if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
         Some(bonds::Potential::Fene)
     } else if any(|kind| kind.potential.is_some()) {
         Some(bonds::Potential::Harmonic)
     } else {
         None
-    };
-    let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
-    Choices::new()
-        .with_any(potential)
-        .with_if(bonds.have_friction(), bath)
-        .with_if(any(|kind| kind.bath.is_some() && kind.temperature > 0.0), baths::BondNoise::Gaussian)
+    }
 }
 
-/// Words about species and kinds, then the ends and the kind of each bond.
+/// The noise of baths of bonds, if any has a temperature.
+pub(in crate::families::particles::plan) fn noise(bonds: &Bonds) -> Choices {
+    let thermal = bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0);
+    Choices::new().with_if(thermal, baths::BondNoise::Gaussian)
+}
+
+/// The cheapest potential and bath that hold those of all bonds.
+fn choices(bonds: &Bonds) -> Choices {
+    let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
+    Choices::new().with_any(potential(bonds)).with_if(bonds.have_friction(), bath).and(&noise(bonds))
+}
+
+/// Words about species and kinds, then the ends and the kind of each bond; where bonds relax those with friction once
+/// more, in rounds, with their numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct BondTable {
     /// What comes before the bonds.
     head: Vec<u32>,
     bonds: Bonds,
+    /// Whether bonds relax in rounds.
+    relaxes: bool,
 }
 
 impl Words for BondTable {
     fn count(&self) -> u64 {
-        self.bonds.count().saturating_mul(4).saturating_add(self.head.len() as u64)
+        let relaxed = if self.relaxes { self.bonds.rubbing_count() } else { 0 };
+        self.bonds.count().saturating_add(relaxed).saturating_mul(4).saturating_add(self.head.len() as u64)
     }
 
     fn words(&self) -> Vec<u32> {
         let bonds = self.bonds.iter().flat_map(|bond| [bond.ends[0], bond.ends[1], bond.kind, 0]);
-        self.head.iter().copied().chain(bonds).collect()
+        let rounds = if self.relaxes { self.bonds.rounds() } else { Vec::new() };
+        let relaxed = rounds.iter().flatten().flat_map(|(place, bond)| [bond.ends[0], bond.ends[1], bond.kind, *place]);
+        self.head.iter().copied().chain(bonds).chain(relaxed).collect()
     }
 }

@@ -4,6 +4,8 @@ mod angles;
 mod bonds;
 mod exclusions;
 
+pub(in crate::families::particles::plan) use bonds::{first_relaxed, noise as noise_of_bonds};
+
 use super::species::Species;
 use crate::document::BondPotential;
 use crate::families::{BondKind, Bonds, Model};

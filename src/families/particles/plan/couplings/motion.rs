@@ -1,7 +1,7 @@
 //! The end of a step for every particle: baths on its coordinates, half kicks, drift.
 
 use super::Builder;
-use crate::noise::{self, stream};
+use crate::families::particles::plan::position_bath;
 use crate::shaders::{Array, Choices, Constant, Entry, baths, couplings};
 
 impl Builder<'_> {
@@ -52,12 +52,8 @@ impl Builder<'_> {
         let loss = bath.steps.first().map_or(1.0, |step| 1.0 - step.persistence);
         let memory = bath.memory;
         self.bath_impulse();
-        let key = noise::seed_key(self.model.seed, stream::PARTICLE);
-        self.plan.constants.extend([
-            (Constant::PositionLoss, loss),
-            (Constant::ParticleStreamX, f64::from(key[0])),
-            (Constant::ParticleStreamY, f64::from(key[1])),
-        ]);
+        self.plan.constants.push((Constant::PositionLoss, loss));
+        self.plan.constants.extend(position_bath::stream(self.model));
         if !self.species.have_table() && !self.model.species.is_empty() {
             let [response, noise, energy] = self.position_coefficients(0);
             self.plan.constants.extend([

@@ -1,18 +1,15 @@
 //! Springs from every particle to where it started.
 
 use super::Builder;
-use crate::shaders::{Array, Choices, Constant, Entry, bonds};
+use crate::families::particles::plan::tethers;
+use crate::shaders::{Array, Choices, Entry, bonds};
 
 impl Builder<'_> {
     pub(super) fn tethers(&mut self) {
         let Some(stiffness) = self.model.particles().tether else { return };
         let groups = self.groups(self.particles);
-        let quanta = self.plan.quanta;
-        self.plan.constants.extend([
-            (Constant::Tether, stiffness * self.impulse()),
-            (Constant::TetherEnergy, 0.5 * stiffness / quanta.pair_energy),
-            (Constant::TetherLaplacian, stiffness * self.model.units.dimension as f64 / quanta.curvature),
-        ]);
+        let constants = tethers::constants(&self.scales(), stiffness);
+        self.plan.constants.extend(constants);
         let advance = self.kernel("tethers", Entry::PullTethers, &Choices::new(), groups);
         self.plan.advance.push(advance);
         let seen = Choices::new().with(bonds::TetherReport::Observed).with_any(self.forces());

@@ -58,9 +58,12 @@ impl Builder<'_> {
             }
             self.plan.operations_per_particle += bonded.operations * bonded.count as f64 / self.particles.max(1) as f64;
         }
+        self.tethers(rows, &mut kernels);
         if self.is_bonded() {
             bonded::add_tables(&scales, &mut self.plan);
             self.plan.add_buffer(Array::Slots, 4 * self.particles);
+        }
+        if self.gathers() {
             self.plan.add_buffer(Array::Kicks, 16 * (self.particles + self.frame_capacity()));
         }
         kernels

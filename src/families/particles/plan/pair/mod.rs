@@ -1,8 +1,12 @@
-//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub.
+//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub; in
+//! split steps with baths without memory on particles and along bonds, and tethers.
 
+mod bond_baths;
 mod bonded;
 mod density;
+mod particle_bath;
 mod stress;
+mod tethers;
 
 use super::external;
 use super::law::{law, ranges};
@@ -17,7 +21,7 @@ use super::{
     Traversal, deviate, texture_candidates, words,
 };
 use crate::document::Integrator;
-use crate::families::particles::ParticleLayout;
+use crate::families::particles::{CoupledLayout, ParticleLayout};
 use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
@@ -66,6 +70,8 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         scan: Vec::new(),
         plan: empty_plan(model, &grid, options),
     };
+    // What ends a step that visits pairs once is no traversal.
+    builder.scans_at_end &= !builder.visits_once();
     builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
@@ -86,7 +92,18 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let account = external::rows(model, options.workgroup()) as usize;
     let layout = ParticleLayout { dimension: model.units.dimension, predicted, account, walls: walls::count(model) };
-    model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
+    if model.particles().tether.is_none() {
+        return model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR);
+    }
+    let tied = CoupledLayout {
+        particles: layout,
+        list: None,
+        position_baths: false,
+        bond_baths: 0,
+        holds: false,
+        tethers: true,
+    };
+    model.empty_plan(grid.cells, tied, quanta(model), noise::stream::PAIR)
 }
 
 /// What a traversal does with the hits of the prefilter.
@@ -189,6 +206,7 @@ impl Builder<'_> {
             ]);
         }
         self.plan.constants = constants;
+        self.particle_constants();
         walls::add_constants(self.model, &mut self.plan);
         self.density_constants();
     }
@@ -224,7 +242,7 @@ impl Builder<'_> {
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
-            .with_if(self.is_bonded(), couplings::Gathered::Kept)
+            .with_if(self.gathers(), couplings::Gathered::Kept)
             .with_if(self.is_bonded(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
@@ -272,11 +290,11 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
-    /// Buffers of the last kernel of a step beyond those of all: the impulses of bonds, what walls take up, a table of species and local
+    /// Buffers of the last kernel of a step beyond those of all: impulses that were gathered, what walls take up, a table of species and local
     /// densities.
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
-        [self.is_bonded(), walled, self.species.have_table(), dense].into_iter().map(u32::from).sum()
+        [self.gathers(), walled, self.species.have_table(), dense].into_iter().map(u32::from).sum()
     }
 
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
@@ -288,6 +306,26 @@ impl Builder<'_> {
     /// Whether boundaries shear.
     fn is_sheared(&self) -> bool {
         self.model.particles().shear.is_some()
+    }
+
+    /// Whether steps relax the momentum of every particle by itself.
+    fn relaxes_particles(&self) -> bool {
+        self.model.particles().relaxes_particles(self.model)
+    }
+
+    /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to
+    /// repeat the kick, which only an analysis of forces looks at.
+    fn visits_once(&self) -> bool {
+        self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
+    }
+
+    /// Whether impulses wait in an array for the passes over pairs.
+    fn gathers(&self) -> bool {
+        self.is_bonded() || self.is_tethered() || self.visits_once()
+    }
+
+    fn relaxes_pairs(&self) -> bool {
+        self.model.particles().relaxes_pairs(self.model)
     }
 
     /// Whether friction has two stages.
@@ -423,19 +461,26 @@ impl Builder<'_> {
     /// it sorts the particles there, and the drift is finished afterwards.
     fn split_step(&mut self, kept: &Choices) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
-        let masks = if self.model.particles().have_local_densities() { Masks::Kept } else { Masks::Keep };
-        let find = self.traversal("find", self.traversal, masks, &with(pairs::Pass::Find));
-        if masks == Masks::Keep {
+        let once = self.visits_once();
+        let dense = self.model.particles().have_local_densities();
+        let find = match (once, dense) {
+            (true, _) => self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick)),
+            (false, true) => self.traversal("find", self.traversal, Masks::Kept, &with(pairs::Pass::Find)),
+            (false, false) => self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find)),
+        };
+        if !once && !dense {
             self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
         }
+        let last = if once { Traversal::Alone } else { self.traversal };
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
-        let relax = self.traversal("relax", self.traversal, Masks::Kept, &to_the_end);
+        let relax = self.traversal("relax", last, Masks::Kept, &to_the_end);
         self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
         let to_the_report = with(pairs::Pass::Relax).and(&walls::booking(self.model));
-        let relax_to_report = self.traversal("relax_to_report", self.traversal, Masks::Kept, &to_the_report);
+        let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
-        let two_stages = self.relaxes_in_two_stages();
-        let added = (two_stages && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
+        let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
+        let earlier = self.relaxes_in_two_stages() || bathed;
+        let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
         let entry = match (self.is_sheared(), walls::count(self.model)) {
@@ -455,13 +500,14 @@ impl Builder<'_> {
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
-        let densities = self.densities(Masks::Keep, &mut rows);
+        let baths = [self.relax_particles(), self.relax_bonds()].concat();
+        let densities = self.densities(if once { Masks::Unkept } else { Masks::Keep }, &mut rows);
         if self.is_sheared() {
             for kernel in &densities.report {
                 self.plan.kernels[*kernel].constants.push(shear::moment(1));
             }
         }
-        self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find]].concat();
+        self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find], &baths].concat();
         self.plan.advance = vec![relax];
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
         self.plan.report =
@@ -480,7 +526,10 @@ impl Builder<'_> {
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
-        let report = self.observation("report_first_stage", kept.clone().with(pairs::Pass::ObserveFirstStage));
+        let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
+        let later = bathed && kept.has(pairs::ReportedForce::Kept);
+        let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
+        let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);
@@ -509,7 +558,7 @@ impl Builder<'_> {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
         let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
-        let visits = if self.splits() { 1.0 + relaxations } else { 1.0 };
+        let visits = if self.splits() && !self.visits_once() { 1.0 + relaxations } else { 1.0 };
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
         let frictional = self.force.largest_friction() > 0.0;
         let dense = self.force.many_body.is_some();
@@ -606,11 +655,13 @@ impl Builder<'_> {
                 }
             }
             let ranges = ranges(self.force, count);
-            if !ranges.is_empty() {
-                // In the place of the baths of positions, which no such plan has.
+            if self.relaxes_particles() {
+                table.extend(self.particle_entries());
+            } else if !ranges.is_empty() {
+                // In the place of the baths of particles.
                 table.resize(4 * count * (count + 1), 0.0);
-                table.extend(ranges);
             }
+            table.extend(ranges);
             external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
             table.extend(external::entries(self.model));
             shear::add_constants(self.model, parts, Some(table.len() / 4), &mut self.plan);

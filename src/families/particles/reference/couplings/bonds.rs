@@ -12,7 +12,11 @@ use crate::noise::{self, stream};
 use crate::state::State;
 
 /// The ends of a bond where they are.
-pub(super) fn span(images: &Images<'_>, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
+pub(in crate::families::particles::reference) fn span(
+    images: &Images<'_>,
+    bond: &Bond,
+    positions: &[[u32; 3]],
+) -> Pair {
     let [first, second] = bond.ends.map(|end| end as usize);
     Pair::of(images, positions, first, second)
 }
@@ -37,7 +41,8 @@ pub(super) fn kick(
             return Err(Unstable::Bond { step: state.step, bond: index });
         };
         let mut friction = 0.0;
-        if let Some(step) = &kind.bath {
+        // Where steps are split, velocities along bonds relax in O.
+        if let Some(step) = kind.bath.as_ref().filter(|_| !model.particles().relaxes_bonds(model)) {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [index as u32, 0]));
             let seen = if step.remembers() { None } else { motion.approach(&pair) };
             let change = seen.unwrap_or_else(|| motion.change_of_distance(&pair));

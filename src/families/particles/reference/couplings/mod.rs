@@ -16,7 +16,7 @@
 //! closed. Baths without memory take the initial momenta for those that brought the particles there.
 
 mod angles;
-mod bonds;
+pub(super) mod bonds;
 mod coloured_noise;
 pub(super) mod observables;
 mod pair_list;
@@ -182,7 +182,7 @@ impl CouplingsReference {
     }
 }
 
-/// Adds the half kicks of bonds and angles that have no bath with memory, and their virials.
+/// Adds the half kicks of bonds, angles and tethers, without baths, and the virials of bonds and angles.
 ///
 /// # Errors
 /// [`Unstable::Bond`] for a bond that is too long.
@@ -199,6 +199,9 @@ pub(super) fn bonded_kicks(
     }
     if let Some(angles) = model.particles().angles.as_ref() {
         angles::kick(model, angles, state, kick, virials);
+    }
+    if let Some(stiffness) = model.particles().tether {
+        tethers::kick(model, stiffness, state, kick);
     }
     Ok(())
 }
