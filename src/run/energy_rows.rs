@@ -77,8 +77,17 @@ impl EnergyRows {
 
     /// All rows as a table.
     pub(super) fn table(&self) -> Table {
+        self.table_of(self.rows.clone())
+    }
+
+    /// Those after equilibration.
+    pub(super) fn settled(&self) -> Table {
+        self.table_of(self.rows.iter().filter(|row| row[0] >= self.equilibration as f64).cloned().collect())
+    }
+
+    fn table_of(&self, rows: Vec<Vec<f64>>) -> Table {
         let names = std::iter::once("step").chain(self.columns.iter().map(|column| column.name));
-        Table::new(names, self.rows.clone())
+        Table::new(names, rows)
     }
 }
 

@@ -122,6 +122,11 @@ impl<'a> Trial<'a> {
         self.rows.means()
     }
 
+    /// The rows of the table of energies after equilibration.
+    pub(crate) fn settled(&self) -> Table {
+        self.rows.settled()
+    }
+
     /// The table of energies.
     pub(crate) fn table(&self) -> Table {
         self.rows.table()

@@ -2,6 +2,7 @@
 
 use super::verdict::{Verdict, verdict};
 use crate::gpu::{AdapterChoice, GpuError};
+use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::Scene;
 use crate::tradeoff::{self, Deviation, Measured, Reference, References, error_in_words};
@@ -10,6 +11,9 @@ use std::fmt;
 
 /// Parts of the averaged time after which a verdict that is certain ends a run.
 const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
+
+/// An error from too few samples to reach its plateau is likely too small: by up to about this factor in short runs of a fluid.
+const UNCONVERGED: f64 = 3.0;
 
 /// What became of one scene of a map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,13 +32,26 @@ pub struct Cell {
     pub errors: Vec<Deviation>,
     /// Why it was refused, or became unstable.
     pub reason: Option<String>,
+    /// Measures that are still on their way to equilibrium: their errors say little.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unequilibrated: Vec<String>,
 }
 
 impl Cell {
     /// A scene that is none.
     pub(super) fn refused(value: f64, reason: String) -> Self {
         let (verdict, is_certain) = (Verdict::Refused, true);
-        Self { value, verdict, is_certain, steps: 0, time_step: None, errors: Vec::new(), reason: Some(reason) }
+        let reason = Some(reason);
+        let (errors, unequilibrated) = (Vec::new(), Vec::new());
+        Self { value, verdict, is_certain, steps: 0, time_step: None, errors, reason, unequilibrated }
+    }
+
+    /// Why it was refused, or became unstable, in a line.
+    pub(super) fn reason_in_a_line(&self) -> Option<String> {
+        let mut lines = self.reason.as_deref()?.lines();
+        let first = lines.next()?.to_owned();
+        // A heading has the mistakes below it.
+        Some(if first.ends_with(':') { format!("{first} {}", lines.next().unwrap_or_default().trim()) } else { first })
     }
 
     /// Whether it has an error of all of these measures.
@@ -58,7 +75,7 @@ impl fmt::Display for Cell {
                     |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
                 self.errors.iter().map(words).collect::<Vec<_>>().join(", ")
             }
-            _ => self.reason.as_deref().and_then(|reason| reason.lines().next()).unwrap_or_default().to_owned(),
+            _ => self.reason_in_a_line().unwrap_or_default(),
         };
         if what.is_empty() { Ok(()) } else { write!(formatter, ": {what}") }
     }
@@ -112,6 +129,7 @@ fn run(
         time_step: Some(scene.time.step),
         errors: Vec::new(),
         reason: None,
+        unequilibrated: Vec::new(),
     };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
@@ -135,6 +153,8 @@ fn run(
         if cell.reason.is_some() {
             (cell.verdict, cell.is_certain) = (Verdict::Biased, true);
         }
+        cell.unequilibrated = unequilibrated(&trial, &cell.errors);
+        cell.is_certain &= cell.unequilibrated.is_empty();
         // Of what no law applies to here, as of a temperature without friction, nothing is known.
         cell.is_certain &= cell.reason.is_some() || cell.is_compared(comparison.measures);
         if cell.is_certain && !comparison.measures.is_empty() {
@@ -152,11 +172,14 @@ fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Ve
         let Some(reference) = reference(measure, scene, comparison.references) else { continue };
         let mean = || {
             let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
-            estimate.map(|found| Measured {
-                measure: measure.clone(),
-                value: found.mean,
-                standard_error: found.standard_error,
-                fluctuates: true,
+            estimate.map(|found| {
+                let factor = if found.converged { 1.0 } else { UNCONVERGED };
+                Measured {
+                    measure: measure.clone(),
+                    value: found.mean,
+                    standard_error: found.standard_error.map(|error| factor * error),
+                    fluctuates: true,
+                }
             })
         };
         let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
@@ -167,6 +190,13 @@ fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Ve
     }
     let reason = (!lost.is_empty()).then(|| format!("{} has no number", lost.join(", ")));
     (errors, reason)
+}
+
+/// Measures whose rows after equilibration begin with a transient.
+fn unequilibrated(trial: &Trial<'_>, errors: &[Deviation]) -> Vec<String> {
+    let settled = trial.settled();
+    let begins = |error: &&Deviation| settled.column(&error.measure).is_some_and(|rows| transient(&rows).is_some());
+    errors.iter().filter(begins).map(|error| error.measure.clone()).collect()
 }
 
 fn reference(measure: &str, scene: &Scene, given: &References) -> Option<Reference> {

@@ -85,9 +85,16 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
             cells().count()
         ));
     }
+    let moving = cells().filter(|cell| !cell.unequilibrated.is_empty()).count();
+    if moving > 0 {
+        lines.push(format!(
+            "{moving} of {} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N",
+            cells().count()
+        ));
+    }
     let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
-    let mut reasons: Vec<(&str, usize)> = Vec::new();
-    for reason in refused.filter_map(|cell| cell.reason.as_deref()).filter_map(|reason| reason.lines().next()) {
+    let mut reasons: Vec<(String, usize)> = Vec::new();
+    for reason in refused.filter_map(Cell::reason_in_a_line) {
         match reasons.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, count)) => *count += 1,
             None => reasons.push((reason, 1)),

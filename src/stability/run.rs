@@ -2,7 +2,7 @@
 
 use super::bounds::bounds;
 use super::cell::{Cell, Comparison, evaluate};
-use super::summary::StabilitySummary;
+use super::summary::{MOST_EDGES, StabilitySummary};
 use super::{chart, files, page, table};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
@@ -61,7 +61,10 @@ impl StudyRun<StabilitySummary> {
             RunError::Gpu(source) => source.into(),
             source => StudyError::of_run(self.request.title(), source),
         })?;
-        let seconds = self.expected(&waiting, &gpu);
+        // Beside those of the grid there may be so many that locate edges, in every row.
+        let (bisections, points) = (self.request.arguments.bisections as usize, self.request.along.values.len());
+        let more = (MOST_EDGES * bisections) as f64 / points.max(1) as f64;
+        let seconds = self.expected(&waiting, &gpu).map(|seconds| (1.0 + more) * seconds);
         self.refuse_long(seconds.unwrap_or_default())?;
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());

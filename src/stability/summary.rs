@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Edges of a row that are located.
-const MOST_EDGES: usize = 3;
+pub(super) const MOST_EDGES: usize = 3;
 
 /// What was asked, and what became of every scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

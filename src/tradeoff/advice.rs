@@ -91,11 +91,15 @@ pub(super) fn notes(summary: &TradeoffSummary) -> Vec<String> {
     for choice in summary.choices.iter().chain(&summary.finer) {
         let spoilt: Vec<&str> = choice.unequilibrated.iter().map(String::as_str).collect();
         if spoilt.iter().any(|column| summary.measures.iter().any(|measure| measure == column)) {
-            notes.push(format!(
+            let note = format!(
                 "Means of {} include the way to equilibrium ({}): set a longer time.equilibration.",
                 choice.label,
                 spoilt.join(", ")
-            ));
+            );
+            // A choice may be the run that others are compared with.
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
         }
     }
     notes
@@ -128,6 +132,17 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
             let _ = writeln!(text, "{indent}{line}");
         }
         text.push('\n');
+        let cost = |choice: &Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
+        let open =
+            summary.choices.iter().filter(|other| other.verdict == Some(Verdict::Open) && cost(other) < cost(choice));
+        let open: Vec<&str> = open.map(|other| other.label.as_str()).collect();
+        if !open.is_empty() {
+            let _ = writeln!(
+                text,
+                "Of what costs less it is open: {}. A smaller --error or a larger --budget decides it.\n",
+                open.join("; ")
+            );
+        }
         return;
     }
     let _ = write!(text, "{bold}No choice meets the targets.{bold} ");

@@ -38,7 +38,7 @@ pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
     let path = format!("interactions[{index}].many_body");
     if let Some(more) = beyond_pairs(scene) {
         let accepted = "a many-body repulsion of pairs without memory, beside bonds and angles without a bath and body forces, in two or \
-                        three dimensions: local densities are found in cells, beside nothing else yet";
+                        three dimensions: local densities are found in cells, not in lists, and were not compared beside other baths";
         problems.push(Problem::new(&path, format!("found together with {more}"), accepted));
     }
     let excludes =
