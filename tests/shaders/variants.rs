@@ -320,7 +320,10 @@ fn sheared_plans() -> Vec<(String, Plan)> {
     for particles in particles {
         for space in spaces {
             for others in ["", bonds] {
-                let interactions = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}}{others}]"#);
+                // Beside bonds also forces that depend on local densities.
+                let dense = if others.is_empty() { "" } else { r#","many_body":{"repulsion":9}"# };
+                let pairs = format!(r#"{{"type":"dpd","repulsion":25,"friction":4.5{dense}}}"#);
+                let interactions = format!("interactions=[{pairs}{others}]");
                 for integrator in INTEGRATORS.iter().filter(|integrator| !integrator.contains("cotter-reich")) {
                     let alone = fluid(&[particles, "interactions=[]", space, integrator]);
                     plans.extend(plans_of(&format!("alone {space} {integrator}"), &alone, Options::default()));

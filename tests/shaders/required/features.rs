@@ -194,7 +194,7 @@ pub fn features() -> Vec<Feature> {
             ground: nothing,
             with: |scene| set(scene, "dpd", "many_body", json!({"repulsion": 25})),
             without: |scene| set(scene, "dpd", "many_body", Value::Null),
-            own: Some(&["densit", "DENSITY", "many_body", "file pairs/separation"]),
+            own: Some(&["densit", "DENSITY", "many_body", "separation/noted", "sheared_noted"]),
             more: &["densities", "report_densities"],
             // Beside a table of species the prefilter reads positions then.
             instead: &["probes"],
