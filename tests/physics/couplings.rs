@@ -842,6 +842,7 @@ fn a_fast_bath_is_white_noise() {
         let text = format!(
             r#"{{
             "title": "test", "space": {{"box": [5, 5, 5]}}, "time": {{"step": 0.02, "steps": 1}}, "temperature": 1.0,
+            "integrator": {{"type": "cotter-reich"}},
             "particles": [{{"species": "A", "count": 300}}], "noise": {{"distribution": "gaussian"}},
             "interactions": [{{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {{{bath}, "temperature": 0}}}},
                 {{"type": "langevin", "friction": 2, "bath": {{{bath}}}}},
