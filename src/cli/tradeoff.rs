@@ -179,7 +179,7 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
     text.push_str("  errors against the references in tradeoff.md; * on the Pareto front of cost and error\n");
     if summary.is_short {
         text.push_str(
-            "the runs ended before all errors were as small as asked for: a larger --budget makes them longer\n",
+            "the runs ended before all errors were as small as asked for: a larger --budget, or --yes beyond eight hours, makes them longer\n",
         );
     }
     text.extend(summary.notes().iter().map(|note| format!("note: {note}\n")));

@@ -1,5 +1,6 @@
 //! The page of a map, in words: how far a scene may go, and where laws and measurement part.
 
+use super::bounds::Bound;
 use super::cell::Cell;
 use super::request::Request;
 use super::summary::{Row, StabilitySummary};
@@ -39,30 +40,41 @@ fn bounds_in_words(row: &Row) -> String {
     if words.is_empty() { "none in this range".to_owned() } else { words.join("; ") }
 }
 
-/// Where laws of stability and the first unstable scenes part, law by law.
-fn differences(summary: &StabilitySummary) -> Vec<String> {
-    let mut found: Vec<(&str, Vec<f64>)> = Vec::new();
+/// Where laws and measurement part, law by law: of stability and the first unstable runs, of accuracy and the first biased ones.
+fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
+    let mut found: Vec<(&'s Bound, Vec<f64>)> = Vec::new();
     for row in &summary.rows {
-        let Some(bound) = row.bounds.iter().find(|bound| bound.is_of_stability) else { continue };
-        let Some((Some(low), high)) = row.unstable_from() else { continue };
-        let ratio = summary.spacing.middle(low, high) / bound.at;
-        if (1.0 / APART..=APART).contains(&ratio) {
-            continue;
+        let mut parts = |bound: &'s Bound, edge: Option<f64>| {
+            let Some(ratio) = edge.map(|edge| edge / bound.at) else { return };
+            if (1.0 / APART..=APART).contains(&ratio) {
+                return;
+            }
+            match found.iter_mut().find(|(known, _)| known.law == bound.law) {
+                Some((_, ratios)) => ratios.push(ratio),
+                None => found.push((bound, vec![ratio])),
+            }
+        };
+        let middle = |low: f64, high: f64| summary.spacing.middle(low, high);
+        if let Some(bound) = row.bounds.iter().find(|bound| bound.is_of_stability) {
+            parts(bound, row.unstable_from().and_then(|(low, high)| Some(middle(low?, high))));
         }
-        match found.iter_mut().find(|(law, _)| *law == bound.law) {
-            Some((_, ratios)) => ratios.push(ratio),
-            None => found.push((&bound.law, vec![ratio])),
+        // What is biased beyond a law of accuracy, and right before.
+        if let Some(bound) = row.bounds.iter().find(|bound| !bound.is_of_stability) {
+            let edges = row.edges();
+            let bias = edges.iter().find(|edge| (edge.below, edge.above) == (Verdict::Right, Verdict::Biased));
+            parts(bound, bias.map(|edge| middle(edge.low, edge.high)));
         }
     }
-    let words = |(law, mut ratios): (&str, Vec<f64>)| {
+    let words = |(bound, mut ratios): (&Bound, Vec<f64>)| {
         ratios.sort_by(f64::total_cmp);
         let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
+        let kind = if bound.is_of_stability { "unstable" } else { "biased" };
         let (where_to, rows) = if ratios.len() == 1 {
-            (format!("at {least} times"), "the first unstable run is".to_owned())
+            (format!("at {least} times"), format!("the first {kind} run is"))
         } else {
-            (format!("at {least} to {most} times"), format!("in {} rows the first unstable runs are", ratios.len()))
+            (format!("at {least} to {most} times"), format!("in {} rows the first {kind} runs are", ratios.len()))
         };
-        format!("{rows} {where_to} what the law {law} says")
+        format!("{rows} {where_to} what the law {} says", bound.law)
     };
     found.into_iter().map(words).collect()
 }

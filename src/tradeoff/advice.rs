@@ -66,7 +66,7 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     }
     if summary.is_short {
         text.push_str(
-            "**The runs ended before the errors were as small as asked for**: a larger --budget makes them longer.\n\n",
+            "**The runs ended before the errors were as small as asked for**: a larger --budget, or --yes beyond eight hours, makes them longer.\n\n",
         );
     }
     targets(&mut text, summary);

@@ -42,6 +42,8 @@ pub enum Phase {
         factor: f64,
         /// The largest relative standard error so far, if the reason is that it is too large.
         worst: Option<f64>,
+        /// Seconds that the runs are expected to take in all by then.
+        seconds: f64,
     },
     /// Steps of all choices are timed in turns.
     Timing,
@@ -50,11 +52,12 @@ pub enum Phase {
 impl fmt::Display for Phase {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Extended { factor, worst } => {
+            Self::Extended { factor, worst, seconds } => {
                 if let Some(worst) = worst {
                     write!(formatter, "the largest standard error is {} %: ", with_error(100.0 * worst, None))?;
                 }
-                write!(formatter, "means are taken over {factor:.1} times the time")
+                let duration = advice::duration(*seconds);
+                write!(formatter, "means are taken over {factor:.1} times the time, about {duration} of runs in all")
             }
             Self::Timing => formatter.write_str("timing steps in turns"),
         }
@@ -112,15 +115,17 @@ impl StudyRun<TradeoffSummary> {
                 break;
             }
             let length = self.request.arguments.length;
-            if length.budget.is_none() {
-                self.refuse_long(spent * extension.factor)?;
+            if length.budget.is_none() && self.refuse_long(spent * extension.factor).is_err() {
+                // What is known by now is worth its tables.
+                self.summary.is_short = true;
+                break;
             }
             let worst = length.error.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
             self.summary.stretch.averaged *= extension.factor;
             self.summary.extensions += 1;
             self.summary.is_short = extension.is_short;
             self.save()?;
-            let phase = Phase::Extended { factor: extension.factor, worst };
+            let phase = Phase::Extended { factor: extension.factor, worst, seconds: spent * extension.factor };
             observer(StudyEvent::Phase { phase: &phase, runs: self.waiting(&runs).len() });
         }
         self.summary.is_long_enough = true;

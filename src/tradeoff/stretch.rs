@@ -8,6 +8,10 @@ use serde_json::Value;
 /// What of a scene says when to write rather than what to sample: it is left as it is.
 const WRITTEN: [&str; 4] = ["checkpoint", "snapshot", "trajectory", "fields"];
 
+/// The stress, and the most lags of its correlation.
+const STRESS: &str = "stress";
+const MOST_LAGS: u64 = 100_000;
+
 /// A stretch of simulated time: what passes before means are taken, and what they are taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Stretch {
@@ -59,7 +63,10 @@ impl Stretch {
         let mut document = serde_json::to_value(variant).map_err(mismatch)?;
         let ratio = self.step / variant.time.step;
         if let Some(output) = document.get_mut("output").and_then(Value::as_object_mut) {
-            for (_, section) in output.iter_mut().filter(|(key, _)| !WRITTEN.contains(&key.as_str())) {
+            for (key, section) in output.iter_mut().filter(|(key, _)| !WRITTEN.contains(&key.as_str())) {
+                if key == STRESS && keep_every_step(section, ratio) {
+                    continue;
+                }
                 resample(section, ratio);
             }
         }
@@ -69,6 +76,16 @@ impl Stretch {
         scene.kept = variant.kept.clone();
         scene::checked(name, &scene).map_err(wrong)
     }
+}
+
+/// The correlation of the stress takes samples of every step, whatever the step is: it is its window that covers the same time then.
+/// Whether that is so.
+fn keep_every_step(stress: &mut Value, ratio: f64) -> bool {
+    let window = stress.get("window").and_then(Value::as_u64).filter(|_| stress["every"] == 1);
+    if let Some(samples) = window {
+        stress["window"] = ((samples as f64 * ratio).round() as u64).clamp(2, MOST_LAGS).into();
+    }
+    window.is_some()
 }
 
 /// Multiplies every number of steps between two samples.
@@ -113,6 +130,16 @@ mod tests {
             assert_eq!(found.output.energies.every, every, "{step}");
             assert_eq!(found.output.radial_distribution.unwrap().every, 2 * every, "{step}");
         }
+        let sampled = |set: &str| {
+            let set = [
+                "output={}".to_owned(),
+                format!("time.step={set}"),
+                r#"output.stress={"every":1,"window":50}"#.to_owned(),
+            ];
+            let found = stretch.applied("variant", &scene::load("dpd-fluid", &set).unwrap()).unwrap();
+            found.output.stress.map(|stress| (stress.every, stress.window))
+        };
+        assert_eq!(["0.04", "0.01"].map(sampled), [Some((1, Some(50))), Some((1, Some(200)))], "of every step");
         let longer = Stretch { averaged: 2.0 * stretch.averaged, ..stretch };
         assert_eq!(longer.applied("same", &base).unwrap().time.steps, 2 * base.time.steps - base.time.equilibration);
     }

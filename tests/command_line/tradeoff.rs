@@ -315,7 +315,7 @@ fn budgets_limit_what_errors_ask_for() {
     let times: Vec<f64> = summary.choices.iter().map(|choice| choice.steps as f64 * choice.time_step - 1.6).collect();
     assert!(times.iter().all(|time| (time - summary.averaged_time()).abs() < 0.17), "{times:?}");
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
-    assert!(page.contains("a larger --budget makes them longer"), "{page}");
+    assert!(page.contains("a larger --budget, or --yes"), "{page}");
 }
 
 /// Oscillators whose coordinates have baths with memory: errors against the exact motion are those that theory says of the scheme.
