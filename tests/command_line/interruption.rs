@@ -112,7 +112,7 @@ fn an_interrupted_run_goes_on_where_it_was() {
 fn an_interrupted_sweep_goes_on_where_it_was() {
     let place = place().with("/time/steps", json!(2500));
     let (out, table) = (place.argument("out"), place.path("out/seed=1").join(files::ENERGIES));
-    let arguments = ["sweep", &place.scene(), "--vary", "seed=1,2,3", "--jobs", "1", "--out", &out];
+    let arguments = ["sweep", &place.scene(), "--vary", "seed=1,2,3", "--jobs", "1", "--yes", "--out", &out];
     let (code, said) = interrupted(&arguments, "-INT", &table);
     assert_eq!(code, Some(130), "{said}");
     let states = |place: &Place| {
@@ -204,7 +204,7 @@ fn one_directory_belongs_to_one_process() {
         &["run", &scene, "--out", &out],
         &["run", &scene, "--out", &out, "--force"],
         &["plot", &out],
-        &["sweep", &scene, "--vary", "seed=1,2", "--out", &out, "--force"],
+        &["sweep", &scene, "--vary", "seed=1,2", "--yes", "--out", &out, "--force"],
     ] {
         fails(arguments, 5, &[&holder]);
     }
@@ -222,7 +222,7 @@ fn one_directory_belongs_to_one_process() {
 
     // A sweep, and the runs in it.
     let (out, table) = (place.argument("swept"), place.path("swept/seed=1").join(files::ENERGIES));
-    let child = begun(command(&["sweep", &scene, "--vary", "seed=1,2", "--jobs", "1", "--out", &out]), &table);
+    let child = begun(command(&["sweep", &scene, "--vary", "seed=1,2", "--jobs", "1", "--yes", "--out", &out]), &table);
     let variant = format!("{out}/seed=1");
     for arguments in [&["sweep", "--resume", &out][..], &["plot", &out], &["resume", &variant]] {
         fails(arguments, 5, &["is in use by process", &child.id().to_string()]);
