@@ -12,7 +12,8 @@ use std::fmt;
 /// Parts of the averaged time after which a verdict that is certain ends a run.
 const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
 
-/// An error from too few samples to reach its plateau is likely too small: by up to about this factor in short runs of a fluid.
+/// An error from too few samples to reach its plateau is likely too small. A choice on the safe side: of short runs of a fluid some were off by
+/// five of their errors.
 const UNCONVERGED: f64 = 3.0;
 
 /// What became of one scene of a map.

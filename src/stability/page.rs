@@ -90,14 +90,15 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
             "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
         ));
     }
-    let open = cells().filter(compared).filter(|cell| !cell.is_certain).count();
+    let settled = |cell: &&Cell| cell.unequilibrated.is_empty();
+    let open = cells().filter(compared).filter(settled).filter(|cell| !cell.is_certain).count();
     if open > 0 && !summary.measures.is_empty() {
         lines.push(format!(
             "{open} of {} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them",
             cells().count()
         ));
     }
-    let moving = cells().filter(|cell| !cell.unequilibrated.is_empty()).count();
+    let moving = cells().filter(|cell| !settled(cell)).count();
     if moving > 0 {
         lines.push(format!(
             "{moving} of {} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N",

@@ -216,3 +216,45 @@ fn what_is_compared_with_nothing_is_not_right() {
     let verdicts: Vec<Verdict> = summary.rows[0].cells.iter().map(|cell| cell.verdict).collect();
     assert_eq!(verdicts, [Verdict::Right, Verdict::Unstable]);
 }
+
+/// Oscillators at rest that a weak bath warms within ten units of time: the means of the first thirty say nothing of the step.
+#[test]
+fn runs_on_their_way_to_equilibrium_are_not_certain() {
+    let place = place();
+    let further = [
+        "--vary",
+        "time.step=0.05,0.06",
+        "--bisections",
+        "0",
+        "--set",
+        r#"particles.0.velocities={"type":"rest"}"#,
+        "--set",
+        "interactions.1.friction=0.1",
+        "--set",
+        "time.steps=600",
+        "--set",
+        "time.equilibration=0",
+    ];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("2 of 2 runs are still on their way to equilibrium"), "{said}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    for cell in &summary.rows[0].cells {
+        assert!(!cell.is_certain && cell.unequilibrated.contains(&"temperature".to_owned()), "{cell:?}");
+    }
+    assert!(!said.contains("verdicts are within two standard errors"), "{said}");
+}
+
+/// Friction of 24 is right three times beyond the step at which its law expects temperatures to be off.
+#[test]
+fn laws_of_accuracy_are_compared_with_where_bias_begins() {
+    let place = place();
+    let small =
+        ["space.box=[4,4,4]", "interactions.0.friction=24", "output.radial_distribution=null", "time.steps=400"];
+    let own = ["stability", "dpd-fluid", "--out"].map(str::to_owned).into_iter().chain([place.argument("out")]);
+    let set = small.into_iter().flat_map(|set| ["--set", set]).map(str::to_owned);
+    let vary =
+        ["--set", "time.equilibration=100", "--tolerance", "10%", "--bisections", "0", "--vary"].map(str::to_owned);
+    let arguments: Vec<String> = own.chain(set).chain(vary).chain(["time.step=0.01,0.04,0.14".to_owned()]).collect();
+    let said = succeeds(&borrowed(&arguments));
+    assert!(said.contains("the first biased run is at 3.") && said.contains("what the law friction"), "{said}");
+}
