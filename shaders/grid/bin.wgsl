@@ -9,12 +9,16 @@
 
 override CELLS: u32;
 
+// Slot grid/stored: whether a particle is stored at a place. Default: at every place. The plan of pairs chooses `of_rank` for one of
+// several ranks.
+fn is_stored(index: u32) -> bool { return index < PARTICLES; }
+
 // Counts newly uploaded particles into cells; every later step counts as it advances. One invocation a stored particle; reads its
 // position, adds to `counts`, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= PARTICLES) { return; }
+    if (!is_stored(index)) { return; }
     let fraction = fraction_of(stored_position(index));
     put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
@@ -25,7 +29,7 @@ fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
 fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
-    if (index >= PARTICLES) { return; }
+    if (!is_stored(index)) { return; }
     let particle = copied(index);
     let rank = rank_of(index);
     let fraction = fraction_of(copied_position(particle));

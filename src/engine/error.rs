@@ -30,6 +30,12 @@ pub enum EngineError {
         /// The name of the adapter.
         adapter: String,
     },
+    /// Another of the ranks that share a run is lost, or what it sends.
+    #[error("{reason}")]
+    Ranks {
+        /// Which, and what is wrong with it.
+        reason: String,
+    },
     /// A state that does not fit the plan.
     #[error("the state does not fit the plan: {reason}")]
     State {

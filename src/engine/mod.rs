@@ -2,6 +2,7 @@
 //! batch runs. It knows no physics.
 
 mod error;
+mod exchange;
 mod pipeline;
 mod readback;
 mod recording;
@@ -9,6 +10,7 @@ mod texels;
 mod timing;
 
 pub use error::EngineError;
+pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
 pub use timing::{StageClock, StageTime};
 
@@ -20,6 +22,7 @@ use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
 use crate::shaders::Array;
 use crate::state::{State, crossings};
+use exchange::Exchange;
 use pipeline::Stage;
 use readback::Readback;
 use recording::Recording;
@@ -126,6 +129,8 @@ pub struct Engine<'a> {
     pending_rows: Vec<u64>,
     in_flight: VecDeque<Readback>,
     collected: Vec<Sample>,
+    /// How particles pass to other ranks and from them, if there are several.
+    exchange: Option<Exchange<'a>>,
 }
 
 /// Positions with the number of crossings of the box, by id; a state without these numbers counts as the first.
@@ -157,6 +162,24 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device has too little memory, a shader is not valid or the state does not fit.
     pub fn new(gpu: &'a Gpu, plan: Plan, state: &State) -> Result<Self, EngineError> {
+        let mut engine = Self::without_state(gpu, plan)?;
+        engine.upload(state)?;
+        Ok(engine)
+    }
+
+    /// The engine of one of several ranks, which needs its part of a state before it can advance: [`Self::upload_part`].
+    ///
+    /// # Errors
+    /// [`EngineError`] as for [`Self::new`], or if the plan is not of a part.
+    pub fn of_part(gpu: &'a Gpu, plan: Plan, swap: Box<dyn Swap + 'a>) -> Result<Self, EngineError> {
+        let part = plan.part.clone();
+        let part = part.ok_or_else(|| EngineError::State { reason: "the plan is of no part".to_owned() })?;
+        let mut engine = Self::without_state(gpu, plan)?;
+        engine.exchange = Some(Exchange::new(gpu, part, swap, &engine.buffers));
+        Ok(engine)
+    }
+
+    fn without_state(gpu: &'a Gpu, plan: Plan) -> Result<Self, EngineError> {
         let mut buffers = HashMap::new();
         for buffer in &plan.buffers {
             let doing = format!("creating buffer `{}`", buffer.array.name());
@@ -185,7 +208,7 @@ impl<'a> Engine<'a> {
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
         let pending_rows = vec![0; plan.samplers.len()];
-        let mut engine = Self {
+        Ok(Self {
             gpu,
             plan,
             buffers,
@@ -198,9 +221,8 @@ impl<'a> Engine<'a> {
             pending_rows,
             in_flight: VecDeque::new(),
             collected: Vec::new(),
-        };
-        engine.upload(state)?;
-        Ok(engine)
+            exchange: None,
+        })
     }
 
     /// The plan being executed.
@@ -244,15 +266,6 @@ impl<'a> Engine<'a> {
             Misfit::Crowded => EngineError::Crowded { step: state.step },
             Misfit::Missing(reason) => EngineError::State { reason },
         })?;
-        let step = [state.step as u32, (state.step >> 32) as u32];
-        let control = Control {
-            step,
-            next: step,
-            seed_key: self.plan.seed_key,
-            failure_elapsed: u32::MAX,
-            failure_place: u32::MAX,
-            ..Control::default()
-        };
         for (array, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
             match self.textures.get(&array) {
                 Some(texels) => texels.write(self.gpu, words),
@@ -263,14 +276,48 @@ impl<'a> Engine<'a> {
         if let Some(buffer) = self.buffers.get(&Paths::BUFFER) {
             self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&pack_paths(state)?));
         }
+        self.begin(state.step)
+    }
+
+    /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own of all particles and those that it has to know,
+    /// which are given as they are stored. Returns how many of these there are.
+    ///
+    /// # Errors
+    /// [`EngineError::Crowded`] if they are more than the part can store.
+    pub fn upload_part(&mut self, step: u64, particles: &[u32]) -> Result<(), EngineError> {
+        let Some(exchange) = &mut self.exchange else {
+            return Err(EngineError::State { reason: "the plan is of no part".to_owned() });
+        };
+        let needed = exchange.needed(particles);
+        let bytes: &[u8] = bytemuck::cast_slice(&needed);
+        let buffer = &self.buffers[&Array::Particles];
+        if bytes.len() as u64 > buffer.size() {
+            return Err(EngineError::Crowded { step });
+        }
+        self.gpu.queue.write_buffer(buffer, 0, bytes);
+        exchange.begin(needed.len() as u64 / 8);
+        self.begin(step)
+    }
+
+    /// Begins at a step, with the state in place.
+    fn begin(&mut self, first: u64) -> Result<(), EngineError> {
+        let step = [first as u32, (first >> 32) as u32];
+        let control = Control {
+            step,
+            next: step,
+            seed_key: self.plan.seed_key,
+            failure_elapsed: u32::MAX,
+            failure_place: u32::MAX,
+            ..Control::default()
+        };
         self.gpu.queue.write_buffer(&self.buffers[&Array::Control], 0, bytemuck::bytes_of(&control));
         let mut encoder = self.gpu.encoder("upload");
         if let Some(counts) = self.buffers.get(&Array::Counts) {
             encoder.clear_buffer(counts, 0, None);
         }
-        self.step = state.step;
-        self.first_step = state.step;
-        self.record(&mut encoder, &self.plan.prepare);
+        self.step = first;
+        self.first_step = first;
+        self.prepare(&mut encoder, &self.plan.prepare);
         for sampler in &self.plan.samplers {
             // Rows and windows of the state before are discarded.
             encoder.clear_buffer(&self.buffers[&sampler.samples], 0, Some(8));
@@ -319,12 +366,10 @@ impl<'a> Engine<'a> {
             let mut recording = Recording::new(self.gpu, "batch");
             let mut done = 0;
             while done < now && self.room_for_samples() {
-                self.record_sample(&mut recording);
+                self.record_sample(&mut recording)?;
                 let reported = self.phase == Phase::Sorted { reported: true };
                 let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
-                for &kernel in kernels {
-                    recording.dispatch(&self.stages[kernel]);
-                }
+                record(kernels, &self.stages, &mut self.exchange, self.step, &mut recording)?;
                 self.phase = Phase::Advanced;
                 self.step += 1;
                 done += 1;
@@ -343,7 +388,7 @@ impl<'a> Engine<'a> {
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
         let mut recording = Recording::new(self.gpu, "samples at the end");
         if !matches!(self.phase, Phase::Sorted { reported: true }) {
-            self.record_sample(&mut recording);
+            self.record_sample(&mut recording)?;
         }
         self.submit(recording.finish())?;
         self.wait_all()?;
@@ -361,10 +406,37 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed, or if the step has been reported already.
     pub fn state(&mut self) -> Result<State, EngineError> {
-        if self.phase != Phase::Advanced {
-            return Err(EngineError::State { reason: "the current step has been reported already".to_owned() });
-        }
+        self.check_advanced()?;
         self.download()
+    }
+
+    /// The same of one of several ranks: its own particles, as they are stored.
+    ///
+    /// # Errors
+    /// As [`Self::state`], or if the plan is of no part.
+    pub fn own_state(&mut self) -> Result<Vec<u32>, EngineError> {
+        self.check_advanced()?;
+        let particles = self.words(Array::Particles)?;
+        let exchange = self.part()?;
+        Ok(exchange.own_of(&particles))
+    }
+
+    fn check_advanced(&self) -> Result<(), EngineError> {
+        if self.phase == Phase::Advanced {
+            return Ok(());
+        }
+        Err(EngineError::State { reason: "the current step has been reported already".to_owned() })
+    }
+
+    fn part(&self) -> Result<&Exchange<'a>, EngineError> {
+        let none = || EngineError::State { reason: "the plan is of no part".to_owned() };
+        self.exchange.as_ref().ok_or_else(none)
+    }
+
+    /// What has been exchanged with other ranks.
+    #[must_use]
+    pub fn traffic(&self) -> Traffic {
+        self.exchange.as_ref().map(|exchange| exchange.traffic).unwrap_or_default()
     }
 
     /// The particles at the current step, ordered by id, with full-step momenta: what a snapshot shows.
@@ -372,10 +444,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn reported(&mut self) -> Result<State, EngineError> {
-        let mut recording = Recording::new(self.gpu, "report");
-        self.record_sample(&mut recording);
-        self.record_report(&mut recording);
-        self.submit(recording.finish())?;
+        self.report_now()?;
         let Some((buffer, layout)) = self.plan.reported.clone() else {
             let mut state = self.download()?;
             state.predicted.clear();
@@ -386,6 +455,25 @@ impl<'a> Engine<'a> {
         let mut state = state.map_err(|reason| EngineError::State { reason })?;
         self.complete_images(&mut state)?;
         Ok(state)
+    }
+
+    /// The same of one of several ranks: its own particles, as they are stored.
+    ///
+    /// # Errors
+    /// As [`Self::reported`], or if the plan is of no part.
+    pub fn own_reported(&mut self) -> Result<Vec<u32>, EngineError> {
+        self.part()?;
+        self.report_now()?;
+        let (particles, marks) = (self.words(Array::Particles)?, self.words(Array::Owned)?);
+        let counts = self.words(Array::OutgoingCounts)?;
+        Ok(self.part()?.marked_of(&particles, &marks, &counts))
+    }
+
+    fn report_now(&mut self) -> Result<(), EngineError> {
+        let mut recording = Recording::new(self.gpu, "report");
+        self.record_sample(&mut recording)?;
+        self.record_report(&mut recording)?;
+        self.submit(recording.finish())
     }
 
     /// Exchanges that a limit has cut since the upload.
@@ -454,7 +542,7 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn record(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
+    fn prepare(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
         let mut pass = compute_pass(encoder, "preparation");
         for &kernel in kernels {
             self.dispatch(kernel, &mut pass);
@@ -471,7 +559,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Sorts, unless that has been done, and takes the samples that are due.
-    fn record_sample(&mut self, recording: &mut Recording<'_>) {
+    fn record_sample(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         if self.phase == Phase::Advanced {
             if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
                 for &kernel in &self.plan.paths.kernels {
@@ -485,12 +573,12 @@ impl<'a> Engine<'a> {
             self.phase = Phase::Sorted { reported: false };
         } else {
             // Already sorted: the samples of this step have been taken.
-            return;
+            return Ok(());
         }
         let due: Vec<usize> =
             (0..self.plan.samplers.len()).filter(|&sampler| self.plan.samplers[sampler].due(self.step)).collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
-            self.record_report(recording);
+            self.record_report(recording)?;
         }
         for sampler in due {
             for &kernel in &self.plan.samplers[sampler].kernels {
@@ -498,15 +586,15 @@ impl<'a> Engine<'a> {
             }
             self.pending_rows[sampler] += 1;
         }
+        Ok(())
     }
 
-    fn record_report(&mut self, recording: &mut Recording<'_>) {
+    fn record_report(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
-            for &kernel in &self.plan.report {
-                recording.dispatch(&self.stages[kernel]);
-            }
+            record(&self.plan.report, &self.stages, &mut self.exchange, self.step, recording)?;
             self.phase = Phase::Sorted { reported: true };
         }
+        Ok(())
     }
 
     fn room_for_samples(&self) -> bool {
@@ -541,6 +629,9 @@ impl<'a> Engine<'a> {
     }
 
     fn check(&self, control: &Control) -> Result<(), EngineError> {
+        if let Some(step) = self.exchange.as_ref().and_then(|exchange| exchange.crowded) {
+            return Err(EngineError::Crowded { step });
+        }
         if control.failures == 0 {
             return Ok(());
         }
@@ -554,4 +645,21 @@ impl<'a> Engine<'a> {
         }
         Err(EngineError::Unstable(failure))
     }
+}
+
+/// Records kernels, and exchanges particles with other ranks where they ask for it.
+fn record(
+    kernels: &[usize],
+    stages: &[Stage],
+    exchange: &mut Option<Exchange<'_>>,
+    step: u64,
+    recording: &mut Recording<'_>,
+) -> Result<(), EngineError> {
+    for &kernel in kernels {
+        recording.dispatch(&stages[kernel]);
+        if let Some(exchange) = exchange.as_mut().filter(|exchange| exchange.kernel() == kernel) {
+            exchange.pass_on(recording, step)?;
+        }
+    }
+    Ok(())
 }

@@ -110,6 +110,16 @@ pub(crate) fn read(
     size: u64,
     copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
 ) -> Result<Vec<u8>, GpuError> {
+    read_after(gpu, gpu.encoder("readback"), size, copy)
+}
+
+/// The same after what is recorded already.
+pub(super) fn read_after(
+    gpu: &Gpu,
+    mut encoder: wgpu::CommandEncoder,
+    size: u64,
+    copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
+) -> Result<Vec<u8>, GpuError> {
     let staging = gpu.scoped("creating a readback buffer", size, || {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),
@@ -118,7 +128,6 @@ pub(crate) fn read(
             mapped_at_creation: false,
         })
     })?;
-    let mut encoder = gpu.encoder("readback");
     copy(&mut encoder, &staging);
     let (sender, arrival) = mpsc::channel();
     encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {

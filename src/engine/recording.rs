@@ -22,10 +22,15 @@ impl<'a> Recording<'a> {
         let pass = self.pass.get_or_insert_with(|| compute_pass(encoder, label).forget_lifetime());
         stage.dispatch(pass);
         if stage.takes_long {
-            self.pass = None;
-            let full = std::mem::replace(&mut self.encoder, self.gpu.encoder(self.label));
+            let full = self.take();
             self.gpu.queue.submit([full.finish()]);
         }
+    }
+
+    /// What has not been submitted, which the caller submits before more is recorded.
+    pub(super) fn take(&mut self) -> wgpu::CommandEncoder {
+        self.pass = None;
+        std::mem::replace(&mut self.encoder, self.gpu.encoder(self.label))
     }
 
     /// What has not been submitted.

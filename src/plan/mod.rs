@@ -7,6 +7,7 @@ mod grid;
 mod kernel;
 mod layout;
 mod options;
+mod part;
 pub(crate) mod paths;
 mod physics;
 mod precision;
@@ -26,6 +27,7 @@ pub(crate) use kernel::{deviate, folded, words};
 pub use layout::{Layout, Length, Misfit, StateLayout};
 pub(crate) use layout::{Places, content};
 pub use options::{Hardware, Options, Storage, Traversal};
+pub use part::{Division, Domain, Part, PlannedPart};
 pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};
 pub use precision::check_precision;
@@ -117,6 +119,8 @@ pub struct Plan {
     pub reported: Option<(Array, Layout)>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
+    /// What it has of a run that several ranks share, if it is the plan of one of them.
+    pub part: Option<PlannedPart>,
 }
 
 impl Plan {
@@ -149,6 +153,7 @@ impl Plan {
             storage_buffers: 8,
             reported: None,
             operations_per_particle: 0.0,
+            part: None,
         }
     }
 

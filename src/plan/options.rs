@@ -1,5 +1,7 @@
 //! What may be chosen of a plan, by the adapter and by who asks for it, without changing a bit of its results.
 
+use super::Part;
+
 /// What the plan may use of the adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Hardware {
@@ -51,6 +53,8 @@ pub struct Options {
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
+    /// The part of one of several ranks; all of the box if `None`.
+    pub part: Option<Part>,
 }
 
 impl Options {

@@ -25,6 +25,8 @@ pub(crate) struct Measured {
     pub every: u64,
     /// What analyses need.
     pub needs: Vec<Need>,
+    /// The longest distance at which they look for pairs.
+    pub range: f64,
 }
 
 impl Measured {

@@ -11,8 +11,9 @@ fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
     observe_conservative(sums, repulsion_of(c, contact), contact);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
-    observe_configuration(sums, take_gathered_kick(index));
-    // By id, for analyses and trajectories.
-    particles[me.position.w] = me;
+    // All are stored: they go on from here.
+    particles[reported_place(row, index, me.position.w)] = me;
+    let bonded = take_gathered_kick(index);
+    if (is_reported(me.position)) { observe_configuration(sums, bonded); }
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 5u, PAIR_QUANTITIES); }

@@ -21,6 +21,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    if (!is_reported(me.position)) { return; }
     let bonded = gathered_kick(index);
     let kick = sums.kick + bonded + external_kick(me);
     let momentum = steps_of(me.momentum) + clock_closing() * kick;
@@ -28,7 +29,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     observe_configuration(sums.pairs, bonded);
     add_reported_force(momentum_word(kick, 0));
     store_force(me.position.w);
-    // By id, for analyses and trajectories.
-    store_particle(me.position.w, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
+    let place = reported_place(row, index, me.position.w);
+    store_particle(place, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, PAIR_QUANTITIES); }

@@ -64,7 +64,7 @@ impl Builder<'_> {
             self.plan.add_buffer(Array::Slots, 4 * self.particles);
         }
         if self.gathers() {
-            self.plan.add_buffer(Array::Kicks, 16 * (self.particles + self.frame_capacity()));
+            self.plan.add_buffer(Array::Kicks, 16 * (self.slots + self.frame_capacity()));
         }
         kernels
     }

@@ -4,6 +4,7 @@
 mod bond_baths;
 mod bonded;
 mod density;
+mod part;
 mod particle_bath;
 mod stress;
 mod tethers;
@@ -59,6 +60,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         force,
         grid,
         particles,
+        slots: particles,
         traversal,
         options,
         species: Species::of(model),
@@ -66,13 +68,16 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         scans_at_end: traversal == Traversal::Clusters
             && options.suits_serial_memory(hardware)
             && grid.count() <= SCAN_AT_END_CELLS
-            && !needs_levels(grid.count(), options),
+            && !needs_levels(grid.count(), options)
+            && options.part.is_none(),
         scan: Vec::new(),
+        passed_on: Vec::new(),
         plan: empty_plan(model, &grid, options),
     };
     // What ends a step that visits pairs once is no traversal.
     builder.scans_at_end &= !builder.visits_once();
-    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(particles + builder.frame_capacity(), 4);
+    builder.plan_part();
+    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(builder.slots + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
     builder.integration();
@@ -123,6 +128,8 @@ struct Builder<'a> {
     force: &'a PairForce,
     grid: Grid,
     particles: u64,
+    /// Places for particles as they are stored.
+    slots: u64,
     traversal: Traversal,
     options: Options,
     species: Species,
@@ -132,6 +139,8 @@ struct Builder<'a> {
     scans_at_end: bool,
     /// The kernels of that sum on their own.
     scan: Vec<usize>,
+    /// The kernels of one of several ranks that exchange particles where others follow them.
+    passed_on: Vec<usize>,
     plan: Plan,
 }
 
@@ -175,9 +184,9 @@ impl Builder<'_> {
             (Constant::ProbeY, self.grid.ratios[1]),
             (Constant::ProbeZ, self.grid.ratios[2]),
             (Constant::ProbeReach, self.grid.reach_squared),
-            (Constant::Particles, self.particles as f64),
+            (Constant::Particles, self.slots as f64),
             (Constant::Workgroup, self.workgroup_size() as f64),
-            (Constant::Capacity, (self.particles + capacity) as f64),
+            (Constant::Capacity, (self.slots + capacity) as f64),
             (Constant::Cutoff, cutoff),
             (Constant::WeightRootExponent, 0.5 * exponent),
             (Constant::Species, self.model.species.len() as f64),
@@ -247,12 +256,14 @@ impl Builder<'_> {
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model, self.species.have_table()))
+            .and(&self.of_rank())
     }
 
     fn ordering(&mut self) {
-        let bin = self.kernel("bin", Entry::BinParticles, self.choices(), self.particles);
+        let bin = self.kernel("bin", Entry::BinParticles, self.choices(), self.slots);
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting(&self.choices());
+        self.exchange(bin);
         if self.scans_at_end {
             // Every step is begun by the one before, but for the first.
             let scatter = self.plan.sort.split_off(self.plan.sort.len() - 1);
@@ -281,7 +292,7 @@ impl Builder<'_> {
         // The first pass of a split step keeps its hits in the buffer of the particles.
         let whole = self.texels && !self.splits();
         let copied = self.choices().with(if whole { grid::Copied::Particles } else { grid::Copied::Fours });
-        kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.particles.max(self.grid.count())));
+        kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.slots.max(self.grid.count())));
         kernels
     }
 
@@ -451,9 +462,9 @@ impl Builder<'_> {
         let stress = self.stress();
         let densities = self.densities(Masks::Unkept, &mut rows);
         self.plan.before_report = [&bonded.kicks[..], &densities.step].concat();
-        self.plan.advance = vec![advance];
+        self.plan.advance = [&[advance], &self.passed_on[..]].concat();
         self.plan.report = [&densities.report[..], &[report], &bonded.report, &stress, &bonded.stress].concat();
-        self.plan.finish_report = vec![advance];
+        self.plan.finish_report = self.plan.advance.clone();
         rows
     }
 
@@ -489,14 +500,16 @@ impl Builder<'_> {
             (false, _) => Entry::DriftRestBetweenWalls,
         };
         let choices = self.choices().and(&walls::booking(self.model));
-        let rest = self.kernel("drift_rest", entry, choices, self.particles);
+        let rest = self.kernel("drift_rest", entry, choices, self.slots);
         if self.is_sheared() {
             self.plan.kernels[configuration].constants.push(shear::moment(1));
         }
         for kernel in [find, motion, configuration] {
             self.plan.kernels[kernel].constants.push((Constant::Halves, 1.0));
         }
-        let again = self.sorting(&self.choices().with(core::Step::Same));
+        let mut again = self.passed_on.clone();
+        again.extend(self.sorting(&self.choices().with(core::Step::Same)));
+        again.extend(self.mark_owned());
         let mut rows = self.plan.kernels[motion].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = [self.stress(), bonded.stress].concat();
@@ -508,14 +521,14 @@ impl Builder<'_> {
             }
         }
         self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find], &baths].concat();
-        self.plan.advance = vec![relax];
+        self.plan.advance = [&[relax], &self.passed_on[..]].concat();
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
         self.plan.report =
             [&motion_there[..], &again, &bonded.configuration, &densities.report, &[configuration]].concat();
         if self.relaxes_in_two_stages() {
             self.first_stage([relax, relax_to_report, motion], kept);
         }
-        self.plan.finish_report = [&[rest], &self.scan[..]].concat();
+        self.plan.finish_report = [&[rest], &self.passed_on[..], &self.scan].concat();
         rows
     }
 
@@ -619,16 +632,16 @@ impl Builder<'_> {
             // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these.
             self.plan.storage_buffers = self.plan.storage_buffers.max(6 + self.more_buffers());
         }
-        self.plan.add_buffer(Array::Particles, PARTICLE * self.particles);
+        self.plan.add_buffer(Array::Particles, PARTICLE * self.slots);
         if self.texels {
-            let count = self.particles + copies;
+            let count = self.slots + copies;
             self.plan.add_texture(Array::SortedPositions, count);
             self.plan.add_texture(Array::SortedMomenta, count);
             if self.relaxes_in_two_stages() {
                 self.plan.add_texture(Array::StagedMomenta, count);
             }
         } else {
-            let count = self.particles + copies;
+            let count = self.slots + copies;
             self.plan.add_buffer(Array::Sorted, PARTICLE * count);
             if self.relaxes_in_two_stages() {
                 self.plan.add_buffer(Array::Staged, PARTICLE * count);
@@ -639,7 +652,7 @@ impl Builder<'_> {
         }
         self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
         self.plan.add_buffer(Array::Counts, 4 * cells);
-        self.plan.add_buffer(Array::Ranks, 4 * self.particles);
+        self.plan.add_buffer(Array::Ranks, 4 * self.slots);
         self.plan.add_row_sums(rows, cells, self.options);
         if self.scans_at_end {
             self.plan.add_buffer(Array::WorkgroupsDone, 4);
@@ -683,8 +696,8 @@ impl Builder<'_> {
         if self.grid.framed() {
             self.options
                 .copies
-                .unwrap_or(5 * self.particles / (2 * u64::from(self.grid.cells[0])) + 512)
-                .min(self.particles)
+                .unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512)
+                .min(self.slots)
         } else {
             0
         }

@@ -1,0 +1,62 @@
+// The part of the box that one of several ranks advances: which particles are its own, and what other ranks have to know of them.
+//
+// A rank stores its own particles and copies of all others within the halo around its domain, and advances both by the same kernels.
+// Where a step ends, copies are forgotten: whoever owned a particle during the step sends it to all ranks that need it in the next.
+
+// Part of a periodic box, in fractions of it; a width of zero stands for the whole axis.
+struct Domain { low: vec4<u32>, width: vec4<u32> }
+
+override PEERS: u32; // ranks with which particles are exchanged
+override ROOM: u32;  // particles that one of them can be sent in a step
+
+// The domains: that of this rank, the same with its halo, and those of its peers with their halos.
+const OWN: u32 = 0u;
+const NEEDED: u32 = 1u;
+const OF_PEERS: u32 = 2u;
+// The number of a particle that is forgotten.
+const NOBODY: u32 = 0xffffffffu;
+
+fn lies_in(domain: u32, position: vec4<u32>) -> bool {
+    let width = domains[domain].width;
+    return all(((position - domains[domain].low) < width) | (width == vec4<u32>(0u)));
+}
+
+// Notes after a sort which particles are this rank's own in the step, by slot, and how many are stored. One invocation a particle at a
+// time; SEGMENTS workgroups share a row of cells. Reads the sorted particles, `cells` and `domains`; writes `owned` and the last of
+// `outgoing_counts`.
+@compute @workgroup_size(WORKGROUP)
+fn mark_owned(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = linear_workgroup(workgroup);
+    let row = group / SEGMENTS;
+    if (row < rows()) {
+        let end = row_end(row);
+        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
+        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
+            owned[unframed_index(row, index)] = select(0u, 1u, lies_in(OWN, position_at(index)));
+        }
+    }
+    if (group == 0u && lane == 0u) { atomicStore(&outgoing_counts[PEERS], unframed_index(rows() - 1u, row_end(rows() - 1u))); }
+}
+
+// Ends a step or half of a drift: sends on what other ranks need, forgets what this one does not need, and empties the cells, in which
+// particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned` and
+// `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`.
+@compute @workgroup_size(WORKGROUP)
+fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (slot < CELLS) { counts[slot] = 0u; }
+    if (slot >= atomicLoad(&outgoing_counts[PEERS])) { return; }
+    let particle = stored_particle(slot);
+    if (owned[slot] != 0u) {
+        for (var peer = 0u; peer < PEERS; peer++) {
+            if (lies_in(OF_PEERS + peer, particle.position)) {
+                let place = atomicAdd(&outgoing_counts[peer], 1u);
+                if (place < ROOM) { outgoing[peer * ROOM + place] = particle; } else { raise(FAILURE_FRAMES); }
+            }
+        }
+        if (lies_in(NEEDED, particle.position)) { return; }
+    }
+    var nobody = particle;
+    nobody.position.w = NOBODY;
+    store_particle(slot, nobody);
+}
