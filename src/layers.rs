@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 25] = [
+const LAYERS: [&str; 26] = [
     "printable",
     "numbers",
     "table",
@@ -21,6 +21,7 @@ const LAYERS: [&str; 25] = [
     "families",
     "scene",
     "engine",
+    "ranks",
     "measure",
     "output",
     "plot",

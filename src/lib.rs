@@ -50,6 +50,7 @@ pub mod numbers;
 pub mod output;
 pub mod plan;
 pub mod plot;
+pub mod ranks;
 mod prediction;
 pub mod printable;
 pub mod run;

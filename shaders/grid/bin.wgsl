@@ -9,16 +9,18 @@
 
 override CELLS: u32;
 
-// Slot grid/stored: whether a particle is stored at a place. Default: at every place. The plan of pairs chooses `of_rank` for one of
-// several ranks.
-fn is_stored(index: u32) -> bool { return index < PARTICLES; }
+// Slot grid/stored: which particles are stored and sorted. Default: all. The plan of pairs chooses `of_rank` for one of several ranks, which
+// forgets particles and gets others.
+fn stored_count() -> u32 { return PARTICLES; }
+fn forgets(index: u32) -> bool { return false; }
+fn has_no_rank(rank: u32) -> bool { return false; }
 
 // Counts newly uploaded particles into cells; every later step counts as it advances. One invocation a stored particle; reads its
 // position, adds to `counts`, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (!is_stored(index)) { return; }
+    if (index >= stored_count() || forgets(index)) { return; }
     let fraction = fraction_of(stored_position(index));
     put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
 }
@@ -29,9 +31,10 @@ fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
 fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
-    if (!is_stored(index)) { return; }
-    let particle = copied(index);
+    if (index >= stored_count()) { return; }
     let rank = rank_of(index);
+    if (has_no_rank(rank)) { return; }
+    let particle = copied(index);
     let fraction = fraction_of(copied_position(particle));
     let row = row_of(fraction);
     let column = column_of(fraction);

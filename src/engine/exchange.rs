@@ -3,12 +3,12 @@
 use super::readback::read_after;
 use super::{EngineError, recording::Recording};
 use crate::gpu::Gpu;
-use crate::plan::{Domain, Part, PlannedPart};
+use crate::plan::{Domain, PARTICLE_WORDS, Part, PlannedPart};
 use crate::shaders::Array;
 use std::collections::HashMap;
 
 /// Words of a particle.
-const PARTICLE: usize = 8;
+const PARTICLE: usize = PARTICLE_WORDS as usize;
 
 /// The number of a particle that is forgotten: shaders/ranks/domain.wgsl.
 const NOBODY: u32 = u32::MAX;

@@ -6,12 +6,14 @@ mod exchange;
 mod pipeline;
 mod readback;
 mod recording;
+mod stepper;
 mod texels;
 mod timing;
 
 pub use error::EngineError;
 pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
+pub use stepper::Stepper;
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
@@ -19,7 +21,7 @@ use std::mem::offset_of;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
+use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
 use crate::shaders::Array;
 use crate::state::{State, crossings};
 use exchange::Exchange;
@@ -254,18 +256,12 @@ impl<'a> Engine<'a> {
     /// [`EngineError::State`] if the number of particles is not that of the plan or the order is not one of all ids.
     pub fn upload_in_order(&mut self, state: &State, order: &[usize]) -> Result<(), EngineError> {
         let refuse = |reason: String| Err(EngineError::State { reason });
-        if state.len() as u64 != self.plan.particles {
-            return refuse(format!("{} particles, where the plan has {}", state.len(), self.plan.particles));
-        }
         let mut sorted_order = order.to_vec();
         sorted_order.sort_unstable();
         if !sorted_order.iter().copied().eq(0..state.len()) {
             return refuse("the storage order is not an order of all particles".to_owned());
         }
-        let contents = self.plan.layout.pack(state, order).map_err(|misfit| match misfit {
-            Misfit::Crowded => EngineError::Crowded { step: state.step },
-            Misfit::Missing(reason) => EngineError::State { reason },
-        })?;
+        let contents = self.pack(state, order)?;
         for (array, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
             match self.textures.get(&array) {
                 Some(texels) => texels.write(self.gpu, words),
@@ -279,8 +275,25 @@ impl<'a> Engine<'a> {
         self.begin(state.step)
     }
 
+    /// A state as the plan has it in buffers and textures.
+    pub(crate) fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, EngineError> {
+        if state.len() as u64 != self.plan.particles {
+            let reason = format!("{} particles, where the plan has {}", state.len(), self.plan.particles);
+            return Err(EngineError::State { reason });
+        }
+        self.plan.layout.pack(state, order).map_err(|misfit| match misfit {
+            Misfit::Crowded => EngineError::Crowded { step: state.step },
+            Misfit::Missing(reason) => EngineError::State { reason },
+        })
+    }
+
+    /// Leaves the other ranks, which learn of it where they wait for this one.
+    pub(crate) fn leave(&mut self) {
+        self.exchange = None;
+    }
+
     /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own of all particles and those that it has to know,
-    /// which are given as they are stored. Returns how many of these there are.
+    /// which are given as they are stored.
     ///
     /// # Errors
     /// [`EngineError::Crowded`] if they are more than the part can store.
@@ -295,7 +308,7 @@ impl<'a> Engine<'a> {
             return Err(EngineError::Crowded { step });
         }
         self.gpu.queue.write_buffer(buffer, 0, bytes);
-        exchange.begin(needed.len() as u64 / 8);
+        exchange.begin(needed.len() as u64 / u64::from(PARTICLE_WORDS));
         self.begin(step)
     }
 

@@ -35,6 +35,15 @@ impl AdapterChoice {
             Some(name) => Self::Named(name.to_owned()),
         }
     }
+
+    /// The choice of one of several ranks on a machine: each gets one of those that are as good as the best, if none is named.
+    #[must_use]
+    pub(crate) fn of_rank(&self, rank: usize) -> Self {
+        match self {
+            Self::Best => Self::Share(rank),
+            chosen => chosen.clone(),
+        }
+    }
 }
 
 /// What an adapter is.

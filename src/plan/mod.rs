@@ -38,6 +38,9 @@ pub use texture::Texture;
 use crate::shaders::{Array, Constant};
 use crate::state::Units;
 
+/// Words of a particle that passes from rank to rank: `shaders/space/particle`.
+pub(crate) const PARTICLE_WORDS: u32 = 8;
+
 /// Steps after which particles are sorted in memory: rarely enough to cost almost nothing, and often enough that neighbours in space
 /// stay neighbours in memory.
 pub const TIDYING: u64 = 32;

@@ -54,6 +54,7 @@ mod simulation;
 mod sizes;
 mod tally;
 mod task;
+mod team;
 mod trial;
 
 pub use adapter::adapter_for;
@@ -69,6 +70,7 @@ pub use pilot::{ExpectedTime, expected_time};
 pub use plan::plan;
 pub use simulation::Simulation;
 pub use sizes::Sizes;
+pub use team::team;
 pub(crate) use trial::{Stop, Trial};
 
 use crate::gpu::AdapterDescription;

@@ -12,6 +12,7 @@ mod molecules;
 mod pair_coefficients;
 mod particles;
 mod paths;
+mod ranks;
 mod relaxation;
 mod resumed_analyses;
 mod shallow_water;

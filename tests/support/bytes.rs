@@ -1,6 +1,6 @@
 //! The bytes of a run: what has to stay the same whatever changes that is not physics.
 
-use mesoscope::engine::{Engine, EngineError, Sample};
+use mesoscope::engine::{EngineError, Sample, Stepper};
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
@@ -18,7 +18,7 @@ pub struct Bytes {
 }
 
 /// What an engine gives at the end, after samples that were taken from it before.
-pub fn harvest(mut engine: Engine<'_>, mut samples: Vec<Sample>) -> Bytes {
+pub fn harvest(mut engine: impl Stepper, mut samples: Vec<Sample>) -> Bytes {
     let state = engine.state().unwrap();
     let reported = engine.reported().unwrap();
     samples.extend(engine.finish().unwrap());

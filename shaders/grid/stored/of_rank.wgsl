@@ -1,2 +1,10 @@
-// Of several ranks: as many as are stored, without those that were forgotten.
-fn is_stored(index: u32) -> bool { return index < stored && stored_position(index).w != NOBODY; }
+// Of several ranks: as many as are stored, without those that were forgotten, which get no rank in any cell.
+const NO_RANK: u32 = 0xffffffffu;
+
+fn stored_count() -> u32 { return stored; }
+fn forgets(index: u32) -> bool {
+    let forgotten = stored_position(index).w == NOBODY;
+    if (forgotten) { put_rank(index, NO_RANK); }
+    return forgotten;
+}
+fn has_no_rank(rank: u32) -> bool { return rank == NO_RANK; }

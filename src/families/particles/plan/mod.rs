@@ -35,7 +35,8 @@ fn texture_candidates(plan: &Plan) -> Vec<Array> {
     // Where the hits of a split step share the buffer of the particles, it stays one; so it does where a split step has
     // none, because its kernels are the same.
     let splits = |kernel: &Kernel| kernel.choices.has(pairs::Hits::Keep) || kernel.choices.has(pairs::Pass::Kick);
-    if !plan.kernels.iter().any(splits) {
+    // Nor does it where the host adds particles of other ranks.
+    if !plan.kernels.iter().any(splits) && plan.part.is_none() {
         candidates.push(Array::Particles);
     }
     // Where another buffer takes its place in some kernels, it stays one.

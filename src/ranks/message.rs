@@ -1,0 +1,157 @@
+//! What ranks tell each other: a line of JSON, and particles as they are stored.
+
+use crate::engine::{EngineError, Sample, Traffic};
+use crate::plan::Failure;
+use serde::{Deserialize, Serialize};
+
+/// What the first rank tells the others to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Command {
+    /// Begin at a step, with the particles that follow.
+    Upload { step: u64 },
+    /// Advance, in submissions of so many steps.
+    Advance { steps: u64, batch: u64 },
+    /// Take the samples of the step.
+    Finish,
+    /// Give the particles to go on from.
+    State,
+    /// Give the particles of a report.
+    Report,
+    /// Nothing more is to be done.
+    End,
+}
+
+/// What a rank answers.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Answer {
+    /// Rows of sums: sampler, step, sums.
+    pub samples: Vec<(usize, u64, Vec<i64>)>,
+    /// What went wrong, if anything.
+    pub problem: Option<Problem>,
+    /// What it has exchanged until now.
+    pub exchanged: [u64; 3],
+}
+
+/// What went wrong on a rank.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Problem {
+    /// The run became unstable.
+    Unstable { step: u64, bits: u32, place: u32 },
+    /// Too many particles in one place.
+    Crowded { step: u64 },
+    /// The adapter left a loop.
+    GaveUp { step: u64, adapter: String },
+    /// Another rank is lost: whatever ended that is the cause.
+    Alone { reason: String },
+    /// Anything else.
+    Other { reason: String },
+}
+
+impl Problem {
+    pub(super) fn of(error: &EngineError) -> Self {
+        match error {
+            EngineError::Unstable(Failure { step, bits, place }) => {
+                Self::Unstable { step: *step, bits: *bits, place: *place }
+            }
+            EngineError::Crowded { step } => Self::Crowded { step: *step },
+            EngineError::GaveUp { step, adapter } => Self::GaveUp { step: *step, adapter: adapter.clone() },
+            EngineError::Ranks { reason } => Self::Alone { reason: reason.clone() },
+            error => Self::Other { reason: error.to_string() },
+        }
+    }
+
+    /// What is told of the problems of all ranks that have one: what came first, with all that came at the same step; and what is not the
+    /// consequence of something else.
+    pub(super) fn first(problems: &[(u32, Self)]) -> Option<EngineError> {
+        let other = problems.iter().find(|(_, problem)| matches!(problem, Self::Other { .. }));
+        if let Some((rank, Self::Other { reason })) = other {
+            return Some(EngineError::Ranks { reason: format!("rank {rank}: {reason}") });
+        }
+        let step = |problem: &Self| match problem {
+            Self::Unstable { step, .. } | Self::Crowded { step } | Self::GaveUp { step, .. } => Some(*step),
+            _ => None,
+        };
+        let Some(first) = problems.iter().filter_map(|(_, problem)| step(problem)).min() else {
+            let (rank, problem) = problems.first()?;
+            let Self::Alone { reason } = problem else { return None };
+            return Some(EngineError::Ranks { reason: format!("rank {rank}: {reason}") });
+        };
+        let mut failure = Failure { step: first, bits: 0, place: u32::MAX };
+        for (_, problem) in problems.iter().filter(|(_, problem)| step(problem) == Some(first)) {
+            match problem {
+                Self::Crowded { step } => return Some(EngineError::Crowded { step: *step }),
+                Self::GaveUp { step, adapter } => {
+                    return Some(EngineError::GaveUp { step: *step, adapter: adapter.clone() });
+                }
+                Self::Unstable { bits, place, .. } => {
+                    failure.bits |= bits;
+                    failure.place = failure.place.min(*place);
+                }
+                Self::Alone { .. } | Self::Other { .. } => {}
+            }
+        }
+        Some(EngineError::Unstable(failure))
+    }
+}
+
+impl Answer {
+    pub(super) fn of(samples: Vec<Sample>, ended: Result<(), &EngineError>, traffic: Traffic) -> Self {
+        let samples = samples.into_iter().map(|sample| (sample.sampler, sample.step, sample.sums)).collect();
+        let Traffic { exchanges, bytes, copies } = traffic;
+        Self { samples, problem: ended.err().map(Problem::of), exchanged: [exchanges, bytes, copies] }
+    }
+}
+
+/// A line and the words that follow it.
+pub(super) fn written(head: &impl Serialize, words: &[u32]) -> Result<Vec<u8>, String> {
+    let mut bytes = serde_json::to_vec(head).map_err(|error| error.to_string())?;
+    bytes.push(b'\n');
+    bytes.extend_from_slice(bytemuck::cast_slice(words));
+    Ok(bytes)
+}
+
+/// What [`written`] has written.
+pub(super) fn read<Head: for<'de> Deserialize<'de>>(bytes: &[u8]) -> Result<(Head, Vec<u32>), String> {
+    let garbled = || "a message between ranks is garbled".to_owned();
+    let end = bytes.iter().position(|byte| *byte == b'\n').ok_or_else(garbled)?;
+    let head = serde_json::from_slice(&bytes[..end]).map_err(|_| garbled())?;
+    let words = &bytes[end + 1..];
+    if !words.len().is_multiple_of(4) {
+        return Err(garbled());
+    }
+    Ok((head, bytemuck::pod_collect_to_vec(words)))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn messages_come_back_as_they_were() {
+        let answer = Answer { samples: vec![(1, u64::MAX, vec![i64::MIN, 3])], ..Answer::default() };
+        let words = [0, u32::from(b'\n'), u32::MAX];
+        let bytes = written(&answer, &words).unwrap();
+        assert_eq!(read::<Answer>(&bytes).unwrap(), (answer, words.to_vec()));
+        assert!(read::<Answer>(&bytes[..bytes.len() - 1]).is_err() && read::<Command>(&bytes).is_err());
+    }
+
+    #[test]
+    fn what_came_first_is_told() {
+        let unstable = |step, bits, place| Problem::Unstable { step, bits, place };
+        let told = |problems: &[Problem]| {
+            let problems: Vec<(u32, Problem)> = (0..).zip(problems.iter().cloned()).collect();
+            Problem::first(&problems).unwrap().to_string()
+        };
+        let alone = Problem::Alone { reason: "rank 2 has ended".to_owned() };
+        let lost = Problem::Other { reason: "the adapter is lost".to_owned() };
+        assert!(told(&[unstable(7, 1, 9), unstable(5, 2, 4), unstable(9, 4, 1)]).ends_with("at step 5"));
+        assert!(told(&[unstable(5, 1, 9), Problem::Crowded { step: 5 }]).contains("capacity"));
+        assert_eq!(told(&[alone.clone(), lost]), "rank 1: the adapter is lost");
+        assert_eq!(told(&[alone]), "rank 0: rank 2 has ended");
+        assert!(Problem::first(&[]).is_none());
+        let problems = [(0, unstable(5, 2, 9)), (1, unstable(5, 1, 4))];
+        let Some(EngineError::Unstable(failure)) = Problem::first(&problems) else { panic!() };
+        assert_eq!((failure.bits, failure.place), (3, 4));
+    }
+}

@@ -1,0 +1,50 @@
+//! Several ranks that share a run: each advances its part of the box on an adapter of its own, and the results are those of one rank, to
+//! the last bit.
+//!
+//! The first rank decides what is done and writes the files; the others do what it tells them ([`serve`]). Together they look like one
+//! engine ([`Team`]). At the end of every step each rank gives its neighbours the particles that these have to know
+//! ([`crate::engine::Swap`]); sums of integers are added over ranks, in whatever order. How messages pass is behind two small traits,
+//! of which ranks that are threads of one process ([`threads`]) are one case.
+
+mod member;
+mod message;
+mod team;
+pub mod threads;
+
+pub use member::{decline, serve};
+pub use team::Team;
+
+use std::time::Duration;
+
+/// A rank that has not answered by then counts as lost.
+pub const PATIENCE: Duration = Duration::from_mins(10);
+
+/// How the first rank tells the others what to do, and they answer. None of these waits longer than [`PATIENCE`].
+pub trait Channel {
+    /// Number of ranks.
+    fn count(&self) -> u32;
+
+    /// Tells all other ranks something; of the first rank only.
+    ///
+    /// # Errors
+    /// Which rank is lost, in words.
+    fn tell(&mut self, message: &[u8]) -> Result<(), String>;
+
+    /// What the first rank tells; of all others.
+    ///
+    /// # Errors
+    /// That the first rank is lost, in words.
+    fn listen(&mut self) -> Result<Vec<u8>, String>;
+
+    /// Answers the first rank; of all others.
+    ///
+    /// # Errors
+    /// That the first rank is lost, in words.
+    fn answer(&mut self, message: &[u8]) -> Result<(), String>;
+
+    /// The answers of all other ranks in their order; of the first rank only.
+    ///
+    /// # Errors
+    /// Which rank is lost, in words.
+    fn collect(&mut self) -> Result<Vec<Vec<u8>>, String>;
+}

@@ -1,0 +1,167 @@
+//! All ranks of a run, as the first of them sees them: one engine.
+
+use super::Channel;
+use super::member::execute;
+use super::message::{Answer, Command, Problem, read, written};
+use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
+use crate::plan::Plan;
+use crate::state::State;
+use std::collections::BTreeMap;
+
+/// Several ranks that advance one state.
+pub struct Team<'a> {
+    engine: Engine<'a>,
+    channel: Box<dyn Channel + 'a>,
+    /// Rows to which not all ranks have added yet, by step and sampler.
+    incomplete: BTreeMap<(u64, usize), (u32, Vec<i64>)>,
+    collected: Vec<Sample>,
+    traffic: Vec<Traffic>,
+    species: Vec<u32>,
+}
+
+impl<'a> Team<'a> {
+    /// The first rank's engine, with the others behind a channel, at a state.
+    ///
+    /// # Errors
+    /// [`EngineError`] of the first rank that has one.
+    pub fn new(engine: Engine<'a>, channel: Box<dyn Channel + 'a>, state: &State) -> Result<Self, EngineError> {
+        let count = channel.count() as usize;
+        let mut team = Self {
+            engine,
+            channel,
+            incomplete: BTreeMap::new(),
+            collected: Vec::new(),
+            traffic: vec![Traffic::default(); count],
+            species: Vec::new(),
+        };
+        team.upload(state)?;
+        Ok(team)
+    }
+
+    /// Replaces the state of all ranks.
+    ///
+    /// # Errors
+    /// [`EngineError`] if it does not fit, or of the first rank that has one.
+    pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        let order: Vec<usize> = (0..state.len()).collect();
+        let contents = self.engine.pack(state, &order)?;
+        self.species.clone_from(&state.species);
+        let particles = contents.into_iter().next().unwrap_or_default();
+        self.incomplete.clear();
+        self.collected.clear();
+        self.tell(Command::Upload { step: state.step }, &particles).map(|_| ())
+    }
+
+    /// What each rank has exchanged, in their order.
+    #[must_use]
+    pub fn traffic(&self) -> &[Traffic] {
+        &self.traffic
+    }
+
+    /// Lets all ranks do something; the particles that they give, one rank after the other.
+    fn tell(&mut self, command: Command, particles: &[u32]) -> Result<Vec<u32>, EngineError> {
+        let lost = |reason| EngineError::Ranks { reason };
+        self.channel.tell(&written(&command, particles).map_err(lost)?).map_err(lost)?;
+        let (own, mut words) = execute(&mut self.engine, command, particles);
+        let mut problems: Vec<(u32, Problem)> = own.problem.clone().map(|problem| (0, problem)).into_iter().collect();
+        if !problems.is_empty() {
+            self.engine.leave();
+        }
+        self.add(0, own);
+        match self.channel.collect() {
+            Ok(answers) => {
+                for (rank, answer) in (1..).zip(answers) {
+                    let (answer, more): (Answer, Vec<u32>) = read(&answer).map_err(lost)?;
+                    problems.extend(answer.problem.clone().map(|problem| (rank, problem)));
+                    words.extend(more);
+                    self.add(rank as usize, answer);
+                }
+            }
+            // The others cannot go on without it; what it says for itself counts more.
+            Err(reason) if problems.is_empty() => return Err(lost(reason)),
+            Err(_) => {}
+        }
+        Problem::first(&problems).map_or(Ok(words), Err)
+    }
+
+    /// Adds the sums of a rank to those of the others.
+    fn add(&mut self, rank: usize, answer: Answer) {
+        let count = self.channel.count();
+        let [exchanges, bytes, copies] = answer.exchanged;
+        if let Some(traffic) = self.traffic.get_mut(rank) {
+            *traffic = Traffic { exchanges, bytes, copies };
+        }
+        for (sampler, step, sums) in answer.samples {
+            let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
+            *added += 1;
+            for (total, sum) in total.iter_mut().zip(sums) {
+                *total = total.wrapping_add(sum);
+            }
+        }
+        while let Some(entry) = self.incomplete.first_entry().filter(|entry| entry.get().0 == count) {
+            let ((step, sampler), (_, sums)) = entry.remove_entry();
+            self.collected.push(Sample { sampler, step, sums });
+        }
+    }
+
+    /// A state of the particles of all ranks.
+    fn joined(&self, words: &[u32], reported: bool) -> Result<State, EngineError> {
+        let plan = self.engine.plan();
+        let count = plan.particles as usize;
+        let problem = |reason: String| EngineError::Ranks { reason };
+        let layout = match &plan.reported {
+            Some((_, layout)) if reported => layout,
+            _ => &plan.layout,
+        };
+        if words.len() as u64 != plan.particles * u64::from(crate::plan::PARTICLE_WORDS) {
+            return Err(problem("particles were lost between ranks".to_owned()));
+        }
+        let mut state = layout.unpack(self.engine.step(), &[words], count).map_err(problem)?;
+        if state.species.is_empty() {
+            state.species.clone_from(&self.species);
+        }
+        Ok(state)
+    }
+}
+
+impl Stepper for Team<'_> {
+    fn plan(&self) -> &Plan {
+        self.engine.plan()
+    }
+
+    fn step(&self) -> u64 {
+        self.engine.step()
+    }
+
+    fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
+        self.tell(Command::Advance { steps, batch }, &[]).map(|_| ())
+    }
+
+    fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
+        self.tell(Command::Finish, &[])?;
+        Ok(self.take_samples())
+    }
+
+    fn take_samples(&mut self) -> Vec<Sample> {
+        std::mem::take(&mut self.collected)
+    }
+
+    fn state(&mut self) -> Result<State, EngineError> {
+        let words = self.tell(Command::State, &[])?;
+        self.joined(&words, false)
+    }
+
+    fn reported(&mut self) -> Result<State, EngineError> {
+        let words = self.tell(Command::Report, &[])?;
+        let mut state = self.joined(&words, true)?;
+        state.predicted.clear();
+        Ok(state)
+    }
+}
+
+impl Drop for Team<'_> {
+    fn drop(&mut self) {
+        // Ranks that have ended already need not be told.
+        let _ = written(&Command::End, &[]).and_then(|message| self.channel.tell(&message));
+    }
+}
