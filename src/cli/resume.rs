@@ -6,7 +6,7 @@ use mesoscope::output::files;
 use mesoscope::run::Simulation;
 use mesoscope::{printable, sweep};
 
-use super::{AdapterArgument, Failure, print, report, whole_number};
+use super::{AdapterArgument, Failure, RanksArgument, print, report, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -21,6 +21,9 @@ pub struct Arguments {
     /// Step at which to stop [default: the number of steps in the scene]
     #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     steps: Option<u64>,
+
+    #[command(flatten)]
+    ranks: RanksArgument,
 
     #[command(flatten)]
     adapter: AdapterArgument,
@@ -47,5 +50,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
+    let division = arguments.ranks.division(simulation.scene(), simulation.model(), &arguments.adapter)?;
+    let simulation = simulation.on_ranks(division);
     report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use mesoscope::printable;
 use mesoscope::run::Simulation;
 
-use super::{Failure, RunArguments, SceneArguments, report};
+use super::{Failure, RanksArgument, RunArguments, SceneArguments, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -16,6 +16,7 @@ Examples:
   mesoscope run dpd-fluid --steps 200 --seed 7           a short try with other random numbers
   mesoscope run dpd-fluid --set time.step=0.02 --set integrator.type=groot-warren
   mesoscope run dpd-fluid --adapter software
+  mesoscope run my-scene.json --ranks auto               on all graphics cards of this machine
 
 Ctrl-C saves a checkpoint and stops; `mesoscope resume` continues from there.")]
 pub struct Arguments {
@@ -27,6 +28,9 @@ pub struct Arguments {
     out: Option<PathBuf>,
 
     #[command(flatten)]
+    ranks: RanksArgument,
+
+    #[command(flatten)]
     how: RunArguments,
 }
 
@@ -36,5 +40,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
+    let division = arguments.ranks.division(simulation.scene(), simulation.model(), &arguments.how.adapter)?;
+    let simulation = simulation.on_ranks(division);
     report::execute(simulation, &arguments.how.adapter.choice(), &shown, arguments.how.quiet)
 }

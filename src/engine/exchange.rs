@@ -6,6 +6,7 @@ use crate::gpu::Gpu;
 use crate::plan::{Domain, PARTICLE_WORDS, Part, PlannedPart};
 use crate::shaders::Array;
 use std::collections::HashMap;
+use std::time::{Duration, Instant};
 
 /// Words of a particle.
 const PARTICLE: usize = PARTICLE_WORDS as usize;
@@ -31,6 +32,8 @@ pub struct Traffic {
     pub bytes: u64,
     /// Copies of particles of others that were stored, summed over the exchanges.
     pub copies: u64,
+    /// Time spent waiting for peers.
+    pub waiting: Duration,
 }
 
 /// The exchange of one rank.
@@ -142,8 +145,10 @@ impl<'a> Exchange<'a> {
         // A little more than this time: a second look costs as much as the first.
         self.guesses = counts.iter().map(|count| (count + count / 32 + 16).min(self.part.room)).collect();
         let parcels: Vec<&[u8]> = parcels.iter().map(Vec::as_slice).collect();
+        let begun = Instant::now();
         let arrived = self.swap.swap(&self.part.part, &self.part.peers, &parcels);
         let arrived = arrived.map_err(|reason| EngineError::Ranks { reason })?;
+        self.traffic.waiting += begun.elapsed();
         self.traffic.exchanges += 1;
         self.traffic.bytes += parcels.iter().map(|parcel| parcel.len() as u64).sum::<u64>();
         let mut stored = u64::from(sorted);

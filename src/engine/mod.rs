@@ -233,6 +233,12 @@ impl<'a> Engine<'a> {
         &self.plan
     }
 
+    /// The name of the adapter.
+    #[must_use]
+    pub fn adapter(&self) -> &str {
+        &self.gpu.description().name
+    }
+
     /// The current step.
     #[must_use]
     pub fn step(&self) -> u64 {

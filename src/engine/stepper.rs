@@ -1,6 +1,6 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Engine, EngineError, Sample};
+use super::{Engine, EngineError, Sample, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::State;
@@ -15,6 +15,11 @@ pub trait Stepper {
     fn take_samples(&mut self) -> Vec<Sample>;
     fn state(&mut self) -> Result<State, EngineError>;
     fn reported(&mut self) -> Result<State, EngineError>;
+
+    /// Adapter and exchanges of each rank, of several.
+    fn shared(&self) -> Vec<(&str, Traffic)> {
+        Vec::new()
+    }
 
     /// Exchanges that a limit has cut, of what has any.
     fn limited_exchanges(&mut self) -> Result<u64, EngineError> {

@@ -194,6 +194,11 @@ pub(crate) trait Physics {
     /// Refuses a time step that is certainly unstable.
     fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
 
+    /// What of it several ranks cannot share, in words; nothing where they can share all.
+    fn unshared(&self, _: &Model) -> Vec<String> {
+        vec!["scenes of this kind run on one rank: only particles with pair forces can be shared".to_owned()]
+    }
+
     /// The plan of steps and reports, with what is measured.
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan;
 

@@ -36,6 +36,9 @@ pub struct Summary {
     pub run_id: Id,
     /// The adapter the run computed on.
     pub adapter: AdapterSummary,
+    /// The ranks that shared the run, if there were several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<RanksSummary>,
     /// Number of particles.
     pub particles: u64,
     /// Step of the last state.
@@ -139,6 +142,30 @@ impl fmt::Display for Unequilibrated {
     }
 }
 
+/// The ranks that shared a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct RanksSummary {
+    /// Parts of the box on each axis.
+    pub parts: [u32; 3],
+    /// How far around its part a rank knew the particles.
+    pub halo: f64,
+    /// Each rank.
+    pub ranks: Vec<RankSummary>,
+}
+
+/// One of the ranks that shared a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct RankSummary {
+    /// The adapter it computed on.
+    pub adapter: String,
+    /// Particles of other ranks that it got at the end of a step, on average.
+    pub copies: f64,
+    /// Bytes that it sent at the end of a step, on average.
+    pub bytes_per_step: f64,
+    /// Seconds a step that it waited for other ranks, on average.
+    pub seconds_waiting: f64,
+}
+
 /// The adapter a run computed on.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct AdapterSummary {
@@ -165,6 +192,7 @@ impl Summary {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             run_id,
             adapter,
+            ranks: None,
             particles,
             steps: 0,
             wall_seconds: 0.0,

@@ -84,12 +84,12 @@ impl Division {
     /// a step is no concern of the part after the next.
     #[must_use]
     pub fn suits(&self, units: &Units, halo: f64, reach: f64) -> bool {
-        (0..3).all(|axis| self.parts[axis] <= self.most_parts(units, halo, reach, axis))
+        (0..3).all(|axis| self.parts[axis] <= Self::most_parts(units, halo, reach, axis))
     }
 
-    /// The most parts of an axis.
+    /// The most parts of an axis that suit.
     #[must_use]
-    pub fn most_parts(&self, units: &Units, halo: f64, reach: f64, axis: usize) -> u32 {
+    pub fn most_parts(units: &Units, halo: f64, reach: f64, axis: usize) -> u32 {
         if axis >= units.dimension {
             return 1;
         }
@@ -262,6 +262,6 @@ mod tests {
         // Too thin for that, or as wide as the box with their halos.
         assert!(!Division { parts: [1, 1, 4] }.suits(&UNITS, halo, reach));
         assert!(!Division { parts: [1, 1, 2] }.suits(&UNITS, 2.0, reach));
-        assert_eq!(Division { parts: [1; 3] }.most_parts(&UNITS, halo, reach, 2), 3);
+        assert_eq!(Division::most_parts(&UNITS, halo, reach, 2), 3);
     }
 }

@@ -23,7 +23,11 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
         Ok(words) => (Ok(()), words),
         Err(error) => (Err(error), Vec::new()),
     };
-    (Answer::of(samples, ended.as_ref().map(|()| ()), engine.traffic()), words)
+    let mut answer = Answer::of(samples, ended.as_ref().map(|()| ()), engine.traffic());
+    if matches!(command, Command::Upload { .. }) {
+        engine.adapter().clone_into(&mut answer.adapter);
+    }
+    (answer, words)
 }
 
 /// Does what the first rank tells until there is nothing more to do.

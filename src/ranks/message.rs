@@ -28,8 +28,10 @@ pub(super) struct Answer {
     pub samples: Vec<(usize, u64, Vec<i64>)>,
     /// What went wrong, if anything.
     pub problem: Option<Problem>,
-    /// What it has exchanged until now.
-    pub exchanged: [u64; 3],
+    /// What it has exchanged until now: times, bytes, copies, nanoseconds.
+    pub exchanged: [u64; 4],
+    /// The adapter, at the beginning.
+    pub adapter: String,
 }
 
 /// What went wrong on a rank.
@@ -97,8 +99,9 @@ impl Problem {
 impl Answer {
     pub(super) fn of(samples: Vec<Sample>, ended: Result<(), &EngineError>, traffic: Traffic) -> Self {
         let samples = samples.into_iter().map(|sample| (sample.sampler, sample.step, sample.sums)).collect();
-        let Traffic { exchanges, bytes, copies } = traffic;
-        Self { samples, problem: ended.err().map(Problem::of), exchanged: [exchanges, bytes, copies] }
+        let Traffic { exchanges, bytes, copies, waiting } = traffic;
+        let exchanged = [exchanges, bytes, copies, waiting.as_nanos() as u64];
+        Self { samples, problem: ended.err().map(Problem::of), exchanged, adapter: String::new() }
     }
 }
 

@@ -7,6 +7,7 @@ use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
 use crate::plan::Plan;
 use crate::state::State;
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// Several ranks that advance one state.
 pub struct Team<'a> {
@@ -16,6 +17,7 @@ pub struct Team<'a> {
     incomplete: BTreeMap<(u64, usize), (u32, Vec<i64>)>,
     collected: Vec<Sample>,
     traffic: Vec<Traffic>,
+    adapters: Vec<String>,
     species: Vec<u32>,
 }
 
@@ -32,6 +34,7 @@ impl<'a> Team<'a> {
             incomplete: BTreeMap::new(),
             collected: Vec::new(),
             traffic: vec![Traffic::default(); count],
+            adapters: vec![String::new(); count],
             species: Vec::new(),
         };
         team.upload(state)?;
@@ -56,6 +59,12 @@ impl<'a> Team<'a> {
     #[must_use]
     pub fn traffic(&self) -> &[Traffic] {
         &self.traffic
+    }
+
+    /// The adapter of each rank, in their order.
+    #[must_use]
+    pub fn adapters(&self) -> &[String] {
+        &self.adapters
     }
 
     /// Lets all ranks do something; the particles that they give, one rank after the other.
@@ -87,9 +96,12 @@ impl<'a> Team<'a> {
     /// Adds the sums of a rank to those of the others.
     fn add(&mut self, rank: usize, answer: Answer) {
         let count = self.channel.count();
-        let [exchanges, bytes, copies] = answer.exchanged;
+        let [exchanges, bytes, copies, waiting] = answer.exchanged;
         if let Some(traffic) = self.traffic.get_mut(rank) {
-            *traffic = Traffic { exchanges, bytes, copies };
+            *traffic = Traffic { exchanges, bytes, copies, waiting: Duration::from_nanos(waiting) };
+        }
+        if let Some(adapter) = self.adapters.get_mut(rank).filter(|_| !answer.adapter.is_empty()) {
+            *adapter = answer.adapter;
         }
         for (sampler, step, sums) in answer.samples {
             let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
@@ -125,6 +137,10 @@ impl<'a> Team<'a> {
 }
 
 impl Stepper for Team<'_> {
+    fn shared(&self) -> Vec<(&str, Traffic)> {
+        self.adapters.iter().map(String::as_str).zip(self.traffic.iter().copied()).collect()
+    }
+
     fn plan(&self) -> &Plan {
         self.engine.plan()
     }

@@ -88,6 +88,12 @@ pub enum RunError {
     /// The checkpoint cannot be resumed from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// Several ranks cannot share the run.
+    #[error("several ranks cannot share this run:\n  {}", .reasons.join("\n  "))]
+    Undividable {
+        /// Everything that hinders.
+        reasons: Vec<String>,
+    },
     /// A change to the scene of a run does not fit.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -11,11 +11,11 @@ use super::sections::Sections;
 use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
-use crate::engine::{Engine, Sample};
+use crate::engine::{Sample, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
-use crate::output::summary::AdapterSummary;
+use crate::output::summary::{AdapterSummary, RanksSummary};
 use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -50,6 +50,8 @@ pub(super) struct Run<'a> {
     pictures: Pictures<'a>,
     /// What was done to the scene before the run.
     pub notices: &'a [String],
+    /// The ranks that share the run, if there are several.
+    pub ranks: Option<RanksSummary>,
     /// Step of the checkpoint on disk.
     pub saved_step: u64,
     /// When it was written.
@@ -61,7 +63,7 @@ impl<'a> Run<'a> {
     pub(super) fn open(
         task: &'a Task,
         gpu: &'a Gpu,
-        engine: &mut Engine<'_>,
+        engine: &mut dyn Stepper,
         start: &Checkpoint,
     ) -> Result<Self, RunError> {
         let Task { id, scene, model, directory, .. } = task;
@@ -109,6 +111,7 @@ impl<'a> Run<'a> {
             trajectory,
             pictures,
             notices: &[],
+            ranks: None,
             saved_step: step,
             saved_at: Instant::now(),
         })
@@ -116,7 +119,7 @@ impl<'a> Run<'a> {
 
     pub(super) fn advance_to_end(
         &mut self,
-        engine: &mut Engine<'_>,
+        engine: &mut dyn Stepper,
         pace: &mut Pace,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
@@ -157,7 +160,7 @@ impl<'a> Run<'a> {
     }
 
     /// Does what is due at the current step: a checkpoint, then the samples, then pictures and frames.
-    fn visit(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+    fn visit(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<(), RunError> {
         let step = engine.step();
         if self.schedule.checkpoint(step) {
             self.save(engine, pace)?;
@@ -198,7 +201,7 @@ impl<'a> Run<'a> {
     }
 
     /// Saves a checkpoint.
-    fn save(&mut self, engine: &mut Engine<'_>, pace: &mut Pace) -> Result<(), RunError> {
+    fn save(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<(), RunError> {
         let state = engine.state();
         pace.finished();
         let samples = engine.take_samples();
@@ -278,6 +281,7 @@ impl<'a> Run<'a> {
             summary.particle_steps_per_second = earlier.particle_steps_per_second;
         }
         summary.warnings = warnings;
+        summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
         self.analyses.conclude(self.directory, &mut summary, &|| self.obey())?;
         let changed = self.kept_sums.lost();

@@ -37,6 +37,7 @@ mod adapter;
 mod analyses;
 mod colour_ranges;
 mod conservation;
+mod division;
 mod energies;
 mod energy_rows;
 mod error;
@@ -58,6 +59,7 @@ mod team;
 mod trial;
 
 pub use adapter::adapter_for;
+pub use division::{Ranks, divide};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub(crate) use energies::{quantities, read as read_energies};

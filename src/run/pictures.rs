@@ -4,7 +4,7 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
-use crate::engine::Engine;
+use crate::engine::{Engine, Stepper};
 use crate::families::pictures::{CellValues, EnergyChart, MeshPictures, ValueScale};
 use crate::families::{Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
@@ -75,7 +75,7 @@ pub fn redraw(
 }
 
 /// The smoothed depth on the nodes of the mesh, right after a report.
-pub(super) fn mesh_depth(engine: &mut Engine<'_>, model: &Model) -> Result<Vec<f64>, RunError> {
+pub(super) fn mesh_depth(engine: &mut dyn Stepper, model: &Model) -> Result<Vec<f64>, RunError> {
     let words = engine.words(Array::Depths)?;
     Ok(words.iter().take(model.physics().nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
 }

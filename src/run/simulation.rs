@@ -7,13 +7,15 @@ use super::pace::Pace;
 use super::pictures;
 use super::plan::plan;
 use super::task::Task;
+use super::team;
 use super::{Event, RunError};
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, Stepper, Traffic};
 use crate::families::{self, Instability, Model};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
+use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
-use crate::plan::{Hardware, Options, Plan};
+use crate::plan::{Division, Hardware, Options, Part, Plan};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -27,6 +29,8 @@ pub struct Simulation {
     /// What was done to the scene before the run, for its summary.
     notices: Vec<String>,
     id: Id,
+    /// How the box is divided among several ranks, if it is.
+    division: Option<Division>,
 }
 
 #[derive(Debug, Clone)]
@@ -51,7 +55,7 @@ impl Simulation {
         let beginning = Beginning::New { directory: directory.into(), force };
         let id = Id::of_run(&scene);
         let model = Model::new(&scene);
-        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id }
+        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id, division: None }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -102,7 +106,7 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id })
+        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id, division: None })
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -127,6 +131,12 @@ impl Simulation {
     #[must_use]
     pub fn until(self, interrupt: &Interrupt) -> Self {
         Self { interrupt: interrupt.clone(), ..self }
+    }
+
+    /// The same run on several ranks, threads of this process with an adapter each, which divide the box: with the results of one.
+    #[must_use]
+    pub fn on_ranks(self, division: Option<Division>) -> Self {
+        Self { division: division.filter(|division| division.ranks() > 1), ..self }
     }
 
     /// The model of the scene.
@@ -172,8 +182,9 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        let Self { scene, model, beginning, interrupt, notices, id } = self;
-        let mut options = Options::default();
+        let Self { scene, model, beginning, interrupt, notices, id, division } = self;
+        let part = division.map(|division| Part { division, rank: 0 });
+        let mut options = Options { part, ..Options::default() };
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
         let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
         let (directory, mut start, earlier) = match beginning {
@@ -191,7 +202,8 @@ impl Simulation {
         let mut pace = Pace::new(model.particle_count());
         let task = Task { id, scene, model, directory, interrupt, notices, earlier };
         loop {
-            match attempt(&task, &gpu, plan, &start, &mut pace, observer) {
+            let opened = open(&task, &gpu, plan, choice, options, &start);
+            match opened.and_then(|mut engine| attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
                     // Too rare for every run to pay for it in memory or time.
                     options = options.with_room(task.model.particle_count());
@@ -206,19 +218,35 @@ impl Simulation {
     }
 }
 
+/// The engine that advances a run, or the ranks that do so together.
+fn open<'a>(
+    task: &Task,
+    gpu: &'a Gpu,
+    plan: Plan,
+    choice: &AdapterChoice,
+    options: Options,
+    start: &Checkpoint,
+) -> Result<Box<dyn Stepper + 'a>, RunError> {
+    Ok(match options.part {
+        Some(Part { division, .. }) => {
+            Box::new(team::team((&task.scene, &task.model), gpu, choice, division, options, &start.state)?)
+        }
+        None => Box::new(Engine::new(gpu, plan, &start.state)?),
+    })
+}
+
 /// Runs from `start` to the end.
 fn attempt(
     task: &Task,
     gpu: &Gpu,
-    plan: Plan,
+    engine: &mut (dyn Stepper + '_),
     start: &Checkpoint,
     pace: &mut Pace,
     observer: &mut dyn FnMut(Event<'_>),
 ) -> Result<Outcome, RunError> {
-    let mut engine = Engine::new(gpu, plan, &start.state)?;
-    let mut run = Run::open(task, gpu, &mut engine, start)?;
+    let mut run = Run::open(task, gpu, engine, start)?;
     run.notices = &task.notices;
-    match run.advance_to_end(&mut engine, pace, observer) {
+    match run.advance_to_end(engine, pace, observer) {
         Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
             run.energies.flush()?;
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
@@ -233,6 +261,7 @@ fn attempt(
         Err(error) => return Err(task.stopped(error, run.saved_step)),
         Ok(()) => {}
     }
+    run.ranks = ranks(engine);
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
     warnings.extend(task.model.warnings(&task.scene).iter().map(ToString::to_string));
@@ -240,4 +269,20 @@ fn attempt(
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;
     run.conclude(warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))
+}
+
+/// The ranks that have shared a run, if there are several.
+fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
+    let part = engine.plan().part.as_ref()?;
+    let of_rank = |(adapter, traffic): (&str, Traffic)| {
+        let steps = traffic.exchanges.max(1) as f64;
+        RankSummary {
+            adapter: adapter.to_owned(),
+            copies: traffic.copies as f64 / steps,
+            bytes_per_step: traffic.bytes as f64 / steps,
+            seconds_waiting: traffic.waiting.as_secs_f64() / steps,
+        }
+    };
+    let ranks = engine.shared().into_iter().map(of_rank).collect();
+    Some(RanksSummary { parts: part.part.division.parts, halo: part.halo, ranks })
 }

@@ -2,7 +2,7 @@
 
 use super::RunError;
 use super::sections::{Sections, bytes};
-use crate::engine::Engine;
+use crate::engine::Stepper;
 use crate::families::{Counted, Model};
 use crate::measure::Observables;
 use crate::output::checkpoint::CheckpointError;
@@ -38,7 +38,7 @@ impl Carried {
     pub(super) fn section(
         &self,
         model: &Model,
-        engine: &mut Engine<'_>,
+        engine: &mut dyn Stepper,
     ) -> Result<Option<(String, Vec<u8>)>, RunError> {
         let Some(tally) = model.physics().tally() else { return Ok(None) };
         let limited = engine.limited_exchanges()?;

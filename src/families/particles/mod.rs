@@ -298,6 +298,24 @@ impl Physics for Particles {
         }
     }
 
+    fn unshared(&self, _: &Model) -> Vec<String> {
+        let there = [
+            (!self.walls.is_empty(), "`space.walls`"),
+            (self.shear.is_some(), "`space.shear`"),
+            (self.body_forces.is_some(), "body forces"),
+            (self.are_bonded(), "bonds and angles"),
+            (self.tether.is_some(), "tethers"),
+            (self.chains.is_some(), "harmonic chains"),
+            (self.coloured_noise.is_some(), "coloured noise"),
+        ];
+        let mut found: Vec<String> =
+            there.iter().filter(|(there, _)| *there).map(|(_, what)| format!("{what}: on one rank only")).collect();
+        if found.is_empty() && self.are_coupled {
+            found.push("baths with memory, lists of neighbours and fixed particles: on one rank only".to_owned());
+        }
+        found
+    }
+
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
         let may_be_listed = self.walls.is_empty()
             && self.shear.is_none()

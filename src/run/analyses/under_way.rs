@@ -2,7 +2,7 @@
 
 use super::describe;
 use super::descriptor::{Analysis, Conclusion, Gathering, OfSamples, OfStates, Sampling, Setting};
-use crate::engine::{Engine, Sample};
+use crate::engine::{Sample, Stepper};
 use crate::families::Model;
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{OutputError, RunDirectory, Summary, write_table};
@@ -82,7 +82,7 @@ impl Analyses {
     /// [`RunError::Checkpoint`] where one is missing or of another length.
     pub(in crate::run) fn continue_windows(
         &self,
-        engine: &mut Engine<'_>,
+        engine: &mut dyn Stepper,
         sections: &Sections<'_>,
     ) -> Result<(), RunError> {
         for Sampled { id, sampler, .. } in &self.sampled {
@@ -135,7 +135,7 @@ impl Analyses {
     ///
     /// # Errors
     /// [`RunError`] if the device failed.
-    pub(in crate::run) fn open_windows(&self, engine: &mut Engine<'_>) -> Result<Vec<(String, Vec<u8>)>, RunError> {
+    pub(in crate::run) fn open_windows(&self, engine: &mut dyn Stepper) -> Result<Vec<(String, Vec<u8>)>, RunError> {
         let mut sections = Vec::new();
         for Sampled { id, sampler, .. } in &self.sampled {
             if let Some((buffer, _)) = engine.plan().samplers[*sampler].open_window(engine.step()) {

@@ -1,0 +1,100 @@
+//! The argument that says how many ranks share a run.
+
+use mesoscope::families::Model;
+use mesoscope::gpu::{AdapterDescription, list_adapters};
+use mesoscope::plan::Division;
+use mesoscope::run::{self, Ranks};
+use mesoscope::scene::Scene;
+
+use super::{AdapterArgument, Failure, line};
+
+/// How many ranks.
+#[derive(Debug, clap::Args)]
+pub struct RanksArgument {
+    /// Share the run among this many ranks, each with an adapter of its own, which divide the box; results are those of one, to the last
+    /// bit. `1,2,2` says how many along each axis, `auto` takes one for each adapter that is as good as the best [default: 1]
+    #[arg(long, value_name = "N", value_parser = asked, allow_negative_numbers = true)]
+    ranks: Option<Asked>,
+}
+
+/// What was asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Asked {
+    Auto,
+    Count(u32),
+    Along(Vec<u32>),
+}
+
+fn asked(text: &str) -> Result<Asked, String> {
+    if text == "auto" {
+        return Ok(Asked::Auto);
+    }
+    let numbers = text.split(',').map(|number| number.trim().parse().ok().filter(|number| *number > 0));
+    match numbers.collect::<Option<Vec<u32>>>().as_deref() {
+        Some([count]) => Ok(Asked::Count(*count)),
+        Some(along) if along.len() <= 3 => Ok(Asked::Along(along.to_vec())),
+        _ => Err("accepted: `auto`, a whole number from 1 on, or one for each axis of the box, as `1,2,2`".to_owned()),
+    }
+}
+
+impl RanksArgument {
+    /// The division of a scene's box; none for one rank.
+    pub fn division(&self, scene: &Scene, model: &Model, adapter: &AdapterArgument) -> Result<Option<Division>, Failure> {
+        let alike = adapter.alike();
+        let ranks = match &self.ranks {
+            None => return Ok(None),
+            Some(Asked::Auto) => Ranks::Count(alike),
+            Some(Asked::Count(count)) => Ranks::Count(*count),
+            Some(Asked::Along(along)) => {
+                let dimension = scene.space.lengths.len();
+                let mut parts = [1; 3];
+                if along.len() != dimension {
+                    let text = along.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
+                    return Err(Failure::usage(format!(
+                        "`--ranks {text}` has {} numbers, where the box has {dimension} axes",
+                        along.len()
+                    )));
+                }
+                parts[..dimension].copy_from_slice(along);
+                Ranks::Parts(parts)
+            }
+        };
+        let division = run::divide(scene, model, ranks)?;
+        if division.ranks() > alike {
+            line(&format!(
+                "warning: {} ranks share {alike} {}: they take turns on it",
+                division.ranks(),
+                if alike == 1 { "adapter" } else { "adapters" }
+            ));
+        }
+        Ok((division.ranks() > 1).then_some(division))
+    }
+}
+
+impl AdapterArgument {
+    /// Number of adapters that ranks get by turns: those that are as good as the best, or the one that was named.
+    fn alike(&self) -> u32 {
+        if self.is_named() {
+            return 1;
+        }
+        let adapters = list_adapters();
+        let best = adapters.first();
+        let alike = |other: &&AdapterDescription| best.is_some_and(|best| best.kind == other.kind && best.backend == other.backend);
+        (adapters.iter().filter(alike).count() as u32).max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Asked, asked};
+
+    #[test]
+    fn ranks_are_a_number_or_one_for_each_axis() {
+        assert_eq!(asked("auto"), Ok(Asked::Auto));
+        assert_eq!(asked("8"), Ok(Asked::Count(8)));
+        assert_eq!(asked("1,2,2"), Ok(Asked::Along(vec![1, 2, 2])));
+        for wrong in ["0", "-1", "a,b", "1,2,3,4,5", "2,0", "", "1.5"] {
+            assert!(asked(wrong).is_err(), "{wrong}");
+        }
+    }
+}

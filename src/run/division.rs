@@ -1,0 +1,132 @@
+//! How the box of a scene is divided among ranks, if it can be.
+
+use super::RunError;
+use super::plan::plan;
+use crate::families::Model;
+use crate::numbers::grouped;
+use crate::plan::{Division, Hardware, Options, Part, SamplerId};
+use crate::scene::{AnalysisId, Scene};
+
+/// The most ranks that are looked for.
+const MOST: u32 = 4096;
+
+/// What a user asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ranks {
+    /// So many, however the box is best divided.
+    Count(u32),
+    /// So many on each axis.
+    Parts([u32; 3]),
+}
+
+/// The division of a scene's box among ranks: as asked, or with the fewest copies of particles.
+///
+/// ```
+/// use mesoscope::run::{Ranks, divide};
+/// use mesoscope::{families::Model, scene};
+///
+/// let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
+/// let model = Model::new(&scene);
+/// assert_eq!(divide(&scene, &model, Ranks::Count(8))?.parts, [2, 2, 2]);
+/// let error = divide(&scene, &model, Ranks::Count(7)).unwrap_err().to_string();
+/// assert!(error.contains("6 ranks fit"), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError::Undividable`] with everything that hinders.
+pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, RunError> {
+    let refuse = |reasons: Vec<String>| Err(RunError::Undividable { reasons });
+    let reasons = hindrances(scene, model);
+    if !reasons.is_empty() {
+        return refuse(reasons);
+    }
+    let dimension = model.units.dimension;
+    let halo = halo(scene, model);
+    let reach = model.physics().reach(model);
+    let most: [u32; 3] = std::array::from_fn(|axis| Division::most_parts(&model.units, halo, reach, axis));
+    let width = |parts: &[u32; 3]| {
+        let axis = (0..dimension).find(|&axis| parts[axis] > most[axis]);
+        axis.map(|axis| {
+            format!(
+                "{} parts along {} are too thin: each has to be wider than {:.4}, and with {halo:.4} more on both sides \
+                 narrower than the box; at most {} fit",
+                parts[axis],
+                ["x", "y", "z"][axis],
+                halo + reach,
+                most[axis]
+            )
+        })
+    };
+    match asked {
+        Ranks::Parts(parts) => match width(&parts) {
+            Some(reason) => refuse(vec![reason]),
+            None => Ok(Division { parts }),
+        },
+        Ranks::Count(count) => {
+            let best = |count: u32| {
+                let fit = divisions(count, dimension).into_iter().filter(|parts| (0..3).all(|axis| parts[axis] <= most[axis]));
+                fit.map(|parts| Division { parts }).min_by(|a, b| {
+                    let copies = |division: &Division| division.domain(0).with_halo(&model.units, halo).share();
+                    copies(a).total_cmp(&copies(b))
+                })
+            };
+            best(count).map_or_else(
+                || {
+                    let fits = (1..count.min(MOST)).rev().find(|fewer| best(*fewer).is_some()).unwrap_or(1);
+                    refuse(vec![format!(
+                        "no division of the box into {} parts leaves each wider than {:.4} ({halo:.4} around a part is \
+                         known to its rank): {} ranks fit",
+                        grouped(count.into()),
+                        halo + reach,
+                        grouped(fits.into())
+                    )])
+                },
+                Ok,
+            )
+        }
+    }
+}
+
+/// How far around its part a rank knows the particles.
+fn halo(scene: &Scene, model: &Model) -> f64 {
+    let part = Some(Part { division: Division { parts: [1; 3] }, rank: 0 });
+    let options = Options { part, ..Options::default() };
+    let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
+    plan.part.map_or(0.0, |part| part.halo)
+}
+
+/// What of a scene several ranks cannot share.
+fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
+    let mut reasons = model.physics().unshared(model);
+    if !reasons.is_empty() {
+        // Its plan may be of another kind altogether.
+        return reasons;
+    }
+    let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+    reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
+        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
+        SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
+    }));
+    if scene.output.trajectory.is_some() {
+        reasons.push("`output.trajectory` follows particles on one device".to_owned());
+    }
+    reasons
+}
+
+/// All ways to divide a box of this many dimensions into so many parts.
+fn divisions(count: u32, dimension: usize) -> Vec<[u32; 3]> {
+    let divisors = |number: u32| (1..=number).filter(move |divisor| number.is_multiple_of(*divisor));
+    let mut found = Vec::new();
+    for z in divisors(count) {
+        for y in divisors(count / z) {
+            let x = count / z / y;
+            if dimension == 3 || z == 1 && (dimension == 2 || y == 1) {
+                found.push([x, y, z]);
+            }
+        }
+    }
+    // Rows along x stay whole where that costs no more.
+    found.sort_by_key(|[x, y, _]| (*x, *y));
+    found
+}
