@@ -2,6 +2,8 @@
 
 use mesoscope::gpu::AdapterChoice;
 
+use super::launcher;
+
 /// Which adapter.
 #[derive(Debug, clap::Args)]
 pub struct AdapterArgument {
@@ -12,6 +14,14 @@ pub struct AdapterArgument {
 }
 
 impl AdapterArgument {
+    /// The same for one of several copies of the program on a machine: each gets one of those that are as good as the best.
+    pub fn choice_of_copy(&self) -> AdapterChoice {
+        match (self.choice(), launcher::local_rank()) {
+            (AdapterChoice::Best, Some(number)) => AdapterChoice::Share(number),
+            (choice, _) => choice,
+        }
+    }
+
     /// Whether a certain adapter is asked for.
     pub fn is_named(&self) -> bool {
         self.adapter.is_some()

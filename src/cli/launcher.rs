@@ -174,15 +174,22 @@ pub fn local_copies() -> usize {
     found.unwrap_or(1).max(1)
 }
 
+/// Whether a launcher started this copy and others.
+#[cfg(feature = "mpi")]
+pub fn is_copy() -> bool {
+    copies(&environment).is_some()
+}
+
 /// Refuses to be one of several copies that all would write the same files.
 pub fn refuse_copies() -> Result<(), Failure> {
     match copies(&environment) {
         None => Ok(()),
         Some((name, value)) => Err(Failure::usage(format!(
-            "this is one of several copies that a launcher started (`{name}` is {value}), and the program was built without MPI: \
+            "this is one of several copies that a launcher started (`{name}` is {value}), and {}: \
              they would write over each other's files\n\
              hint: start one copy; or let each run variants of its own, with `mesoscope sweep … --shard auto`; \
-             where each has a directory of its own, unset `{name}`"
+             where each has a directory of its own, unset `{name}`",
+            if cfg!(feature = "mpi") { "this command does not share its work" } else { "the program was built without MPI" }
         ))),
     }
 }

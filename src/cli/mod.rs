@@ -8,6 +8,7 @@ mod interruption;
 mod launcher;
 mod plot;
 mod print;
+mod processes;
 mod progress;
 mod ranks_argument;
 mod report;
@@ -82,12 +83,11 @@ impl Command {
     fn check_alone(&self) -> Result<(), Failure> {
         match self {
             Self::Sweep(arguments) if arguments.is_shard() => Ok(()),
-            Self::Run(_)
-            | Self::Resume(_)
-            | Self::Sweep(_)
+            Self::Run(_) | Self::Resume(_) => processes::refuse_copies(true),
+            Self::Sweep(_)
             | Self::Tradeoff(_)
             | Self::Stability(_)
-            | Self::Plot(_) => launcher::refuse_copies(),
+            | Self::Plot(_) => processes::refuse_copies(false),
             Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
         }
     }
@@ -104,9 +104,13 @@ pub fn main() -> ExitCode {
         prepare_environment_among(launcher::local_copies());
     }
     let result = match command {
-        Command::Run(arguments) => run::execute(&arguments),
+        Command::Run(arguments) => {
+            processes::share(&arguments.choice(), &|processes| run::execute(&arguments, processes))
+        }
         Command::Check(arguments) => check::execute(&arguments),
-        Command::Resume(arguments) => resume::execute(&arguments),
+        Command::Resume(arguments) => {
+            processes::share(&arguments.choice(), &|processes| resume::execute(&arguments, processes))
+        }
         Command::Sweep(arguments) => sweep::execute(&arguments),
         Command::Tradeoff(arguments) => tradeoff::execute(&arguments),
         Command::Stability(arguments) => stability::execute(&arguments),

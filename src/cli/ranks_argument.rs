@@ -1,10 +1,9 @@
 //! The argument that says how many ranks share a run.
 
-use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterDescription, list_adapters};
 use mesoscope::plan::Division;
-use mesoscope::run::{self, Ranks};
-use mesoscope::scene::Scene;
+use mesoscope::ranks::Processes;
+use mesoscope::run::{self, Ranks, Simulation};
 
 use super::{AdapterArgument, Failure, line};
 
@@ -38,11 +37,19 @@ fn asked(text: &str) -> Result<Asked, String> {
 }
 
 impl RanksArgument {
-    /// The division of a scene's box; none for one rank.
-    pub fn division(&self, scene: &Scene, model: &Model, adapter: &AdapterArgument) -> Result<Option<Division>, Failure> {
-        let alike = adapter.alike();
+    /// The division of the box of a run; none for one rank.
+    pub fn division(
+        &self,
+        simulation: &Simulation,
+        adapter: &AdapterArgument,
+        processes: Option<&dyn Processes>,
+    ) -> Result<Option<Division>, Failure> {
+        let (scene, model) = (simulation.scene(), simulation.model());
+        let copies = processes.map(Processes::count);
+        let alike = copies.unwrap_or_else(|| adapter.alike());
         let ranks = match &self.ranks {
-            None => return Ok(None),
+            None if copies.is_none() => return Ok(None),
+            None => Ranks::Count(alike),
             Some(Asked::Auto) => Ranks::Count(alike),
             Some(Asked::Count(count)) => Ranks::Count(*count),
             Some(Asked::Along(along)) => {
@@ -60,6 +67,12 @@ impl RanksArgument {
             }
         };
         let division = run::divide(scene, model, ranks)?;
+        if let Some(copies) = copies.filter(|copies| *copies != division.ranks()) {
+            return Err(Failure::usage(format!(
+                "`--ranks` asks for {} ranks, and the launcher has started {copies} copies of the program",
+                division.ranks()
+            )));
+        }
         if division.ranks() > alike {
             line(&format!(
                 "warning: {} ranks share {alike} {}: they take turns on it",

@@ -8,6 +8,7 @@ use mesoscope::families::{Model, PictureKind};
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
+use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 use mesoscope::scene::Scene;
 
@@ -15,10 +16,16 @@ use super::table::{aligned, dimensions};
 use super::{Failure, SceneArguments, line, print, progress};
 
 /// Executes a run and reports on it, unless it is to be quiet.
-pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, quiet: bool) -> Result<(), Failure> {
+pub fn execute(
+    simulation: Simulation,
+    processes: Option<&dyn Processes>,
+    choice: &AdapterChoice,
+    directory: &str,
+    quiet: bool,
+) -> Result<(), Failure> {
     let simulation = simulation.until(&super::interruption::interrupt());
     if quiet {
-        simulation.execute(choice, &mut |_| {})?;
+        simulation.execute_among(processes, choice, &mut |_| {})?;
         return Ok(());
     }
     let mut reporter = Reporter::new(&simulation);
@@ -30,7 +37,7 @@ pub fn execute(simulation: Simulation, choice: &AdapterChoice, directory: &str, 
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }
-    let result = simulation.execute(choice, &mut |event| reporter.show(event));
+    let result = simulation.execute_among(processes, choice, &mut |event| reporter.show(event));
     reporter.clear();
     let outcome = result?;
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {

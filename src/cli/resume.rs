@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::files;
+use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 use mesoscope::{printable, sweep};
 
@@ -34,7 +36,7 @@ pub struct Arguments {
 }
 
 /// Continues the run.
-pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
     let holds = |name: &str| arguments.directory.join(name).exists();
     if holds(sweep::files::SUMMARY) && !holds(files::CHECKPOINT) {
@@ -50,7 +52,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let division = arguments.ranks.division(simulation.scene(), simulation.model(), &arguments.adapter)?;
+    let division = arguments.ranks.division(&simulation, &arguments.adapter, processes)?;
     let simulation = simulation.on_ranks(division);
-    report::execute(simulation, &arguments.adapter.choice(), &shown, arguments.quiet)
+    report::execute(simulation, processes, &arguments.choice(), &shown, arguments.quiet)
+}
+
+impl Arguments {
+    /// The adapter of this copy of the program.
+    pub fn choice(&self) -> AdapterChoice {
+        self.adapter.choice_of_copy()
+    }
 }

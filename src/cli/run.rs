@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::printable;
+use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 
 use super::{Failure, RanksArgument, RunArguments, SceneArguments, report};
@@ -35,12 +37,19 @@ pub struct Arguments {
 }
 
 /// Simulates the scene.
-pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let (scene, notices) = arguments.scene.load()?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
-    let division = arguments.ranks.division(simulation.scene(), simulation.model(), &arguments.how.adapter)?;
+    let division = arguments.ranks.division(&simulation, &arguments.how.adapter, processes)?;
     let simulation = simulation.on_ranks(division);
-    report::execute(simulation, &arguments.how.adapter.choice(), &shown, arguments.how.quiet)
+    report::execute(simulation, processes, &arguments.choice(), &shown, arguments.how.quiet)
+}
+
+impl Arguments {
+    /// The adapter of this copy of the program.
+    pub fn choice(&self) -> AdapterChoice {
+        self.how.adapter.choice_of_copy()
+    }
 }

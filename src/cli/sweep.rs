@@ -75,10 +75,7 @@ impl Arguments {
 
     /// The adapter of a shard: copies on one machine take different ones, where there are several.
     fn adapter(&self) -> AdapterChoice {
-        match (self.study.how.adapter.choice(), launcher::local_rank()) {
-            (AdapterChoice::Best, Some(rank)) => AdapterChoice::Share(rank),
-            (choice, _) => choice,
-        }
+        self.study.how.adapter.choice_of_copy()
     }
 }
 

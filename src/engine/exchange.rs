@@ -21,6 +21,11 @@ pub trait Swap {
     /// # Errors
     /// What is wrong with a peer, in words.
     fn swap(&mut self, part: &Part, peers: &[u32], outgoing: &[&[u8]]) -> Result<Vec<Vec<u8>>, String>;
+
+    /// Lets peers know that nothing more comes from here; where they cannot notice by themselves.
+    fn leave(&mut self, peers: &[u32]) {
+        let _ = peers;
+    }
 }
 
 /// What has been exchanged.
@@ -100,6 +105,11 @@ impl<'a> Exchange<'a> {
         let sorted = counts.get(self.part.peers.len()).copied().unwrap_or_default();
         let marked = particles.chunks_exact(PARTICLE).zip(marks).take(sorted as usize);
         marked.filter(|(_, mark)| **mark != 0).flat_map(|(particle, _)| particle).copied().collect()
+    }
+
+    /// Leaves the peers, who wait no longer.
+    pub(super) fn leave(&mut self) {
+        self.swap.leave(&self.part.peers);
     }
 
     /// Begins with a number of particles in storage.

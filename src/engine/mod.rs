@@ -295,7 +295,9 @@ impl<'a> Engine<'a> {
 
     /// Leaves the other ranks, which learn of it where they wait for this one.
     pub(crate) fn leave(&mut self) {
-        self.exchange = None;
+        if let Some(mut exchange) = self.exchange.take() {
+            exchange.leave();
+        }
     }
 
     /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own of all particles and those that it has to know,

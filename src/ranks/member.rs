@@ -2,7 +2,7 @@
 
 use super::Channel;
 use super::message::{Answer, Command, Problem, read, written};
-use crate::engine::{Engine, EngineError};
+use crate::engine::Engine;
 
 /// Does what a command says; what it gives, and the words that go with it.
 pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u32]) -> (Answer, Vec<u32>) {
@@ -33,31 +33,38 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
 /// Does what the first rank tells until there is nothing more to do.
 ///
 /// # Errors
-/// [`EngineError::Ranks`] if the first rank is lost.
-pub fn serve(engine: &mut Engine<'_>, channel: &mut dyn Channel) -> Result<(), EngineError> {
-    let lost = |reason| EngineError::Ranks { reason };
-    loop {
-        let message = channel.listen().map_err(lost)?;
-        let (command, particles) = read(&message).map_err(lost)?;
-        let (answer, words) = execute(engine, command, &particles);
-        let failed = answer.problem.is_some();
-        if failed {
+/// That the first rank is lost, in words.
+pub fn serve(engine: &mut Engine<'_>, channel: &mut dyn Channel) -> Result<(), String> {
+    let mut failed = None;
+    while let Some((command, particles)) = heard(channel)? {
+        let (answer, words) = match &failed {
+            None => execute(engine, command, &particles),
+            Some(problem) => (Answer { problem: Some(Problem::clone(problem)), ..Answer::default() }, Vec::new()),
+        };
+        if answer.problem.is_some() && failed.is_none() {
             // Peers that wait for particles learn of it.
             engine.leave();
+            failed.clone_from(&answer.problem);
         }
-        channel.answer(&written(&answer, &words).map_err(lost)?).map_err(lost)?;
-        if failed || command == Command::End {
-            return Ok(());
-        }
+        channel.answer(&written(&answer, &words)?)?;
     }
+    Ok(())
 }
 
-/// Answers the first thing that the first rank tells with the reason why this rank cannot take part.
+/// Answers whatever the first rank tells with the reason why this rank cannot take part.
 ///
 /// # Errors
 /// That the first rank is lost, in words.
 pub fn decline(channel: &mut dyn Channel, reason: String) -> Result<(), String> {
-    channel.listen()?;
     let answer = Answer { problem: Some(Problem::Other { reason }), ..Answer::default() };
-    channel.answer(&written(&answer, &[])?)
+    while heard(channel)?.is_some() {
+        channel.answer(&written(&answer, &[])?)?;
+    }
+    Ok(())
+}
+
+/// The next command; nothing if it is to end, which nobody answers.
+fn heard(channel: &mut dyn Channel) -> Result<Option<(Command, Vec<u32>)>, String> {
+    let told: (Command, Vec<u32>) = read(&channel.listen()?)?;
+    Ok((told.0 != Command::End).then_some(told))
 }

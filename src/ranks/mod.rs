@@ -8,12 +8,15 @@
 
 mod member;
 mod message;
+#[cfg(feature = "mpi")]
+pub mod mpi;
 mod team;
 pub mod threads;
 
 pub use member::{decline, serve};
 pub use team::Team;
 
+use crate::engine::Swap;
 use std::time::Duration;
 
 /// A rank that has not answered by then counts as lost.
@@ -47,4 +50,16 @@ pub trait Channel {
     /// # Errors
     /// Which rank is lost, in words.
     fn collect(&mut self) -> Result<Vec<Vec<u8>>, String>;
+}
+
+/// Ranks that are processes, of which this is one.
+pub trait Processes {
+    /// Number of ranks.
+    fn count(&self) -> u32;
+
+    /// To the first rank; of the first rank to all others.
+    fn channel(&self) -> Box<dyn Channel + '_>;
+
+    /// To the peers.
+    fn peers(&self) -> Box<dyn Swap + '_>;
 }

@@ -72,7 +72,7 @@ pub use pilot::{ExpectedTime, expected_time};
 pub use plan::plan;
 pub use simulation::Simulation;
 pub use sizes::Sizes;
-pub use team::team;
+pub use team::{dismiss, follow, team};
 pub(crate) use trial::{Stop, Trial};
 
 use crate::gpu::AdapterDescription;

@@ -16,6 +16,7 @@ use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
+use crate::ranks::Processes;
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -182,6 +183,19 @@ impl Simulation {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
+        self.execute_among(None, choice, observer)
+    }
+
+    /// The same as the first of several processes, which are the ranks that share the run; the others [`follow`](super::follow).
+    ///
+    /// # Errors
+    /// As [`Self::execute`].
+    pub fn execute_among(
+        self,
+        processes: Option<&dyn Processes>,
+        choice: &AdapterChoice,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<Outcome, RunError> {
         let Self { scene, model, beginning, interrupt, notices, id, division } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
@@ -202,7 +216,7 @@ impl Simulation {
         let mut pace = Pace::new(model.particle_count());
         let task = Task { id, scene, model, directory, interrupt, notices, earlier };
         loop {
-            let opened = open(&task, &gpu, plan, choice, options, &start);
+            let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
             match opened.and_then(|mut engine| attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
                     // Too rare for every run to pay for it in memory or time.
@@ -223,15 +237,19 @@ fn open<'a>(
     task: &Task,
     gpu: &'a Gpu,
     plan: Plan,
-    choice: &AdapterChoice,
+    (choice, processes): (&AdapterChoice, Option<&'a dyn Processes>),
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    Ok(match options.part {
-        Some(Part { division, .. }) => {
-            Box::new(team::team((&task.scene, &task.model), gpu, choice, division, options, &start.state)?)
+    let scene = (&task.scene, &task.model);
+    Ok(match (options.part, processes) {
+        (Some(Part { division, .. }), Some(processes)) => {
+            Box::new(team::team_of_processes(scene, gpu, division, options, &start.state, processes)?)
         }
-        None => Box::new(Engine::new(gpu, plan, &start.state)?),
+        (Some(Part { division, .. }), None) => {
+            Box::new(team::team(scene, gpu, choice, division, options, &start.state)?)
+        }
+        (None, _) => Box::new(Engine::new(gpu, plan, &start.state)?),
     })
 }
 

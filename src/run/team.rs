@@ -1,14 +1,15 @@
-//! Runs on several ranks that are threads of this process.
+//! Runs on several ranks: threads of this process, or processes.
 
 use super::RunError;
 use super::adapter::{open_adapter, plan_for};
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, Swap};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::{Division, Options, Part};
-use crate::ranks::{Team, decline, serve, threads};
+use crate::ranks::{Channel, Processes, Team, decline, serve, threads};
 use crate::scene::Scene;
 use crate::state::State;
+use serde::{Deserialize, Serialize};
 use std::thread;
 
 /// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state.
@@ -56,19 +57,104 @@ pub fn team<'a>(
         let options = part(rank);
         thread::spawn(move || {
             let threads::Links { mut channel, peers } = links;
-            let opened = open_adapter(&scene, &model, &choice, options);
-            let served = opened.map_err(|error| error.to_string()).and_then(|(gpu, plan)| {
-                let engine = Engine::of_part(&gpu, plan, Box::new(peers));
-                let mut engine = engine.map_err(|error| error.to_string())?;
-                // Whoever is left alone ends; the first rank is told, or is gone.
-                let _ = serve(&mut engine, &mut channel);
-                Ok(())
-            });
-            if let Err(reason) = served {
-                let _ = decline(&mut channel, reason);
-            }
+            // Whoever is left alone ends; the first rank is told, or is gone.
+            let _ = take_part((&scene, &model), &choice, options, &mut channel, Box::new(peers));
         });
     }
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
     Ok(Team::new(engine, Box::new(first.channel), state)?)
+}
+
+/// Opens this rank's adapter and does what the first rank tells.
+fn take_part<'a>(
+    (scene, model): (&Scene, &Model),
+    choice: &AdapterChoice,
+    options: Options,
+    channel: &mut dyn Channel,
+    peers: Box<dyn Swap + 'a>,
+) -> Result<(), String> {
+    let (gpu, plan) = match open_adapter(scene, model, choice, options) {
+        Ok(opened) => opened,
+        Err(error) => return decline(channel, error.to_string()),
+    };
+    match Engine::of_part(&gpu, plan, peers) {
+        Ok(mut engine) => serve(&mut engine, channel),
+        Err(error) => decline(channel, error.to_string()),
+    }
+}
+
+/// What the first process tells the others before they become ranks.
+#[derive(Debug, Serialize, Deserialize)]
+enum Call {
+    /// To share a run.
+    Share {
+        version: String,
+        scene: Box<Scene>,
+        division: [u32; 3],
+        /// How often it has been repeated with more room.
+        repeated: u32,
+    },
+    /// To end.
+    End,
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+fn lost(reason: impl ToString) -> RunError {
+    EngineError::Ranks { reason: reason.to_string() }.into()
+}
+
+fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
+    let message = serde_json::to_vec(call).map_err(lost)?;
+    processes.channel().tell(&message).map_err(lost)
+}
+
+/// As [`team`], of processes.
+pub(super) fn team_of_processes<'a>(
+    (scene, model): (&Scene, &Model),
+    gpu: &'a Gpu,
+    division: Division,
+    options: Options,
+    state: &State,
+    processes: &'a dyn Processes,
+) -> Result<Team<'a>, RunError> {
+    let version = VERSION.to_owned();
+    let scene_told = Box::new(scene.clone());
+    call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated: options.list_growth })?;
+    let options = Options { part: Some(Part { division, rank: 0 }), ..options };
+    let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
+    Ok(Team::new(engine, processes.channel(), state)?)
+}
+
+/// Lets all other processes end.
+///
+/// # Errors
+/// [`RunError::Engine`] if one is lost.
+pub fn dismiss(processes: &dyn Processes) -> Result<(), RunError> {
+    call(processes, &Call::End)
+}
+
+/// Takes part in the runs of the first process as one of its other ranks, until it is dismissed.
+///
+/// # Errors
+/// [`RunError::Engine`] if the first process is lost.
+pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> Result<(), RunError> {
+    loop {
+        let mut channel = processes.channel();
+        let message = channel.listen().map_err(lost)?;
+        match serde_json::from_slice(&message).map_err(lost)? {
+            Call::End => return Ok(()),
+            Call::Share { version, .. } if version != VERSION => {
+                decline(channel.as_mut(), format!("is of version {VERSION}, the first of {version}")).map_err(lost)?;
+            }
+            Call::Share { scene, division, repeated, .. } => {
+                let model = Model::new(&scene);
+                let roomy = |options: Options, _| options.with_room(model.particle_count());
+                let options = (0..repeated).fold(Options::default(), roomy);
+                let part = Some(Part { division: Division { parts: division }, rank });
+                let options = Options { part, ..options };
+                take_part((&scene, &model), choice, options, channel.as_mut(), processes.peers()).map_err(lost)?;
+            }
+        }
+    }
 }

@@ -1,0 +1,51 @@
+//! The copies of the program that a launcher of MPI has started, which share a run as its ranks.
+
+use mesoscope::gpu::AdapterChoice;
+use mesoscope::ranks::Processes;
+
+use super::{Failure, launcher};
+
+/// What the first of several copies does with them, or a copy that is alone without.
+type Work<'w> = &'w dyn Fn(Option<&dyn Processes>) -> Result<(), Failure>;
+
+/// Does the work of the first copy, or what the first tells this one. A copy that is alone does the work alone.
+#[cfg(feature = "mpi")]
+pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
+    use std::time::Duration;
+
+    use mesoscope::ranks::mpi::{World, abort};
+    use mesoscope::run;
+
+    if !launcher::is_copy() {
+        return work(None);
+    }
+    let patience = std::env::var("MESOSCOPE_PATIENCE").ok().and_then(|seconds| seconds.parse().ok());
+    let alarm = |reason: &str| super::line(&format!("error: {reason}"));
+    let world = World::join(patience.map(Duration::from_secs), alarm).map_err(Failure::no_adapter)?;
+    let show = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        // The others would wait for this one until they lose their patience.
+        show(panic);
+        abort(101);
+    }));
+    let rank = world.rank();
+    if rank > 0 {
+        // Requests to stop are for the first.
+        let _ = super::interruption::interrupt();
+        return Ok(run::follow(&world, rank, choice)?);
+    }
+    let done = work(Some(&world));
+    run::dismiss(&world)?;
+    done
+}
+
+/// The same of a program that was built without MPI: copies have been refused.
+#[cfg(not(feature = "mpi"))]
+pub fn share(_: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
+    work(None)
+}
+
+/// Refuses to be one of several copies that do not know of each other.
+pub fn refuse_copies(shares: bool) -> Result<(), Failure> {
+    if shares && cfg!(feature = "mpi") { Ok(()) } else { launcher::refuse_copies() }
+}

@@ -1,0 +1,227 @@
+//! Ranks that are processes, on one machine or several, started by a launcher of MPI. Nothing waits longer than is patient: who does ends
+//! all ranks.
+
+use super::{Channel, PATIENCE, Processes};
+use crate::engine::Swap;
+use crate::plan::Part;
+use mpi::environment::Universe;
+use mpi::point_to_point::{Message, Status};
+use mpi::request::LocalScope;
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator as _, Destination as _, Source as _};
+use std::cell::Cell;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Kinds of messages.
+const COMMAND: i32 = 1;
+const ANSWER: i32 = 2;
+const PARCEL: i32 = 3;
+/// Its sender will send no parcels any more.
+const GONE: i32 = 4;
+
+/// A message is sent in pieces of at most so many bytes: MPI counts in 32 bits.
+const PIECE: usize = 1 << 30;
+
+/// The exit code of ranks that are ended because one is lost.
+const LOST: i32 = 3;
+
+/// Waiting without sleep gets in the way of others on the same cores; these are the shortest and the longest sleeps.
+const NAPS: [Duration; 2] = [Duration::from_micros(20), Duration::from_millis(2)];
+
+/// All ranks, for as long as the process takes part.
+pub struct World {
+    universe: Universe,
+    patience: Duration,
+    alarm: fn(&str),
+    /// How often the ranks have become peers, which is the same on all of them.
+    rounds: Cell<u64>,
+}
+
+impl World {
+    /// Takes part. `alarm` is told why before all ranks are ended; without a time of its own a rank is patient for [`PATIENCE`].
+    ///
+    /// # Errors
+    /// In words, if MPI has been started before.
+    pub fn join(patience: Option<Duration>, alarm: fn(&str)) -> Result<Self, String> {
+        let universe = mpi::initialize().ok_or_else(|| "MPI has been started before".to_owned())?;
+        Ok(Self { universe, patience: patience.unwrap_or(PATIENCE), alarm, rounds: Cell::new(0) })
+    }
+
+    /// This rank.
+    #[must_use]
+    pub fn rank(&self) -> u32 {
+        self.universe.world().rank().cast_unsigned()
+    }
+
+    fn line(&self) -> Line {
+        Line { world: self.universe.world(), patience: self.patience, alarm: self.alarm, round: self.rounds.get() }
+    }
+}
+
+/// Ends all ranks at once.
+pub fn abort(exit_code: i32) -> ! {
+    SimpleCommunicator::world().abort(exit_code)
+}
+
+impl Processes for World {
+    fn count(&self) -> u32 {
+        self.universe.world().size().cast_unsigned()
+    }
+
+    fn channel(&self) -> Box<dyn Channel + '_> {
+        Box::new(self.line())
+    }
+
+    fn peers(&self) -> Box<dyn Swap + '_> {
+        self.rounds.set(self.rounds.get() + 1);
+        Box::new(Peers { line: self.line() })
+    }
+}
+
+/// What a rank talks with.
+struct Line {
+    world: SimpleCommunicator,
+    patience: Duration,
+    alarm: fn(&str),
+    round: u64,
+}
+
+/// The same for parcels.
+struct Peers {
+    line: Line,
+}
+
+/// Tries again and again, with sleeps that become longer.
+fn wait_for<T>(patience: Option<Duration>, mut attempt: impl FnMut() -> Option<T>) -> Option<T> {
+    let begun = Instant::now();
+    let [mut nap, longest] = NAPS;
+    loop {
+        if let Some(found) = attempt() {
+            return Some(found);
+        }
+        let waited = begun.elapsed();
+        if patience.is_some_and(|patience| waited > patience) {
+            return None;
+        }
+        // The first answers come within microseconds.
+        if waited > NAPS[0] {
+            thread::sleep(nap);
+            nap = (nap * 2).min(longest);
+        }
+    }
+}
+
+impl Line {
+    /// Ends all ranks: who does not answer would not hear of anything else.
+    fn lose(&self, rank: u32) -> ! {
+        (self.alarm)(&format!("rank {rank} has not answered for {} s", self.patience.as_secs()));
+        self.world.abort(LOST)
+    }
+
+    /// Sends something to some ranks, each its own, while `meanwhile` receives.
+    fn send<T>(&self, parcels: &[(u32, &[u8])], tag: i32, meanwhile: impl FnOnce() -> T) -> T {
+        let heads: Vec<[u64; 2]> = parcels.iter().map(|(_, bytes)| [bytes.len() as u64, self.round]).collect();
+        mpi::request::scope(|scope: &LocalScope<'_>| {
+            let mut requests = Vec::new();
+            for ((rank, bytes), head) in parcels.iter().zip(&heads) {
+                let process = self.world.process_at_rank(rank.cast_signed());
+                let pieces = std::iter::once(bytemuck::bytes_of(head)).chain(bytes.chunks(PIECE));
+                requests.extend(pieces.map(|piece| (*rank, process.immediate_send_with_tag(scope, piece, tag))));
+            }
+            let done = meanwhile();
+            for (rank, request) in requests {
+                let mut waiting = Some(request);
+                let sent = wait_for(Some(self.patience), || {
+                    waiting = waiting.take().and_then(|request| request.test().err());
+                    waiting.is_none().then_some(())
+                });
+                if sent.is_none() {
+                    self.lose(rank);
+                }
+            }
+            done
+        })
+    }
+
+    /// The next message of some kinds from a rank.
+    fn next(&self, rank: u32, tags: &[i32], patience: Option<Duration>) -> (Message, Status) {
+        let process = self.world.process_at_rank(rank.cast_signed());
+        let found = wait_for(patience, || tags.iter().find_map(|tag| process.immediate_matched_probe_with_tag(*tag)));
+        found.unwrap_or_else(|| self.lose(rank))
+    }
+
+    /// What a rank sends; nothing if it has gone.
+    fn receive(&self, rank: u32, tags: &[i32], patience: Option<Duration>) -> Option<Vec<u8>> {
+        let (length, tag) = loop {
+            let (message, status) = self.next(rank, tags, patience);
+            let mut head = [0_u64; 2];
+            message.matched_receive_into(bytemuck::bytes_of_mut(&mut head));
+            let [length, round] = head;
+            match status.tag() {
+                GONE if round == self.round => return None,
+                // It had left in an earlier round.
+                GONE => {}
+                tag => break (length, tag),
+            }
+        };
+        let mut bytes = vec![0; usize::try_from(length).unwrap_or(usize::MAX)];
+        for piece in bytes.chunks_mut(PIECE) {
+            let (message, _) = self.next(rank, &[tag], Some(self.patience));
+            message.matched_receive_into(piece);
+        }
+        Some(bytes)
+    }
+
+    fn others(&self) -> std::ops::Range<u32> {
+        1..self.world.size().cast_unsigned()
+    }
+}
+
+fn gone(rank: u32) -> String {
+    format!("rank {rank} has ended")
+}
+
+impl Channel for Line {
+    fn count(&self) -> u32 {
+        self.world.size().cast_unsigned()
+    }
+
+    fn tell(&mut self, message: &[u8]) -> Result<(), String> {
+        let all: Vec<(u32, &[u8])> = self.others().map(|rank| (rank, message)).collect();
+        self.send(&all, COMMAND, || ());
+        Ok(())
+    }
+
+    fn listen(&mut self) -> Result<Vec<u8>, String> {
+        // The first rank may compute, write and draw as long as it likes; if it ends, the launcher ends all.
+        self.receive(0, &[COMMAND], None).ok_or_else(|| gone(0))
+    }
+
+    fn answer(&mut self, message: &[u8]) -> Result<(), String> {
+        self.send(&[(0, message)], ANSWER, || ());
+        Ok(())
+    }
+
+    fn collect(&mut self) -> Result<Vec<Vec<u8>>, String> {
+        let received = self.others().map(|rank| self.receive(rank, &[ANSWER], Some(self.patience)).ok_or_else(|| gone(rank)));
+        received.collect()
+    }
+}
+
+impl Swap for Peers {
+    fn swap(&mut self, _: &Part, peers: &[u32], outgoing: &[&[u8]]) -> Result<Vec<Vec<u8>>, String> {
+        let parcels: Vec<(u32, &[u8])> = peers.iter().copied().zip(outgoing.iter().copied()).collect();
+        self.line.send(&parcels, PARCEL, || {
+            let received = peers.iter().map(|peer| {
+                self.line.receive(*peer, &[PARCEL, GONE], Some(self.line.patience)).ok_or_else(|| gone(*peer))
+            });
+            received.collect()
+        })
+    }
+
+    fn leave(&mut self, peers: &[u32]) {
+        let parcels: Vec<(u32, &[u8])> = peers.iter().map(|peer| (*peer, &[][..])).collect();
+        self.line.send(&parcels, GONE, || ());
+    }
+}
