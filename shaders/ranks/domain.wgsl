@@ -22,7 +22,7 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
 }
 
 // Notes after a sort which particles are this rank's own in the step, by slot, and how many are stored. One invocation a particle at a
-// time; SEGMENTS workgroups share a row of cells. Reads the sorted particles, `cells` and `domains`; writes `owned` and the last of
+// time; SEGMENTS workgroups share a row of cells. Reads the sorted particles, `cells` and `domains`; writes `owned_slots` and the last of
 // `outgoing_counts`.
 @compute @workgroup_size(WORKGROUP)
 fn mark_owned(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -32,14 +32,14 @@ fn mark_owned(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            owned[unframed_index(row, index)] = select(0u, 1u, lies_in(OWN, position_at(index)));
+            owned_slots[unframed_index(row, index)] = select(0u, 1u, lies_in(OWN, position_at(index)));
         }
     }
     if (group == 0u && lane == 0u) { atomicStore(&outgoing_counts[PEERS], unframed_index(rows() - 1u, row_end(rows() - 1u))); }
 }
 
 // Ends a step or half of a drift: sends on what other ranks need, forgets what this one does not need, and empties the cells, in which
-// particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned` and
+// particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned_slots` and
 // `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`.
 @compute @workgroup_size(WORKGROUP)
 fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -47,7 +47,7 @@ fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     if (slot < CELLS) { counts[slot] = 0u; }
     if (slot >= atomicLoad(&outgoing_counts[PEERS])) { return; }
     let particle = stored_particle(slot);
-    if (owned[slot] != 0u) {
+    if (owned_slots[slot] != 0u) {
         for (var peer = 0u; peer < PEERS; peer++) {
             if (lies_in(OF_PEERS + peer, particle.position)) {
                 let place = atomicAdd(&outgoing_counts[peer], 1u);

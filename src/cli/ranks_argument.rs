@@ -1,9 +1,11 @@
 //! The argument that says how many ranks share a run.
 
+use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterDescription, list_adapters};
 use mesoscope::plan::Division;
 use mesoscope::ranks::Processes;
-use mesoscope::run::{self, Ranks, Simulation};
+use mesoscope::run::{self, Ranks};
+use mesoscope::scene::Scene;
 
 use super::{AdapterArgument, Failure, line};
 
@@ -14,6 +16,10 @@ pub struct RanksArgument {
     /// bit. `1,2,2` says how many along each axis, `auto` takes one for each adapter that is as good as the best [default: 1]
     #[arg(long, value_name = "N", value_parser = asked, allow_negative_numbers = true)]
     ranks: Option<Asked>,
+
+    /// Let ranks compute differently, as adapters of several kinds do: momentum is conserved to rounding only
+    #[arg(long)]
+    pub mixed: bool,
 }
 
 /// What was asked for.
@@ -40,11 +46,10 @@ impl RanksArgument {
     /// The division of the box of a run; none for one rank.
     pub fn division(
         &self,
-        simulation: &Simulation,
+        (scene, model): (&Scene, &Model),
         adapter: &AdapterArgument,
         processes: Option<&dyn Processes>,
     ) -> Result<Option<Division>, Failure> {
-        let (scene, model) = (simulation.scene(), simulation.model());
         let copies = processes.map(Processes::count);
         let alike = copies.unwrap_or_else(|| adapter.alike());
         let ranks = match &self.ranks {

@@ -52,8 +52,8 @@ pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Resu
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let division = arguments.ranks.division(&simulation, &arguments.adapter, processes)?;
-    let simulation = simulation.on_ranks(division);
+    let division = arguments.ranks.division((simulation.scene(), simulation.model()), &arguments.adapter, processes)?;
+    let simulation = simulation.on_ranks(division).mixed(arguments.ranks.mixed);
     report::execute(simulation, processes, &arguments.choice(), &shown, arguments.quiet)
 }
 

@@ -73,7 +73,7 @@ impl<'a> Exchange<'a> {
             part,
             swap,
             particles: of(Array::Particles),
-            stored_count: of(Array::Stored),
+            stored_count: of(Array::StoredNumber),
             outgoing: of(Array::Outgoing),
             outgoing_counts: of(Array::OutgoingCounts),
             guesses,

@@ -485,7 +485,7 @@ impl<'a> Engine<'a> {
     pub fn own_reported(&mut self) -> Result<Vec<u32>, EngineError> {
         self.part()?;
         self.report_now()?;
-        let (particles, marks) = (self.words(Array::Particles)?, self.words(Array::Owned)?);
+        let (particles, marks) = (self.words(Array::Particles)?, self.words(Array::OwnedSlots)?);
         let counts = self.words(Array::OutgoingCounts)?;
         Ok(self.part()?.marked_of(&particles, &marks, &counts))
     }

@@ -1,7 +1,7 @@
 //! One of the ranks of a run: does what the first rank tells.
 
 use super::Channel;
-use super::message::{Answer, Command, Problem, read, written};
+use super::message::{Answer, Command, Introduction, Problem, read, written};
 use crate::engine::Engine;
 
 /// Does what a command says; what it gives, and the words that go with it.
@@ -23,21 +23,17 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
         Ok(words) => (Ok(()), words),
         Err(error) => (Err(error), Vec::new()),
     };
-    let mut answer = Answer::of(samples, ended.as_ref().map(|()| ()), engine.traffic());
-    if matches!(command, Command::Upload { .. }) {
-        engine.adapter().clone_into(&mut answer.adapter);
-    }
-    (answer, words)
+    (Answer::of(samples, ended.as_ref().map(|()| ()), engine.traffic()), words)
 }
 
-/// Does what the first rank tells until there is nothing more to do.
+/// Introduces itself, and does what the first rank tells until there is nothing more to do.
 ///
 /// # Errors
 /// That the first rank is lost, in words.
-pub fn serve(engine: &mut Engine<'_>, channel: &mut dyn Channel) -> Result<(), String> {
-    let mut failed = None;
+pub fn serve(engine: &mut Engine<'_>, introduction: Introduction, channel: &mut dyn Channel) -> Result<(), String> {
+    let (mut failed, mut introduction) = (None, Some(introduction));
     while let Some((command, particles)) = heard(channel)? {
-        let (answer, words) = match &failed {
+        let (mut answer, words) = match &failed {
             None => execute(engine, command, &particles),
             Some(problem) => (Answer { problem: Some(Problem::clone(problem)), ..Answer::default() }, Vec::new()),
         };
@@ -46,6 +42,7 @@ pub fn serve(engine: &mut Engine<'_>, channel: &mut dyn Channel) -> Result<(), S
             engine.leave();
             failed.clone_from(&answer.problem);
         }
+        answer.introduction = introduction.take();
         channel.answer(&written(&answer, &words)?)?;
     }
     Ok(())

@@ -21,6 +21,17 @@ pub(super) enum Command {
     End,
 }
 
+/// What a rank says of itself at the beginning.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Introduction {
+    /// The machine.
+    pub host: String,
+    /// The adapter and its driver.
+    pub adapter: String,
+    /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
+    pub arithmetic: u32,
+}
+
 /// What a rank answers.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Answer {
@@ -30,8 +41,8 @@ pub(super) struct Answer {
     pub problem: Option<Problem>,
     /// What it has exchanged until now: times, bytes, copies, nanoseconds.
     pub exchanged: [u64; 4],
-    /// The adapter, at the beginning.
-    pub adapter: String,
+    /// Who it is, at the beginning.
+    pub introduction: Option<Introduction>,
 }
 
 /// What went wrong on a rank.
@@ -101,7 +112,7 @@ impl Answer {
         let samples = samples.into_iter().map(|sample| (sample.sampler, sample.step, sample.sums)).collect();
         let Traffic { exchanges, bytes, copies, waiting } = traffic;
         let exchanged = [exchanges, bytes, copies, waiting.as_nanos() as u64];
-        Self { samples, problem: ended.err().map(Problem::of), exchanged, adapter: String::new() }
+        Self { samples, problem: ended.err().map(Problem::of), exchanged, introduction: None }
     }
 }
 

@@ -14,6 +14,7 @@ mod team;
 pub mod threads;
 
 pub use member::{decline, serve};
+pub use message::Introduction;
 pub use team::Team;
 
 use crate::engine::Swap;

@@ -2,7 +2,7 @@
 
 use super::Channel;
 use super::member::execute;
-use super::message::{Answer, Command, Problem, read, written};
+use super::message::{Answer, Command, Introduction, Problem, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
 use crate::plan::Plan;
 use crate::state::State;
@@ -17,16 +17,22 @@ pub struct Team<'a> {
     incomplete: BTreeMap<(u64, usize), (u32, Vec<i64>)>,
     collected: Vec<Sample>,
     traffic: Vec<Traffic>,
-    adapters: Vec<String>,
+    introductions: Vec<Introduction>,
     species: Vec<u32>,
 }
 
 impl<'a> Team<'a> {
-    /// The first rank's engine, with the others behind a channel, at a state.
+    /// The first rank's engine, with the others behind a channel, at a state. Unless they may be `mixed`, all have to compute alike.
     ///
     /// # Errors
-    /// [`EngineError`] of the first rank that has one.
-    pub fn new(engine: Engine<'a>, channel: Box<dyn Channel + 'a>, state: &State) -> Result<Self, EngineError> {
+    /// [`EngineError`] of the first rank that has one, or [`EngineError::Ranks`] with all ranks if they do not compute alike.
+    pub fn new(
+        engine: Engine<'a>,
+        introduction: Introduction,
+        channel: Box<dyn Channel + 'a>,
+        state: &State,
+        mixed: bool,
+    ) -> Result<Self, EngineError> {
         let count = channel.count() as usize;
         let mut team = Self {
             engine,
@@ -34,10 +40,13 @@ impl<'a> Team<'a> {
             incomplete: BTreeMap::new(),
             collected: Vec::new(),
             traffic: vec![Traffic::default(); count],
-            adapters: vec![String::new(); count],
+            introductions: vec![introduction; count],
             species: Vec::new(),
         };
         team.upload(state)?;
+        if !mixed && !team.computes_alike() {
+            return Err(EngineError::Ranks { reason: team.differences() });
+        }
         Ok(team)
     }
 
@@ -61,10 +70,22 @@ impl<'a> Team<'a> {
         &self.traffic
     }
 
-    /// The adapter of each rank, in their order.
+    /// Whether all ranks computed the same from the same state: then a run has the bytes of one rank.
     #[must_use]
-    pub fn adapters(&self) -> &[String] {
-        &self.adapters
+    pub fn computes_alike(&self) -> bool {
+        self.introductions.windows(2).all(|two| two[0].arithmetic == two[1].arithmetic)
+    }
+
+    /// That ranks do not compute alike, and who they are.
+    fn differences(&self) -> String {
+        let ranks = self.introductions.iter().zip(0..).map(|(Introduction { host, adapter, arithmetic }, rank)| {
+            format!("\n  rank {rank} on {host}, {adapter}: {arithmetic:08x}")
+        });
+        format!(
+            "the ranks compute differently: from the same state they get{}\n\
+             take adapters and drivers of one kind, or `--mixed`, with which momentum is conserved to rounding only",
+            ranks.collect::<String>()
+        )
     }
 
     /// Lets all ranks do something; the particles that they give, one rank after the other.
@@ -100,8 +121,8 @@ impl<'a> Team<'a> {
         if let Some(traffic) = self.traffic.get_mut(rank) {
             *traffic = Traffic { exchanges, bytes, copies, waiting: Duration::from_nanos(waiting) };
         }
-        if let Some(adapter) = self.adapters.get_mut(rank).filter(|_| !answer.adapter.is_empty()) {
-            *adapter = answer.adapter;
+        if let (Some(known), Some(introduction)) = (self.introductions.get_mut(rank), answer.introduction) {
+            *known = introduction;
         }
         for (sampler, step, sums) in answer.samples {
             let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
@@ -138,7 +159,7 @@ impl<'a> Team<'a> {
 
 impl Stepper for Team<'_> {
     fn shared(&self) -> Vec<(&str, Traffic)> {
-        self.adapters.iter().map(String::as_str).zip(self.traffic.iter().copied()).collect()
+        self.introductions.iter().zip(&self.traffic).map(|(rank, traffic)| (rank.adapter.as_str(), *traffic)).collect()
     }
 
     fn plan(&self) -> &Plan {

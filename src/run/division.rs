@@ -4,7 +4,7 @@ use super::RunError;
 use super::plan::plan;
 use crate::families::Model;
 use crate::numbers::grouped;
-use crate::plan::{Division, Hardware, Options, Part, SamplerId};
+use crate::plan::{Division, Hardware, Options, PARTICLE_WORDS, Part, SamplerId};
 use crate::scene::{AnalysisId, Scene};
 
 /// The most ranks that are looked for.
@@ -129,4 +129,54 @@ fn divisions(count: u32, dimension: usize) -> Vec<[u32; 3]> {
     // Rows along x stay whole where that costs no more.
     found.sort_by_key(|[x, y, _]| (*x, *y));
     found
+}
+
+/// What one of the ranks that share a scene has to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// Lengths of its part of the box.
+    pub lengths: [f64; 3],
+    /// How far around its part it knows the particles.
+    pub halo: f64,
+    /// Its own particles, if they are spread evenly.
+    pub own: f64,
+    /// Copies of particles of other ranks.
+    pub copies: f64,
+    /// The ranks that it exchanges particles with.
+    pub peers: usize,
+    /// Bytes that it sends in a step.
+    pub bytes: f64,
+    /// The most ranks that fit.
+    pub most: u32,
+}
+
+/// What each rank of a division has to do, without a device.
+///
+/// ```
+/// use mesoscope::run::{Ranks, divide, share_of};
+/// use mesoscope::{families::Model, scene};
+///
+/// let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
+/// let model = Model::new(&scene);
+/// let share = share_of(&scene, &model, divide(&scene, &model, Ranks::Parts([1, 1, 2]))?);
+/// assert_eq!((share.own, share.halo, share.peers), (12_000.0, 2.0, 1));
+/// assert!((share.copies - 2.0 * 2.0 / 20.0 * 24_000.0).abs() < 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
+    let (units, halo) = (&model.units, halo(scene, model));
+    let reach = model.physics().reach(model);
+    let particles = model.particle_count() as f64;
+    let own = division.domain(0);
+    let copies = (own.with_halo(units, halo).share() - own.share()) * particles;
+    Share {
+        lengths: std::array::from_fn(|axis| units.lengths[axis] / f64::from(division.parts[axis])),
+        halo,
+        own: own.share() * particles,
+        copies,
+        peers: division.peers(0).len(),
+        bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies,
+        most: (0..3).map(|axis| Division::most_parts(units, halo, reach, axis)).product(),
+    }
 }

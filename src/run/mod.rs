@@ -59,7 +59,7 @@ mod team;
 mod trial;
 
 pub use adapter::adapter_for;
-pub use division::{Ranks, divide};
+pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub(crate) use energies::{quantities, read as read_energies};

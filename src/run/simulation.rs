@@ -32,6 +32,8 @@ pub struct Simulation {
     id: Id,
     /// How the box is divided among several ranks, if it is.
     division: Option<Division>,
+    /// Whether ranks may compute differently.
+    mixed: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -56,7 +58,7 @@ impl Simulation {
         let beginning = Beginning::New { directory: directory.into(), force };
         let id = Id::of_run(&scene);
         let model = Model::new(&scene);
-        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id, division: None }
+        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id, division: None, mixed: false }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -107,7 +109,7 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id, division: None })
+        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id, division: None, mixed: false })
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -138,6 +140,12 @@ impl Simulation {
     #[must_use]
     pub fn on_ranks(self, division: Option<Division>) -> Self {
         Self { division: division.filter(|division| division.ranks() > 1), ..self }
+    }
+
+    /// The same with ranks that need not compute alike: momentum is conserved to rounding only where they do not.
+    #[must_use]
+    pub fn mixed(self, mixed: bool) -> Self {
+        Self { mixed, ..self }
     }
 
     /// The model of the scene.
@@ -196,7 +204,7 @@ impl Simulation {
         choice: &AdapterChoice,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<Outcome, RunError> {
-        let Self { scene, model, beginning, interrupt, notices, id, division } = self;
+        let Self { scene, model, beginning, interrupt, notices, id, division, mixed } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
         // Before the directory: an adapter that is not there should not cost an earlier run its files.
@@ -216,7 +224,7 @@ impl Simulation {
         let mut pace = Pace::new(model.particle_count());
         let task = Task { id, scene, model, directory, interrupt, notices, earlier };
         loop {
-            let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
+            let opened = open(&task, &gpu, plan, (choice, processes, mixed), options, &start);
             match opened.and_then(|mut engine| attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)) {
                 Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
                     // Too rare for every run to pay for it in memory or time.
@@ -237,17 +245,17 @@ fn open<'a>(
     task: &Task,
     gpu: &'a Gpu,
     plan: Plan,
-    (choice, processes): (&AdapterChoice, Option<&'a dyn Processes>),
+    (choice, processes, mixed): (&AdapterChoice, Option<&'a dyn Processes>, bool),
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
     let scene = (&task.scene, &task.model);
     Ok(match (options.part, processes) {
         (Some(Part { division, .. }), Some(processes)) => {
-            Box::new(team::team_of_processes(scene, gpu, division, options, &start.state, processes)?)
+            Box::new(team::team_of_processes(scene, gpu, (division, mixed), options, &start.state, processes)?)
         }
         (Some(Part { division, .. }), None) => {
-            Box::new(team::team(scene, gpu, choice, division, options, &start.state)?)
+            Box::new(team::team(scene, gpu, choice, (division, mixed), options, &start.state)?)
         }
         (None, _) => Box::new(Engine::new(gpu, plan, &start.state)?),
     })

@@ -3,16 +3,17 @@
 use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use crate::engine::{Engine, EngineError, Swap};
-use crate::families::Model;
+use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::{Division, Options, Part};
-use crate::ranks::{Channel, Processes, Team, decline, serve, threads};
-use crate::scene::Scene;
+use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
+use crate::scene::{self, Scene};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
 use std::thread;
 
-/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state.
+/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks that do not
+/// compute alike are refused, unless they may be mixed.
 ///
 /// ```
 /// use mesoscope::engine::{Engine, Stepper};
@@ -29,7 +30,7 @@ use std::thread;
 ///
 /// // Two ranks, one after the other along z, do what one does, to the last bit.
 /// let division = Division { parts: [1, 1, 2] };
-/// let mut team = run::team((&scene, &model), &gpu, &AdapterChoice::Best, division, options, &start)?;
+/// let mut team = run::team((&scene, &model), &gpu, &AdapterChoice::Best, (division, false), options, &start)?;
 /// team.advance(20, 20)?;
 /// let mut alone = Engine::new(&gpu, run::plan(&model, 0, &scene.output, (&gpu).into(), options), &start)?;
 /// alone.advance(20, 20)?;
@@ -43,7 +44,7 @@ pub fn team<'a>(
     (scene, model): (&Scene, &Model),
     gpu: &'a Gpu,
     choice: &AdapterChoice,
-    division: Division,
+    (division, mixed): (Division, bool),
     options: Options,
     state: &State,
 ) -> Result<Team<'a>, RunError> {
@@ -62,7 +63,7 @@ pub fn team<'a>(
         });
     }
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
-    Ok(Team::new(engine, Box::new(first.channel), state)?)
+    Ok(Team::new(engine, introduction(gpu, scene)?, Box::new(first.channel), state, mixed)?)
 }
 
 /// Opens this rank's adapter and does what the first rank tells.
@@ -78,9 +79,36 @@ fn take_part<'a>(
         Err(error) => return decline(channel, error.to_string()),
     };
     match Engine::of_part(&gpu, plan, peers) {
-        Ok(mut engine) => serve(&mut engine, channel),
+        Ok(mut engine) => match introduction(&gpu, scene) {
+            Ok(introduction) => serve(&mut engine, introduction, channel),
+            Err(error) => decline(channel, error.to_string()),
+        },
         Err(error) => decline(channel, error.to_string()),
     }
+}
+
+/// Particles and steps of the scene from which ranks find out whether they compute alike.
+const SMALL: [&str; 3] = ["space.box=[5,5,5]", "time.equilibration=0", "output={}"];
+const STEPS: u64 = 8;
+
+/// This rank, with what its adapter makes of a small fluid by the integrator and the noise of a scene.
+fn introduction(gpu: &Gpu, scene: &Scene) -> Result<Introduction, RunError> {
+    let mut small = scene::load("dpd-fluid", &SMALL.map(str::to_owned))?;
+    small.integrator.clone_from(&scene.integrator);
+    small.noise.clone_from(&scene.noise);
+    let model = Model::new(&small);
+    let state = initial_state(&small, &model);
+    let mut engine = Engine::new(gpu, plan_for(&small, &model, gpu, Options::default()).without_reports(), &state)?;
+    engine.advance(STEPS, STEPS)?;
+    let state = engine.state()?;
+    let mut checksum = crc32fast::Hasher::new();
+    checksum.update(bytemuck::cast_slice(&state.positions));
+    checksum.update(bytemuck::cast_slice(&state.momenta));
+    let adapter = gpu.description();
+    let host = std::fs::read_to_string("/proc/sys/kernel/hostname").map(|name| name.trim().to_owned());
+    let host = host.or_else(|_| std::env::var("COMPUTERNAME")).unwrap_or_else(|_| "this machine".to_owned());
+    let adapter = format!("{} ({})", adapter.name, adapter.driver);
+    Ok(Introduction { host, adapter, arithmetic: checksum.finalize() })
 }
 
 /// What the first process tells the others before they become ranks.
@@ -113,7 +141,7 @@ fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
 pub(super) fn team_of_processes<'a>(
     (scene, model): (&Scene, &Model),
     gpu: &'a Gpu,
-    division: Division,
+    (division, mixed): (Division, bool),
     options: Options,
     state: &State,
     processes: &'a dyn Processes,
@@ -123,7 +151,7 @@ pub(super) fn team_of_processes<'a>(
     call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated: options.list_growth })?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
-    Ok(Team::new(engine, processes.channel(), state)?)
+    Ok(Team::new(engine, introduction(gpu, scene)?, processes.channel(), state, mixed)?)
 }
 
 /// Lets all other processes end.

@@ -35,7 +35,7 @@ fn scene(changes: &[&str]) -> Scene {
 
 fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
     let (model, _) = start(scene);
-    run::team((scene, &model), gpu(), &adapter(), division, options, state).expect("ranks")
+    run::team((scene, &model), gpu(), &adapter(), (division, false), options, state).expect("ranks")
 }
 
 fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> Bytes {
@@ -56,4 +56,55 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
             assert!(same(&alone, &divided(&scene, parts, batch)), "{changes:?} in {parts:?}");
         }
     }
+}
+
+/// What was saved by one number of ranks goes on with another.
+#[test]
+fn ranks_continue_from_each_others_states() {
+    const FIRST: u64 = 11;
+    for (changes, [first, second]) in [
+        (vec![SPLITTING, "space.box=[4,4,13]"], [[1, 1, 2], [1, 1, 3]]),
+        (vec![PREDICTED, "space.box=[12,16]", MIXTURE, MIXTURE_FORCE], [[1, 4, 1], [2, 1, 1]]),
+    ] {
+        let scene = scene(&changes);
+        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
+        let (_, state) = start(&scene);
+        let mut before = team(&scene, Division { parts: first }, Options::default(), &state);
+        before.advance(FIRST, 4).unwrap();
+        let kept = before.state().unwrap();
+        let mut samples = before.finish().unwrap();
+        samples.retain(|sample| sample.step < FIRST);
+        let mut after = team(&scene, Division { parts: second }, Options::default(), &kept);
+        after.advance(STEPS - FIRST, 8).unwrap();
+        assert!(same(&alone, &harvest(after, samples.clone())), "{changes:?} by ranks");
+        let mut after = crate::support::engine(&scene, &kept, Options::default());
+        after.advance(STEPS - FIRST, 8).unwrap();
+        assert!(same(&alone, &harvest(after, samples)), "{changes:?} alone");
+    }
+}
+
+/// Distances of pairs are counted once, though several ranks know of a pair.
+#[test]
+fn pairs_are_counted_once() {
+    let radial = r#"output.radial_distribution={"every":5,"range":2.2,"bins":40}"#;
+    for integrator in [SPLITTING, GROOT_WARREN] {
+        let scene = scene(&[integrator, "space.box=[4,4,14]", radial]);
+        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
+        assert!(alone.samples.iter().any(|sample| sample.sampler == 1 && sample.sums.iter().sum::<i64>() > 1000));
+        assert!(same(&alone, &divided(&scene, [1, 1, 3], 8)), "{integrator}");
+    }
+}
+
+/// A run that fails does so at the same step with the same words, however many ranks it has; the ranks can begin again.
+#[test]
+fn failures_are_those_of_one_rank() {
+    let scene = scene(&[GROOT_WARREN, "space.box=[5,5,9]", "time.step=0.3"]);
+    let (_, state) = start(&scene);
+    let mut alone = crate::support::engine(&scene, &state, Options::default());
+    let expected = alone.advance(200, 8).and_then(|()| alone.finish()).unwrap_err().to_string();
+    assert!(expected.contains("unstable at step"), "{expected}");
+    let mut team = team(&scene, Division { parts: [1, 1, 3] }, Options::default(), &state);
+    let found = team.advance(200, 8).and_then(|()| team.finish()).unwrap_err().to_string();
+    assert_eq!(found, expected);
+    assert!(team.advance(1, 1).is_err(), "what has failed does not go on");
 }

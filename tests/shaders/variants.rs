@@ -11,7 +11,7 @@ use mesoscope::engine::Control;
 use mesoscope::families::Model;
 use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{GpuError, LinkedShader, validate};
-use mesoscope::plan::{Hardware, Kernel, Options, Plan, Storage, Texture, Traversal};
+use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
 use mesoscope::shaders::external::Jump;
@@ -19,7 +19,7 @@ use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
-use crate::support::{INTEGRATORS, SPLITTING, STAGED, cells, fluid, water};
+use crate::support::{INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, STAGED, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -60,6 +60,7 @@ pub fn plans() -> &'static [(String, Plan)] {
         let kinds = [
             fluid_plans,
             long_range_plans,
+            shared_plans,
             driven_plans,
             walled_plans,
             sheared_plans,
@@ -225,6 +226,27 @@ fn long_range_plans() -> Vec<(String, Plan)> {
                 let scene = fluid(&[SAMPLERS, &[space, integrator]].concat());
                 let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
                 plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
+            }
+        }
+    }
+    plans
+}
+
+/// The same of one of several ranks that share the box.
+fn shared_plans() -> Vec<(String, Plan)> {
+    let radial = r#"output.radial_distribution={"every":2,"range":1.5}"#;
+    let dense = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
+    let kinds: [&[&str]; 3] = [&[], &[MIXTURE, MIXTURE_FORCE], &[dense]];
+    let mut plans = Vec::new();
+    for (row, space) in ["space.box=[9,12]", "space.box=[7,8,15]"].into_iter().enumerate() {
+        for (number, kind) in kinds.iter().enumerate() {
+            for (column, integrator) in INTEGRATORS.iter().enumerate() {
+                let changes = [&["time.steps=1000", space, *integrator, radial], *kind].concat();
+                let traversal = [Traversal::Rows, Traversal::Clusters][(row + number + column) % 2];
+                let division = Division { parts: if row == 0 { [1, 2, 1] } else { [1, 1, 2] } };
+                let part = Some(Part { division, rank: 1 });
+                let options = Options { traversal: Some(traversal), part, ..Options::default() };
+                plans.extend(plans_of(&format!("{} {traversal:?} shared", changes.join(" ")), &fluid(&changes), options));
             }
         }
     }
@@ -1010,7 +1032,8 @@ fn host_structs_lie_as_in_the_shaders() {
             Some((texture.words, u64::from(texture.size[0]) * u64::from(texture.size[1])))
         };
         if water.is_none_or(|layout| layout.bins.is_none()) {
-            let particles = water.map_or(plan.particles, |layout| layout.carriers as u64);
+            let slots = plan.part.as_ref().map_or(plan.particles, |part| part.slots);
+            let particles = water.map_or(slots, |layout| layout.carriers as u64);
             match (water, texels(Array::Particles)) {
                 (_, None) => {
                     let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);
@@ -1035,6 +1058,9 @@ fn host_structs_lie_as_in_the_shaders() {
                 [0, control.len()].contains(&shader.layout.keys().filter(|(name, _)| name == "Control").count()),
                 "a member of Control that the host does not know"
             );
+            if declared("Domain") {
+                assert_eq!(offset(shader, "Domain", "") as usize, size_of::<Domain>());
+            }
             if declared("Particle") {
                 assert_eq!(offset(shader, "Particle", ""), stride, "`{}` in {scene}", kernel.name);
                 assert_eq!(offset(shader, "Particle", "position"), 0);

@@ -1,7 +1,7 @@
 // Of several ranks: as many as are stored, without those that were forgotten, which get no rank in any cell.
 const NO_RANK: u32 = 0xffffffffu;
 
-fn stored_count() -> u32 { return stored; }
+fn stored_count() -> u32 { return stored_number; }
 fn forgets(index: u32) -> bool {
     let forgotten = stored_position(index).w == NOBODY;
     if (forgotten) { put_rank(index, NO_RANK); }

@@ -3,6 +3,7 @@
 mod files;
 mod kernels;
 mod predictions;
+mod ranks;
 
 use std::fmt::Write as _;
 
@@ -16,7 +17,7 @@ use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{Integrator, Scene};
 
 use super::table::{aligned, dimensions};
-use super::{AdapterArgument, Failure, SceneArguments, print};
+use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, print};
 
 /// Check a scene: all mistakes at once, or else what it requires - memory, time, files, warnings
 #[derive(Debug, clap::Args)]
@@ -34,6 +35,7 @@ Examples:
   mesoscope check my-scene.json
   mesoscope check dpd-fluid --kernels
   mesoscope check dpd-fluid --shader scatter
+  mesoscope check dpd-fluid --ranks 4
   mesoscope check dpd-fluid --set particles.0.number_density=4")]
 pub struct Arguments {
     #[command(flatten)]
@@ -41,6 +43,9 @@ pub struct Arguments {
 
     #[command(flatten)]
     adapter: AdapterArgument,
+
+    #[command(flatten)]
+    ranks: RanksArgument,
 
     /// List kernels, buffers and their bytes too
     #[arg(long)]
@@ -58,6 +63,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut warnings: Vec<String> =
         notices.iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
+    let division = arguments.ranks.division((&scene, &model), &arguments.adapter, None)?;
     let opened = match run::adapter_for(&scene, &arguments.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         opened => opened,
@@ -76,6 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sizes = Sizes::of(&scene, &model, &plan);
     let mut rows = overview(&scene, &model, &plan, &adapter, time, &sizes);
+    rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, &model, division)));
     rows.extend(predictions::rows(&scene, &model, &plan, hardware));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     let mut text = format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "));

@@ -301,11 +301,12 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
-    /// Buffers of the last kernel of a step beyond those of all: impulses that were gathered, what walls take up, a table of species and local
-    /// densities.
+    /// Buffers of a kernel of a step or a report beyond those of all: impulses that were gathered, what walls take up, a table of species, local
+    /// densities, and the domains of ranks.
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
-        [self.gathers(), walled, self.species.have_table(), dense].into_iter().map(u32::from).sum()
+        let shared = self.options.part.is_some();
+        [self.gathers(), walled, self.species.have_table(), dense, shared].into_iter().map(u32::from).sum()
     }
 
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two

@@ -42,8 +42,8 @@ impl Builder<'_> {
         let peers = part.peers.len() as u64;
         self.plan.constants.extend([(Constant::Peers, peers as f64), (Constant::Room, part.room as f64)]);
         self.plan.add_table(Array::Domains, bytemuck::cast_slice::<Domain, u8>(&part.domains).to_vec());
-        self.plan.add_buffer(Array::Stored, 4);
-        self.plan.add_buffer(Array::Owned, 4 * part.slots);
+        self.plan.add_buffer(Array::StoredNumber, 4);
+        self.plan.add_buffer(Array::OwnedSlots, 4 * part.slots);
         self.plan.add_buffer(Array::Outgoing, PARTICLE * part.room * peers);
         self.plan.add_buffer(Array::OutgoingCounts, 4 * (peers + 1));
         let marked = self.mark_owned();
