@@ -62,7 +62,11 @@ pub const ARRAYS: &[Array] = &[
     array("row_sums", "array<vec2<u32>>", "prefix sums over rows, then over blocks of 256 rows"),
     array("workgroups_done", "atomic<u32>", "workgroups that have ended the step"),
     // Of one of several ranks.
-    table("domains", "array<Domain>", "the part of the box of this rank, the same with its halo, and those of its peers"),
+    table(
+        "domains",
+        "array<Domain>",
+        "the part of the box of this rank, the same with its halo, and those of its peers",
+    ),
     table("stored_number", "u32", "particles stored: its own, and copies of those of other ranks"),
     array("owned_slots", "array<u32>", "whether a particle is this rank's own in the step, by slot"),
     array("outgoing", "array<Particle>", "particles that other ranks need, a stretch a peer"),

@@ -189,7 +189,11 @@ pub fn refuse_copies() -> Result<(), Failure> {
              they would write over each other's files\n\
              hint: start one copy; or let each run variants of its own, with `mesoscope sweep … --shard auto`; \
              where each has a directory of its own, unset `{name}`",
-            if cfg!(feature = "mpi") { "this command does not share its work" } else { "the program was built without MPI" }
+            if cfg!(feature = "mpi") {
+                "this command does not share its work"
+            } else {
+                "the program was built without MPI"
+            }
         ))),
     }
 }

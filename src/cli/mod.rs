@@ -84,10 +84,7 @@ impl Command {
         match self {
             Self::Sweep(arguments) if arguments.is_shard() => Ok(()),
             Self::Run(_) | Self::Resume(_) => processes::refuse_copies(true),
-            Self::Sweep(_)
-            | Self::Tradeoff(_)
-            | Self::Stability(_)
-            | Self::Plot(_) => processes::refuse_copies(false),
+            Self::Sweep(_) | Self::Tradeoff(_) | Self::Stability(_) | Self::Plot(_) => processes::refuse_copies(false),
             Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
         }
     }

@@ -54,8 +54,7 @@ impl RanksArgument {
         let alike = copies.unwrap_or_else(|| adapter.alike());
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
-            None => Ranks::Count(alike),
-            Some(Asked::Auto) => Ranks::Count(alike),
+            None | Some(Asked::Auto) => Ranks::Count(alike),
             Some(Asked::Count(count)) => Ranks::Count(*count),
             Some(Asked::Along(along)) => {
                 let dimension = scene.space.lengths.len();
@@ -97,7 +96,9 @@ impl AdapterArgument {
         }
         let adapters = list_adapters();
         let best = adapters.first();
-        let alike = |other: &&AdapterDescription| best.is_some_and(|best| best.kind == other.kind && best.backend == other.backend);
+        let alike = |other: &&AdapterDescription| {
+            best.is_some_and(|best| best.kind == other.kind && best.backend == other.backend)
+        };
         (adapters.iter().filter(alike).count() as u32).max(1)
     }
 }

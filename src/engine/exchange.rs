@@ -179,7 +179,8 @@ impl<'a> Exchange<'a> {
     /// Reads what was not guessed.
     fn read_rest(&self, counts: &[u64], parcels: &mut [Vec<u8>]) -> Result<(), EngineError> {
         let particle = 4 * PARTICLE as u64;
-        let rests: Vec<u64> = counts.iter().zip(&self.guesses).map(|(count, guess)| count.saturating_sub(*guess)).collect();
+        let rests: Vec<u64> =
+            counts.iter().zip(&self.guesses).map(|(count, guess)| count.saturating_sub(*guess)).collect();
         let all: u64 = rests.iter().sum();
         if all == 0 {
             return Ok(());
@@ -206,8 +207,6 @@ impl<'a> Exchange<'a> {
 
 /// The particles in a domain; one that is forgotten may lie anywhere.
 fn within(domain: &Domain, particles: &[u32]) -> Vec<u32> {
-    let inside = |particle: &&[u32]| {
-        particle[3] != NOBODY && domain.contains([particle[0], particle[1], particle[2]])
-    };
+    let inside = |particle: &&[u32]| particle[3] != NOBODY && domain.contains([particle[0], particle[1], particle[2]]);
     particles.chunks_exact(PARTICLE).filter(inside).flatten().copied().collect()
 }

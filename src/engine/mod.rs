@@ -278,7 +278,8 @@ impl<'a> Engine<'a> {
         if let Some(buffer) = self.buffers.get(&Paths::BUFFER) {
             self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&pack_paths(state)?));
         }
-        self.begin(state.step)
+        self.begin(state.step);
+        Ok(())
     }
 
     /// A state as the plan has it in buffers and textures.
@@ -317,11 +318,12 @@ impl<'a> Engine<'a> {
         }
         self.gpu.queue.write_buffer(buffer, 0, bytes);
         exchange.begin(needed.len() as u64 / u64::from(PARTICLE_WORDS));
-        self.begin(step)
+        self.begin(step);
+        Ok(())
     }
 
     /// Begins at a step, with the state in place.
-    fn begin(&mut self, first: u64) -> Result<(), EngineError> {
+    fn begin(&mut self, first: u64) {
         let step = [first as u32, (first >> 32) as u32];
         let control = Control {
             step,
@@ -347,7 +349,6 @@ impl<'a> Engine<'a> {
         self.in_flight.clear();
         self.collected.clear();
         self.phase = Phase::Advanced;
-        Ok(())
     }
 
     /// Continues a window of a sampler that was open when the state was saved: this many of its samples had been taken, and its buffer held

@@ -23,7 +23,7 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
         Ok(words) => (Ok(()), words),
         Err(error) => (Err(error), Vec::new()),
     };
-    (Answer::of(samples, ended.as_ref().map(|()| ()), engine.traffic()), words)
+    (Answer::of(samples, ended.as_ref().copied(), engine.traffic()), words)
 }
 
 /// Introduces itself, and does what the first rank tells until there is nothing more to do.

@@ -204,7 +204,8 @@ impl Channel for Line {
     }
 
     fn collect(&mut self) -> Result<Vec<Vec<u8>>, String> {
-        let received = self.others().map(|rank| self.receive(rank, &[ANSWER], Some(self.patience)).ok_or_else(|| gone(rank)));
+        let received =
+            self.others().map(|rank| self.receive(rank, &[ANSWER], Some(self.patience)).ok_or_else(|| gone(rank)));
         received.collect()
     }
 }

@@ -65,7 +65,9 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
         },
         Ranks::Count(count) => {
             let best = |count: u32| {
-                let fit = divisions(count, dimension).into_iter().filter(|parts| (0..3).all(|axis| parts[axis] <= most[axis]));
+                let fit = divisions(count, dimension)
+                    .into_iter()
+                    .filter(|parts| (0..3).all(|axis| parts[axis] <= most[axis]));
                 fit.map(|parts| Division { parts }).min_by(|a, b| {
                     let copies = |division: &Division| division.domain(0).with_halo(&model.units, halo).share();
                     copies(a).total_cmp(&copies(b))

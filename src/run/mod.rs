@@ -59,9 +59,9 @@ mod team;
 mod trial;
 
 pub use adapter::adapter_for;
-pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
+pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use execution::Outcome;

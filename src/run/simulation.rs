@@ -58,7 +58,16 @@ impl Simulation {
         let beginning = Beginning::New { directory: directory.into(), force };
         let id = Id::of_run(&scene);
         let model = Model::new(&scene);
-        Self { scene, model, beginning, interrupt: Interrupt::default(), notices: Vec::new(), id, division: None, mixed: false }
+        Self {
+            scene,
+            model,
+            beginning,
+            interrupt: Interrupt::default(),
+            notices: Vec::new(),
+            id,
+            division: None,
+            mixed: false,
+        }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory

@@ -128,12 +128,12 @@ enum Call {
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-fn lost(reason: impl ToString) -> RunError {
-    EngineError::Ranks { reason: reason.to_string() }.into()
+fn lost(reason: String) -> RunError {
+    EngineError::Ranks { reason }.into()
 }
 
 fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
-    let message = serde_json::to_vec(call).map_err(lost)?;
+    let message = serde_json::to_vec(call).map_err(|error| lost(error.to_string()))?;
     processes.channel().tell(&message).map_err(lost)
 }
 
@@ -148,7 +148,10 @@ pub(super) fn team_of_processes<'a>(
 ) -> Result<Team<'a>, RunError> {
     let version = VERSION.to_owned();
     let scene_told = Box::new(scene.clone());
-    call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated: options.list_growth })?;
+    call(
+        processes,
+        &Call::Share { version, scene: scene_told, division: division.parts, repeated: options.list_growth },
+    )?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
     Ok(Team::new(engine, introduction(gpu, scene)?, processes.channel(), state, mixed)?)
@@ -170,7 +173,7 @@ pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> R
     loop {
         let mut channel = processes.channel();
         let message = channel.listen().map_err(lost)?;
-        match serde_json::from_slice(&message).map_err(lost)? {
+        match serde_json::from_slice(&message).map_err(|error| lost(error.to_string()))? {
             Call::End => return Ok(()),
             Call::Share { version, .. } if version != VERSION => {
                 decline(channel.as_mut(), format!("is of version {VERSION}, the first of {version}")).map_err(lost)?;

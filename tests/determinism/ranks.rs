@@ -86,9 +86,9 @@ fn ranks_continue_from_each_others_states() {
 /// Distances of pairs are counted once, though several ranks know of a pair.
 #[test]
 fn pairs_are_counted_once() {
-    let radial = r#"output.radial_distribution={"every":5,"range":2.2,"bins":40}"#;
+    let radial = r#"output.radial_distribution={"every":5,"range":2.4,"bins":40}"#;
     for integrator in [SPLITTING, GROOT_WARREN] {
-        let scene = scene(&[integrator, "space.box=[4,4,14]", radial]);
+        let scene = scene(&[integrator, "space.box=[5,5,16]", radial]);
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         assert!(alone.samples.iter().any(|sample| sample.sampler == 1 && sample.sums.iter().sum::<i64>() > 1000));
         assert!(same(&alone, &divided(&scene, [1, 1, 3], 8)), "{integrator}");

@@ -246,7 +246,11 @@ fn shared_plans() -> Vec<(String, Plan)> {
                 let division = Division { parts: if row == 0 { [1, 2, 1] } else { [1, 1, 2] } };
                 let part = Some(Part { division, rank: 1 });
                 let options = Options { traversal: Some(traversal), part, ..Options::default() };
-                plans.extend(plans_of(&format!("{} {traversal:?} shared", changes.join(" ")), &fluid(&changes), options));
+                plans.extend(plans_of(
+                    &format!("{} {traversal:?} shared", changes.join(" ")),
+                    &fluid(&changes),
+                    options,
+                ));
             }
         }
     }

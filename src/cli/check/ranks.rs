@@ -12,10 +12,15 @@ pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static s
     let Share { lengths, halo, own, copies, peers, bytes: sent, most } = share_of(scene, model, division);
     let product = |numbers: Vec<String>| numbers[..dimension].join(" × ");
     let parts = product(division.parts.map(|part| part.to_string()).to_vec());
-    let lengths = product(lengths.map(|length| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()).to_vec());
+    let lengths = product(
+        lengths.map(|length| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()).to_vec(),
+    );
     let count = division.ranks();
     vec![
-        ("ranks", format!("{} ({parts}), each {lengths} with {halo} around it; at most {most} fit", grouped(count.into()))),
+        (
+            "ranks",
+            format!("{} ({parts}), each {lengths} with {halo} around it; at most {most} fit", grouped(count.into())),
+        ),
         (
             "copies",
             format!(
@@ -25,6 +30,13 @@ pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static s
                 100.0 * own / (own + copies).max(1.0)
             ),
         ),
-        ("exchange", format!("about {} a step and rank, with {peers} {}", bytes(sent as u64), if peers == 1 { "peer" } else { "peers" })),
+        (
+            "exchange",
+            format!(
+                "about {} a step and rank, with {peers} {}",
+                bytes(sent as u64),
+                if peers == 1 { "peer" } else { "peers" }
+            ),
+        ),
     ]
 }

@@ -77,7 +77,8 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
     // What ends a step that visits pairs once is no traversal.
     builder.scans_at_end &= !builder.visits_once();
     builder.plan_part();
-    builder.texels = options.suits_serial_memory(hardware) && Texture::holds(builder.slots + builder.frame_capacity(), 4);
+    builder.texels =
+        options.suits_serial_memory(hardware) && Texture::holds(builder.slots + builder.frame_capacity(), 4);
     builder.constants();
     builder.ordering();
     builder.integration();
@@ -695,10 +696,7 @@ impl Builder<'_> {
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
     fn frame_capacity(&self) -> u64 {
         if self.grid.framed() {
-            self.options
-                .copies
-                .unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512)
-                .min(self.slots)
+            self.options.copies.unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512).min(self.slots)
         } else {
             0
         }

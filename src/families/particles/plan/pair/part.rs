@@ -59,7 +59,8 @@ impl Builder<'_> {
         let rows = self.grid.rows();
         let in_row = (self.particles / rows).div_ceil(self.workgroup_size()).max(1);
         let segments = in_row.min((8192 / rows).max(1));
-        let kernel = self.kernel("mark_owned", Entry::MarkOwned, self.choices(), rows * segments * self.workgroup_size());
+        let kernel =
+            self.kernel("mark_owned", Entry::MarkOwned, self.choices(), rows * segments * self.workgroup_size());
         self.plan.kernels[kernel].constants.push((Constant::Segments, segments as f64));
         Some(kernel)
     }
