@@ -17,11 +17,11 @@ $(shell mkdir -p -m 700 "$(XDG_RUNTIME_DIR)")
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help run test validate bench book adapter cargo
+.PHONY: help run test validate test-mpi bench book adapter cargo
 
 help: ## this list
 	@echo 'make TARGET [SCENE=dpd-fluid] [OUT=directory] [ARGUMENTS="--set time.step=0.02"]'
-	@sed -n 's/^\([a-z]*\):.*## /  \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 14
+	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 14
 
 run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
@@ -42,6 +42,11 @@ validate: cargo adapter ## the long tests, and all tests on other drivers
 	@sh .ci/spirv.sh
 	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
 	bash .ci/drivers.sh
+
+test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library
+	@sh .ci/mpi.sh
+	cargo clippy --locked --features mpi --bins --test mpi -- -D warnings
+	cargo test --locked --features mpi --test mpi -- --test-threads=1
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

@@ -32,7 +32,7 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
 
 // Counts the pairs of one particle in its part of the rows.
 fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
-    if (!is_reported(position)) { return; }
+    if (!is_own(position)) { return; }
     let column = column_of(fraction_of(position));
     for (var across = part; across < SPAN_Y * SPAN_Z; across += PARTS) {
         let other_row = row_at(row, across);

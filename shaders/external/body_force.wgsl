@@ -62,8 +62,9 @@ fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     let group = linear_workgroup(workgroup);
     let step = clock_step().x;
     var given: array<vec2<u32>, 4>;
-    for (var slot = group * WORKGROUP + lane; slot < PARTICLES; slot += GROUPS * WORKGROUP) {
+    for (var slot = group * WORKGROUP + lane; slot < stored_count(); slot += GROUPS * WORKGROUP) {
         let me = stored_particle(slot);
+        if (!is_own(me.position)) { continue; }
         let species = species_of(me);
         let fraction = fraction_of(me.position);
         let kick = external_kick_at(fraction, species, step);

@@ -67,7 +67,7 @@ fn drift_through_all(start: ShearedFlight, species: i32) -> ShearedFlight {
 fn note_crossing(taken: i32) {
     let value = sum64_of_i32(taken);
     // A loop, not a branch: software adapters execute both sides of a branch, atomics included, but leave a loop.
-    for (var pending = taken != 0; pending; pending = false) {
+    for (var pending = taken != 0 && is_booked; pending; pending = false) {
         let before = atomicAdd(&wall_impulses[0], value.x);
         let carry = select(0u, 1u, before + value.x < before);
         atomicAdd(&wall_impulses[1], value.y + carry);

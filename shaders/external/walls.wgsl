@@ -95,6 +95,9 @@ fn fly_all(start: Flight, species: i32) -> Flight {
 // Default: off, all walls are at rest.
 fn wall_push(axis: u32, upper: bool, species: i32) -> Steps { return Steps(0); }
 
+// Whether what happens to a particle is booked.
+var<private> is_booked: bool;
+
 // Slot external/reflections: books the momentum that a wall takes up. The plan chooses `booked` for kernels that move particles.
 // Default: off, for kernels that follow a drift back.
 fn note_reflection(axis: u32, upper: bool, momentum: Steps) {}

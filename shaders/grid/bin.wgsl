@@ -9,9 +9,11 @@
 
 override CELLS: u32;
 
-// Slot grid/stored: which particles are stored and sorted. Default: all. The plan of pairs chooses `of_rank` for one of several ranks, which
+// Slot grid/stored: which particles are stored and sorted, and which of them are told of. Default: all. The plan of pairs chooses `of_rank` for one of several ranks, which
 // forgets particles and gets others.
 fn stored_count() -> u32 { return PARTICLES; }
+fn sorted_count() -> u32 { return PARTICLES; }
+fn is_own(position: vec4<u32>) -> bool { return true; }
 fn forgets(index: u32) -> bool { return false; }
 fn has_no_rank(rank: u32) -> bool { return false; }
 

@@ -32,7 +32,7 @@ var<storage, read_write> particles: array<Particle>;
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= stored_count()) { return; }
+    if (index >= sorted_count()) { return; }
     let particle = particles[index];
     let fraction = fraction_of(particle.position) + unsigned(half_drift_steps(particle.momentum));
     particles[index].position = position_word(fraction, particle.position.w);
@@ -44,8 +44,9 @@ fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest_between_walls(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= stored_count()) { return; }
+    if (index >= sorted_count()) { return; }
     let me = particles[index];
+    is_booked = is_own(me.position);
     let flight = fly(Flight(fraction_of(me.position), steps_of(me.momentum), Steps(1), 1), species_of(me));
     particles[index].position = position_word(flight.place, me.position.w);
     particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
@@ -57,8 +58,9 @@ fn drift_rest_between_walls(@builtin(workgroup_id) workgroup: vec3<u32>, @builti
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest_sheared(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= stored_count()) { return; }
+    if (index >= sorted_count()) { return; }
     let me = particles[index];
+    is_booked = is_own(me.position);
     let flight = drift_through(ShearedFlight(fraction_of(me.position), steps_of(me.momentum)), species_of(me), 2u * SHEAR_PART);
     particles[index].position = position_word(flight.place, me.position.w);
     particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);

@@ -51,9 +51,8 @@ fn reduce_quantities(group: u32, lane: u32, first: u32, end: u32) {
     for (var quantity = first; quantity < end; quantity++) { reduce_quantity(group, lane, quantity, pair_totals[quantity]); }
 }
 
-// Slot pairs/reporting: of which particles a report is, and where it leaves them.
-// Default: of all, by id, for analyses and trajectories. The plan chooses `own` for one of several ranks.
-fn is_reported(position: vec4<u32>) -> bool { return true; }
+// Slot pairs/reporting: where a report leaves a particle.
+// Default: by id, for analyses and trajectories. The plan chooses `in_order` for one of several ranks.
 fn reported_place(row: u32, index: u32, id: u32) -> u32 { return id; }
 
 // Slot pairs/reported_force: the impulses on each particle at a report, by id, in integer momentum units.

@@ -45,7 +45,7 @@ fn mark_owned(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
 fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot < CELLS) { counts[slot] = 0u; }
-    if (slot >= atomicLoad(&outgoing_counts[PEERS])) { return; }
+    if (slot >= sorted_count()) { return; }
     let particle = stored_particle(slot);
     if (owned_slots[slot] != 0u) {
         for (var peer = 0u; peer < PEERS; peer++) {

@@ -88,6 +88,11 @@ impl<'a> Exchange<'a> {
         self.part.exchange
     }
 
+    /// Whether this is the first rank.
+    pub(super) fn is_first(&self) -> bool {
+        self.part.part.rank == 0
+    }
+
     /// Of particles as they are stored those that the rank needs.
     pub(super) fn needed(&self, particles: &[u32]) -> Vec<u32> {
         let [_, needed, ..] = self.part.domains[..] else { return Vec::new() };

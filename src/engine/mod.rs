@@ -302,21 +302,26 @@ impl<'a> Engine<'a> {
     }
 
     /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own of all particles and those that it has to know,
-    /// which are given as they are stored.
+    /// which are given as they are stored; with the sums of the state, which only the first rank keeps.
     ///
     /// # Errors
     /// [`EngineError::Crowded`] if they are more than the part can store.
-    pub fn upload_part(&mut self, step: u64, particles: &[u32]) -> Result<(), EngineError> {
+    pub fn upload_part(&mut self, step: u64, contents: &[Vec<u32>]) -> Result<(), EngineError> {
         let Some(exchange) = &mut self.exchange else {
             return Err(EngineError::State { reason: "the plan is of no part".to_owned() });
         };
-        let needed = exchange.needed(particles);
+        let needed = exchange.needed(contents.first().map_or(&[], Vec::as_slice));
         let bytes: &[u8] = bytemuck::cast_slice(&needed);
         let buffer = &self.buffers[&Array::Particles];
         if bytes.len() as u64 > buffer.size() {
             return Err(EngineError::Crowded { step });
         }
         self.gpu.queue.write_buffer(buffer, 0, bytes);
+        // Sums over all ranks are with the first.
+        for (array, words) in self.plan.layout.buffers().into_iter().zip(contents).skip(1) {
+            let words = if exchange.is_first() { words.clone() } else { vec![0; words.len()] };
+            self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(&words));
+        }
         exchange.begin(needed.len() as u64 / u64::from(PARTICLE_WORDS));
         self.begin(step);
         Ok(())
@@ -432,15 +437,21 @@ impl<'a> Engine<'a> {
         self.download()
     }
 
-    /// The same of one of several ranks: its own particles, as they are stored.
+    /// The same of one of several ranks: its own particles, as they are stored, and its part of what is summed over all.
     ///
     /// # Errors
     /// As [`Self::state`], or if the plan is of no part.
-    pub fn own_state(&mut self) -> Result<Vec<u32>, EngineError> {
+    pub fn own_state(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.check_advanced()?;
         let particles = self.words(Array::Particles)?;
-        let exchange = self.part()?;
-        Ok(exchange.own_of(&particles))
+        let particles = self.part()?.own_of(&particles);
+        self.with_sums(particles)
+    }
+
+    /// Particles, with the sums that belong to a state.
+    fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
+        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| self.words(array));
+        std::iter::once(Ok(particles)).chain(sums.collect::<Vec<_>>()).collect()
     }
 
     fn check_advanced(&self) -> Result<(), EngineError> {
@@ -479,16 +490,17 @@ impl<'a> Engine<'a> {
         Ok(state)
     }
 
-    /// The same of one of several ranks: its own particles, as they are stored.
+    /// The same of one of several ranks: its own particles, as they are stored, and its part of what is summed over all.
     ///
     /// # Errors
     /// As [`Self::reported`], or if the plan is of no part.
-    pub fn own_reported(&mut self) -> Result<Vec<u32>, EngineError> {
+    pub fn own_reported(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.part()?;
         self.report_now()?;
         let (particles, marks) = (self.words(Array::Particles)?, self.words(Array::OwnedSlots)?);
         let counts = self.words(Array::OutgoingCounts)?;
-        Ok(self.part()?.marked_of(&particles, &marks, &counts))
+        let particles = self.part()?.marked_of(&particles, &marks, &counts);
+        self.with_sums(particles)
     }
 
     fn report_now(&mut self) -> Result<(), EngineError> {

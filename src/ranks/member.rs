@@ -1,14 +1,14 @@
 //! One of the ranks of a run: does what the first rank tells.
 
 use super::Channel;
-use super::message::{Answer, Command, Introduction, Problem, read, written};
+use super::message::{Answer, Command, Contents, Introduction, Problem, read, written};
 use crate::engine::Engine;
 
-/// Does what a command says; what it gives, and the words that go with it.
-pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u32]) -> (Answer, Vec<u32>) {
+/// Does what a command says; what it gives, and the arrays that go with it.
+pub(super) fn execute(engine: &mut Engine<'_>, command: Command, contents: &[Vec<u32>]) -> (Answer, Contents) {
     let mut samples = Vec::new();
     let done = match command {
-        Command::Upload { step } => engine.upload_part(step, particles).map(|()| Vec::new()),
+        Command::Upload { step } => engine.upload_part(step, contents).map(|()| Vec::new()),
         Command::Advance { steps, batch } => engine.advance(steps, batch).map(|()| Vec::new()),
         Command::Finish => engine.finish().map(|finished| {
             samples = finished;
@@ -19,11 +19,11 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
         Command::End => Ok(Vec::new()),
     };
     samples.extend(engine.take_samples());
-    let (ended, words) = match done {
-        Ok(words) => (Ok(()), words),
+    let (ended, contents) = match done {
+        Ok(contents) => (Ok(()), contents),
         Err(error) => (Err(error), Vec::new()),
     };
-    (Answer::of(samples, ended.as_ref().copied(), engine.traffic()), words)
+    (Answer::of(samples, ended.as_ref().copied(), engine.traffic()), contents)
 }
 
 /// Introduces itself, and does what the first rank tells until there is nothing more to do.
@@ -32,9 +32,9 @@ pub(super) fn execute(engine: &mut Engine<'_>, command: Command, particles: &[u3
 /// That the first rank is lost, in words.
 pub fn serve(engine: &mut Engine<'_>, introduction: Introduction, channel: &mut dyn Channel) -> Result<(), String> {
     let (mut failed, mut introduction) = (None, Some(introduction));
-    while let Some((command, particles)) = heard(channel)? {
-        let (mut answer, words) = match &failed {
-            None => execute(engine, command, &particles),
+    while let Some((command, contents)) = heard(channel)? {
+        let (mut answer, gives) = match &failed {
+            None => execute(engine, command, &contents),
             Some(problem) => (Answer { problem: Some(Problem::clone(problem)), ..Answer::default() }, Vec::new()),
         };
         if answer.problem.is_some() && failed.is_none() {
@@ -43,7 +43,7 @@ pub fn serve(engine: &mut Engine<'_>, introduction: Introduction, channel: &mut 
             failed.clone_from(&answer.problem);
         }
         answer.introduction = introduction.take();
-        channel.answer(&written(&answer, &words)?)?;
+        channel.answer(&written(&answer, &gives)?)?;
     }
     Ok(())
 }
@@ -61,7 +61,7 @@ pub fn decline(channel: &mut dyn Channel, reason: String) -> Result<(), String> 
 }
 
 /// The next command; nothing if it is to end, which nobody answers.
-fn heard(channel: &mut dyn Channel) -> Result<Option<(Command, Vec<u32>)>, String> {
-    let told: (Command, Vec<u32>) = read(&channel.listen()?)?;
+fn heard(channel: &mut dyn Channel) -> Result<Option<(Command, Contents)>, String> {
+    let told: (Command, Contents) = read(&channel.listen()?)?;
     Ok((told.0 != Command::End).then_some(told))
 }

@@ -116,24 +116,50 @@ impl Answer {
     }
 }
 
-/// A line and the words that follow it.
-pub(super) fn written(head: &impl Serialize, words: &[u32]) -> Result<Vec<u8>, String> {
-    let mut bytes = serde_json::to_vec(head).map_err(|error| error.to_string())?;
+/// Words of each array of a state, as a plan has them in buffers.
+pub(super) type Contents = Vec<Vec<u32>>;
+
+/// A line, that with the lengths of the arrays that follow, and these.
+pub(super) fn written(head: &impl Serialize, contents: &[Vec<u32>]) -> Result<Vec<u8>, String> {
+    let lengths: Vec<usize> = contents.iter().map(Vec::len).collect();
+    let head = serde_json::to_string(&(head, lengths)).map_err(|error| error.to_string())?;
+    let mut bytes = head.into_bytes();
     bytes.push(b'\n');
-    bytes.extend_from_slice(bytemuck::cast_slice(words));
+    contents.iter().for_each(|words| bytes.extend_from_slice(bytemuck::cast_slice(words)));
     Ok(bytes)
 }
 
 /// What [`written`] has written.
-pub(super) fn read<Head: for<'de> Deserialize<'de>>(bytes: &[u8]) -> Result<(Head, Vec<u32>), String> {
+pub(super) fn read<Head: for<'de> Deserialize<'de>>(bytes: &[u8]) -> Result<(Head, Contents), String> {
     let garbled = || "a message between ranks is garbled".to_owned();
     let end = bytes.iter().position(|byte| *byte == b'\n').ok_or_else(garbled)?;
-    let head = serde_json::from_slice(&bytes[..end]).map_err(|_| garbled())?;
-    let words = &bytes[end + 1..];
-    if !words.len().is_multiple_of(4) {
-        return Err(garbled());
+    let (head, lengths): (Head, Vec<usize>) = serde_json::from_slice(&bytes[..end]).map_err(|_| garbled())?;
+    let mut left = &bytes[end + 1..];
+    let mut contents = Vec::with_capacity(lengths.len());
+    for length in lengths {
+        let (words, rest) =
+            length.checked_mul(4).and_then(|length| left.split_at_checked(length)).ok_or_else(garbled)?;
+        contents.push(bytemuck::pod_collect_to_vec(words));
+        left = rest;
     }
-    Ok((head, bytemuck::pod_collect_to_vec(words)))
+    if left.is_empty() { Ok((head, contents)) } else { Err(garbled()) }
+}
+
+/// Adds what another rank has of the arrays of a state: particles follow those that are there, and of all others the 64-bit sums are added.
+pub(super) fn join(contents: &mut Contents, other: Contents) {
+    for (number, words) in other.into_iter().enumerate() {
+        match contents.get_mut(number) {
+            None => contents.push(words),
+            Some(there) if number == 0 => there.extend(words),
+            Some(there) => {
+                for (sum, more) in there.chunks_exact_mut(2).zip(words.chunks_exact(2)) {
+                    let value = |words: &[u32]| u64::from(words[1]) << 32 | u64::from(words[0]);
+                    let total = value(sum).wrapping_add(value(more));
+                    sum.copy_from_slice(&[total as u32, (total >> 32) as u32]);
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -144,10 +170,17 @@ mod tests {
     #[test]
     fn messages_come_back_as_they_were() {
         let answer = Answer { samples: vec![(1, u64::MAX, vec![i64::MIN, 3])], ..Answer::default() };
-        let words = [0, u32::from(b'\n'), u32::MAX];
-        let bytes = written(&answer, &words).unwrap();
-        assert_eq!(read::<Answer>(&bytes).unwrap(), (answer, words.to_vec()));
+        let contents = vec![vec![0, u32::from(b'\n'), u32::MAX], Vec::new(), vec![7]];
+        let bytes = written(&answer, &contents).unwrap();
+        assert_eq!(read::<Answer>(&bytes).unwrap(), (answer, contents));
         assert!(read::<Answer>(&bytes[..bytes.len() - 1]).is_err() && read::<Command>(&bytes).is_err());
+    }
+
+    #[test]
+    fn particles_are_lined_up_and_sums_added() {
+        let mut contents = vec![vec![1, 2], vec![u32::MAX, 0, u32::MAX, u32::MAX]];
+        join(&mut contents, vec![vec![3], vec![1, 0, 2, 0]]);
+        assert_eq!(contents, [vec![1, 2, 3], vec![0, 1, 1, 0]]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Channel;
 use super::member::execute;
-use super::message::{Answer, Command, Introduction, Problem, read, written};
+use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
 use crate::plan::Plan;
 use crate::state::State;
@@ -58,10 +58,9 @@ impl<'a> Team<'a> {
         let order: Vec<usize> = (0..state.len()).collect();
         let contents = self.engine.pack(state, &order)?;
         self.species.clone_from(&state.species);
-        let particles = contents.into_iter().next().unwrap_or_default();
         self.incomplete.clear();
         self.collected.clear();
-        self.tell(Command::Upload { step: state.step }, &particles).map(|_| ())
+        self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
     }
 
     /// What each rank has exchanged, in their order.
@@ -88,11 +87,11 @@ impl<'a> Team<'a> {
         )
     }
 
-    /// Lets all ranks do something; the particles that they give, one rank after the other.
-    fn tell(&mut self, command: Command, particles: &[u32]) -> Result<Vec<u32>, EngineError> {
+    /// Lets all ranks do something; what they give together.
+    fn tell(&mut self, command: Command, contents: &[Vec<u32>]) -> Result<Contents, EngineError> {
         let lost = |reason| EngineError::Ranks { reason };
-        self.channel.tell(&written(&command, particles).map_err(lost)?).map_err(lost)?;
-        let (own, mut words) = execute(&mut self.engine, command, particles);
+        self.channel.tell(&written(&command, contents).map_err(lost)?).map_err(lost)?;
+        let (own, mut given) = execute(&mut self.engine, command, contents);
         let mut problems: Vec<(u32, Problem)> = own.problem.clone().map(|problem| (0, problem)).into_iter().collect();
         if !problems.is_empty() {
             self.engine.leave();
@@ -101,9 +100,9 @@ impl<'a> Team<'a> {
         match self.channel.collect() {
             Ok(answers) => {
                 for (rank, answer) in (1..).zip(answers) {
-                    let (answer, more): (Answer, Vec<u32>) = read(&answer).map_err(lost)?;
+                    let (answer, more): (Answer, Contents) = read(&answer).map_err(lost)?;
                     problems.extend(answer.problem.clone().map(|problem| (rank, problem)));
-                    words.extend(more);
+                    join(&mut given, more);
                     self.add(rank as usize, answer);
                 }
             }
@@ -111,7 +110,7 @@ impl<'a> Team<'a> {
             Err(reason) if problems.is_empty() => return Err(lost(reason)),
             Err(_) => {}
         }
-        Problem::first(&problems).map_or(Ok(words), Err)
+        Problem::first(&problems).map_or(Ok(given), Err)
     }
 
     /// Adds the sums of a rank to those of the others.
@@ -138,7 +137,7 @@ impl<'a> Team<'a> {
     }
 
     /// A state of the particles of all ranks.
-    fn joined(&self, words: &[u32], reported: bool) -> Result<State, EngineError> {
+    fn joined(&self, contents: &Contents, reported: bool) -> Result<State, EngineError> {
         let plan = self.engine.plan();
         let count = plan.particles as usize;
         let problem = |reason: String| EngineError::Ranks { reason };
@@ -146,10 +145,11 @@ impl<'a> Team<'a> {
             Some((_, layout)) if reported => layout,
             _ => &plan.layout,
         };
-        if words.len() as u64 != plan.particles * u64::from(crate::plan::PARTICLE_WORDS) {
+        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(crate::plan::PARTICLE_WORDS) {
             return Err(problem("particles were lost between ranks".to_owned()));
         }
-        let mut state = layout.unpack(self.engine.step(), &[words], count).map_err(problem)?;
+        let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+        let mut state = layout.unpack(self.engine.step(), &contents, count).map_err(problem)?;
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }
@@ -184,13 +184,13 @@ impl Stepper for Team<'_> {
     }
 
     fn state(&mut self) -> Result<State, EngineError> {
-        let words = self.tell(Command::State, &[])?;
-        self.joined(&words, false)
+        let contents = self.tell(Command::State, &[])?;
+        self.joined(&contents, false)
     }
 
     fn reported(&mut self) -> Result<State, EngineError> {
-        let words = self.tell(Command::Report, &[])?;
-        let mut state = self.joined(&words, true)?;
+        let contents = self.tell(Command::Report, &[])?;
+        let mut state = self.joined(&contents, true)?;
         state.predicted.clear();
         Ok(state)
     }

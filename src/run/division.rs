@@ -44,7 +44,7 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
     let dimension = model.units.dimension;
     let halo = halo(scene, model);
     let reach = model.physics().reach(model);
-    let most: [u32; 3] = std::array::from_fn(|axis| Division::most_parts(&model.units, halo, reach, axis));
+    let most = most_parts(model, halo);
     let width = |parts: &[u32; 3]| {
         let axis = (0..dimension).find(|&axis| parts[axis] > most[axis]);
         axis.map(|axis| {
@@ -88,6 +88,17 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
             )
         }
     }
+}
+
+/// The most parts of each axis.
+fn most_parts(model: &Model, halo: f64) -> [u32; 3] {
+    let reach = model.physics().reach(model);
+    let mut most: [u32; 3] = std::array::from_fn(|axis| Division::most_parts(&model.units, halo, reach, axis));
+    if model.particles().shear.is_some() {
+        // What crosses a boundary that shears goes on anywhere along x.
+        most[0] = 1;
+    }
+    most
 }
 
 /// How far around its part a rank knows the particles.
@@ -168,7 +179,6 @@ pub struct Share {
 #[must_use]
 pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
     let (units, halo) = (&model.units, halo(scene, model));
-    let reach = model.physics().reach(model);
     let particles = model.particle_count() as f64;
     let own = division.domain(0);
     let copies = (own.with_halo(units, halo).share() - own.share()) * particles;
@@ -179,6 +189,6 @@ pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
         copies,
         peers: division.peers(0).len(),
         bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies,
-        most: (0..3).map(|axis| Division::most_parts(units, halo, reach, axis)).product(),
+        most: most_parts(model, halo).into_iter().product(),
     }
 }

@@ -5,7 +5,7 @@ use super::adapter::{open_adapter, plan_for};
 use crate::engine::{Engine, EngineError, Swap};
 use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::plan::{Division, Options, Part};
+use crate::plan::{Division, Options, Part, Plan, PlannedPart};
 use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
 use crate::scene::{self, Scene};
 use crate::state::State;
@@ -49,6 +49,7 @@ pub fn team<'a>(
     state: &State,
 ) -> Result<Team<'a>, RunError> {
     let part = |rank| Options { part: Some(Part { division, rank }), ..options };
+    check_widths(model, &plan_for(scene, model, gpu, part(0)))?;
     let mut links = threads::links(division.ranks()).into_iter();
     let Some(first) = links.next() else {
         return Err(EngineError::Ranks { reason: "a run needs at least one rank".to_owned() }.into());
@@ -64,6 +65,16 @@ pub fn team<'a>(
     }
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
     Ok(Team::new(engine, introduction(gpu, scene)?, Box::new(first.channel), state, mixed)?)
+}
+
+/// Refuses parts that are too thin for what their ranks have to know of each other.
+fn check_widths(model: &Model, plan: &Plan) -> Result<(), RunError> {
+    let reach = model.physics().reach(model);
+    let suits = |part: &PlannedPart| part.part.division.suits(&model.units, part.halo, reach);
+    if plan.part.as_ref().is_some_and(suits) {
+        return Ok(());
+    }
+    Err(RunError::Undividable { reasons: vec!["its parts are too thin for this scene".to_owned()] })
 }
 
 /// Opens this rank's adapter and does what the first rank tells.

@@ -16,7 +16,14 @@ const STEPS: u64 = 30;
 const EVERY_THIRD: &str = "output.energies.every=3";
 const GAUSSIAN: &str = "noise.distribution=gaussian";
 
-/// Scenes of every integrator, in three dimensions and two, alone and mixed, with what each can be divided into.
+const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+    {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
+const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
+const SHEARED: &str = r#"space.shear={"rate":1.2,"gradient":"z"}"#;
+const MANY_BODY: &str = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
+
+/// Scenes of every integrator, in three dimensions and two, alone and mixed, driven, between walls and sheared, with what each can be
+/// divided into.
 fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
     vec![
         (vec![SPLITTING, "space.box=[4,4,13]"], vec![[1, 1, 2], [1, 1, 3], [1, 1, 4]]),
@@ -25,6 +32,12 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![STAGED, "space.box=[4,4,15]"], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[5,5,9]"], vec![[2, 2, 2], [1, 1, 3], [1, 2, 4]]),
         (vec![PREDICTED, "space.box=[12,16]", MIXTURE, MIXTURE_FORCE], vec![[1, 4, 1], [4, 2, 1]]),
+        (vec![SPLITTING, "space.box=[4,4,13]", OPPOSED], vec![[1, 1, 3]]),
+        (vec![GROOT_WARREN, "space.box=[4,7,9]", OPPOSED, COUETTE], vec![[1, 2, 1], [1, 2, 3]]),
+        (vec![SPLITTING, "space.box=[6,5,9]", COUETTE], vec![[1, 1, 2]]),
+        (vec![SPLITTING, "space.box=[4,8,10]", SHEARED], vec![[1, 2, 1], [1, 1, 3]]),
+        (vec![PREDICTED, "space.box=[5,6,6]", SHEARED, MIXTURE, MIXTURE_FORCE], vec![[1, 2, 2]]),
+        (vec![GROOT_WARREN, "space.box=[4,4,9]", MANY_BODY], vec![[1, 1, 2]]),
         (vec![COTTER_REICH, "space.box=[4,7,9]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], vec![[1, 2, 2], [1, 3, 1]]),
     ]
 }

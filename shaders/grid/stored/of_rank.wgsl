@@ -2,6 +2,9 @@
 const NO_RANK: u32 = 0xffffffffu;
 
 fn stored_count() -> u32 { return stored_number; }
+// After a sort, which leaves out those that are forgotten.
+fn sorted_count() -> u32 { return atomicLoad(&outgoing_counts[PEERS]); }
+fn is_own(position: vec4<u32>) -> bool { return position.w != NOBODY && lies_in(OWN, position); }
 fn forgets(index: u32) -> bool {
     let forgotten = stored_position(index).w == NOBODY;
     if (forgotten) { put_rank(index, NO_RANK); }

@@ -2,6 +2,7 @@
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
     let species = species_of(me);
     check_particle(momentum, species, strain);
+    is_booked = is_own(me.position);
     let flight = fly_all(Flight(fraction_of(me.position), momentum, Steps(1), 1), species);
     failures_of_particles |= select(0u, FAILURE_MOMENTUM, any_beyond(flight.momentum, MOMENTUM_LIMIT));
     let slot = unframed_index(row, index);

@@ -13,7 +13,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     store_density(me.position.w, sums.density);
-    if (!is_reported(me.position)) { return; }
+    if (!is_own(me.position)) { return; }
     let slope = Vector(sums.slope);
     pair_total_add(8u, sum64_of_f32(dot(slope, slope) * DENSITY_CURVATURE));
 }

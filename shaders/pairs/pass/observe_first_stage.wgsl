@@ -18,7 +18,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(0.5 * pull * contact.distance * PAIR_VIRIAL));
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    if (!is_reported(me.position)) { return; }
+    if (!is_own(me.position)) { return; }
     first_virial = sum64_add(first_virial, sums.virial);
     begin_force();
     add_reported_force(momentum_word(sums.impulse, 0));

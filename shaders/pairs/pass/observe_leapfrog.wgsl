@@ -21,7 +21,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    if (!is_reported(me.position)) { return; }
+    if (!is_own(me.position)) { return; }
     let bonded = gathered_kick(index);
     let kick = sums.kick + bonded + external_kick(me);
     let momentum = steps_of(me.momentum) + clock_closing() * kick;

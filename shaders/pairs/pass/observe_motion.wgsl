@@ -24,7 +24,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).virial = sum64_add((*sums).virial, sum64_of_f32(virial));
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    if (!is_reported(me.position)) { return; }
+    if (!is_own(me.position)) { return; }
     let momentum = steps_of(me.momentum) + sums.impulse;
     observe_motion(species_of(me), momentum, sums.virial);
     store_momentum(me.position.w, momentum_word(momentum, species_of(me)));

@@ -300,9 +300,6 @@ impl Physics for Particles {
 
     fn unshared(&self, _: &Model) -> Vec<String> {
         let there = [
-            (!self.walls.is_empty(), "`space.walls`"),
-            (self.shear.is_some(), "`space.shear`"),
-            (self.body_forces.is_some(), "body forces"),
             (self.are_bonded(), "bonds and angles"),
             (self.tether.is_some(), "tethers"),
             (self.chains.is_some(), "harmonic chains"),

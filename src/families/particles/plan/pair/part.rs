@@ -33,7 +33,7 @@ impl Builder<'_> {
         if self.plan.part.is_none() {
             return Choices::new();
         }
-        Choices::new().with(grid::Stored::OfRank).with(pairs::Reporting::Own)
+        Choices::new().with(grid::Stored::OfRank).with(pairs::Reporting::InOrder)
     }
 
     /// Adds the kernels that exchange particles, after which they are counted into cells by `bin`.

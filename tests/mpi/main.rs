@@ -1,0 +1,227 @@
+//! Processes started by `mpirun` that share a run: the bytes of one, and an end for everything that goes wrong. With
+//! `make test-mpi`, which installs an MPI library where there is none.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rand::{RngExt as _, SeedableRng as _, rngs::StdRng};
+use tempfile::TempDir;
+
+/// Seconds until a rank counts as lost.
+const PATIENCE: u64 = 4;
+/// Everything has to have ended by then: the patience twice, and what a loaded machine needs.
+const END: Duration = Duration::from_secs(30);
+/// Faults of each kind.
+const FAULTS: usize = 10;
+/// What a run leaves that has to be the same.
+const FILES: [&str; 4] = ["energies.csv", "checkpoint.bin", "snapshot.png", "radial_distribution.csv"];
+
+/// A run of some scene in a directory of its own.
+struct Run {
+    place: TempDir,
+    arguments: Vec<String>,
+}
+
+impl Run {
+    fn of(steps: u64, more: &[&str]) -> Self {
+        let place = tempfile::tempdir().unwrap();
+        let steps = steps.to_string();
+        let fixed = ["run", "dpd-fluid", "--steps", &steps, "--set", "space.box=[8.5,8.5,8.5]", "--quiet"];
+        let output = r#"output={"energies":{"every":3},"radial_distribution":{"every":10,"range":1.5},"checkpoint":{"every":20}}"#;
+        let set = ["--set", "time.equilibration=0", "--set", output];
+        let arguments = [&fixed[..], &set, more].concat().into_iter().map(str::to_owned).collect();
+        Self { place, arguments }
+    }
+
+    fn directory(&self, name: &str) -> PathBuf {
+        self.place.path().join(name)
+    }
+
+    fn command(&self, ranks: u32, name: &str) -> Command {
+        let mut command = launcher(ranks);
+        command.arg(env!("CARGO_BIN_EXE_mesoscope")).args(&self.arguments).arg("--out").arg(self.directory(name));
+        command
+    }
+
+    /// Resumes without a launcher, and compares what is there at the end with an undisturbed run.
+    #[track_caller]
+    fn resumes_like(&self, name: &str, undisturbed: &str) {
+        let directory = self.directory(name);
+        if directory.join("checkpoint.bin").exists() {
+            let ended = Command::new(env!("CARGO_BIN_EXE_mesoscope")).arg("resume").arg(&directory).output().unwrap();
+            assert!(ended.status.success(), "{}", said(&ended));
+            self.same(name, undisturbed);
+        }
+    }
+
+    #[track_caller]
+    fn same(&self, one: &str, other: &str) {
+        for file in FILES {
+            let [one, other] = [one, other].map(|name| fs::read(self.directory(name).join(file)).unwrap());
+            assert!(!one.is_empty() && one == other, "{file}");
+        }
+    }
+}
+
+fn launcher(ranks: u32) -> Command {
+    let mut command = Command::new("mpirun");
+    command.args(["--allow-run-as-root", "--oversubscribe", "-n", &ranks.to_string()]);
+    command.env("MESOSCOPE_PATIENCE", PATIENCE.to_string()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn said(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+/// The process of a rank whose arguments name a directory.
+fn rank(directory: &Path, number: usize) -> Option<u32> {
+    let variable = format!("OMPI_COMM_WORLD_RANK={number}");
+    let processes = fs::read_dir("/proc").unwrap().flatten().filter_map(|entry| {
+        let id: u32 = entry.file_name().to_str()?.parse().ok()?;
+        let holds = |file: &str, wanted: &[u8]| {
+            fs::read(entry.path().join(file))
+                .is_ok_and(|bytes| bytes.split(|byte| *byte == 0).any(|word| word == wanted))
+        };
+        let found = holds("cmdline", directory.as_os_str().as_encoded_bytes()) && holds("environ", variable.as_bytes());
+        found.then_some(id)
+    });
+    processes.max()
+}
+
+fn signal(kind: &str, process: u32) {
+    assert!(Command::new("kill").args([kind, &process.to_string()]).status().unwrap().success());
+}
+
+/// Waits for the end of all ranks, of which nothing may remain.
+#[track_caller]
+fn ends(mut child: Child, directory: &Path) -> Output {
+    let begun = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        assert!(begun.elapsed() < END, "some rank hangs");
+        thread::sleep(Duration::from_millis(20));
+    }
+    let output = child.wait_with_output().unwrap();
+    thread::sleep(Duration::from_millis(200));
+    let left: Vec<u32> = (0..8).filter_map(|number| rank(directory, number)).collect();
+    assert!(left.is_empty(), "processes remain: {left:?}");
+    output
+}
+
+/// Waits until a run has a checkpoint, and a moment more.
+#[track_caller]
+fn under_way(run: &Run, name: &str, child: &mut Child, moment: Duration) {
+    let begun = Instant::now();
+    while !run.directory(name).join("checkpoint.bin").exists() {
+        assert!(begun.elapsed() < END && child.try_wait().unwrap().is_none(), "no checkpoint");
+        thread::sleep(Duration::from_millis(5));
+    }
+    thread::sleep(moment);
+}
+
+#[test]
+fn processes_leave_the_bytes_of_one() {
+    for integrator in ["splitting", "groot-warren", "cotter-reich"] {
+        let run = Run::of(60, &["--set", &format!("integrator.type={integrator}")]);
+        for ranks in [1, 2, 4, 8] {
+            let name = format!("ranks-{ranks}");
+            let output = run.command(ranks, &name).output().unwrap();
+            assert!(output.status.success(), "{}", said(&output));
+            run.same("ranks-1", &name);
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_shared_is_told_once() {
+    for (more, ranks, code, expected) in [
+        (&["--ranks", "1,2,2"][..], 3, 2, "`--ranks` asks for 4 ranks, and the launcher has started 3 copies"),
+        (&["--set", "space.walls.z={}"], 2, 2, "`space.walls`: on one rank only"),
+        (&["--set", "time.stop=1"], 2, 2, "unknown key"),
+        (&[], 7, 2, "6 ranks fit"),
+        (&["--adapter", "nothing of this name"], 2, 3, "nothing of this name"),
+        (&["--set", "time.step=0.4"], 4, 4, "unstable"),
+    ] {
+        let run = Run::of(200, more);
+        let output = ends(run.command(ranks, "out").spawn().unwrap(), &run.directory("out"));
+        assert_eq!(output.status.code(), Some(code), "{}", said(&output));
+        assert_eq!(said(&output).matches("error: ").count(), 1, "{}", said(&output));
+        assert!(said(&output).contains(expected), "{}", said(&output));
+    }
+}
+
+/// A rank without an adapter: one message, and nothing of an earlier run is lost.
+#[test]
+fn a_rank_without_an_adapter_ends_all() {
+    let run = Run::of(200, &[]);
+    let mut command = launcher(1);
+    let program = env!("CARGO_BIN_EXE_mesoscope");
+    let directory = run.directory("out");
+    command.arg(program).args(&run.arguments).arg("--out").arg(&directory);
+    command.args([
+        ":",
+        "-n",
+        "1",
+        "-x",
+        "VK_DRIVER_FILES=/nonexistent.json",
+        "-x",
+        "VK_ICD_FILENAMES=/nonexistent.json",
+    ]);
+    command.arg(program).args(&run.arguments).arg("--out").arg(&directory);
+    let output = ends(command.spawn().unwrap(), &directory);
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+    assert!(said(&output).contains("rank 1: ") && said(&output).matches("error: ").count() == 1, "{}", said(&output));
+}
+
+/// Some rank is killed or stopped at some moment.
+#[test]
+fn the_loss_of_a_rank_ends_all_and_the_run_resumes() {
+    let run = Run::of(3000, &[]);
+    let undisturbed = run.command(1, "undisturbed").output().unwrap();
+    assert!(undisturbed.status.success(), "{}", said(&undisturbed));
+    let mut random = StdRng::seed_from_u64(11);
+    for number in 0..2 * FAULTS {
+        let kind = ["-KILL", "-STOP"][number % 2];
+        let name = format!("fault-{number}");
+        let directory = run.directory(&name);
+        let mut child = run.command(4, &name).spawn().unwrap();
+        under_way(&run, &name, &mut child, Duration::from_millis(random.random_range(0..600)));
+        let lost = random.random_range(0..4);
+        if let Some(process) = rank(&directory, lost) {
+            signal(kind, process);
+        }
+        let output = ends(child, &directory);
+        assert!(!output.status.success(), "{kind} {lost}: {}", said(&output));
+        if kind == "-STOP" {
+            assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+            assert!(
+                said(&output).contains(&format!("rank {lost} has not answered for {PATIENCE} s")),
+                "{}",
+                said(&output)
+            );
+        }
+        run.resumes_like(&name, "undisturbed");
+        fs::remove_dir_all(&directory).unwrap();
+    }
+}
+
+/// The warning of a batch system saves and stops, as it does for one process.
+#[test]
+fn warnings_before_the_end_of_a_job_save_and_stop() {
+    let run = Run::of(3000, &[]);
+    assert!(run.command(1, "undisturbed").output().unwrap().status.success());
+    for warning in ["-USR1", "-USR2"] {
+        let name = warning.trim_start_matches('-');
+        let mut child = run.command(4, name).spawn().unwrap();
+        under_way(&run, name, &mut child, Duration::from_millis(100));
+        signal(warning, child.id());
+        let output = ends(child, &run.directory(name));
+        assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+        assert!(said(&output).contains("interrupted at step"), "{}", said(&output));
+        run.resumes_like(name, "undisturbed");
+    }
+}
