@@ -15,7 +15,9 @@ struct Path {
     images: vec4<i32>, // boxes crossed until then
 }
 
-// `position` has zeros in the words that are no coordinates.
+// Slot space/followed: which particles are followed, and how. `position` has zeros in the words that are no coordinates.
+// Default: all that are stored. The plan of pairs chooses `of_rank` for one of several ranks.
+fn followed_count() -> u32 { return PARTICLES; }
 fn follow(id: u32, position: vec4<u32>) {
     paths[id] = Path(position, paths[id].images + crossings(paths[id].last, position));
 }
@@ -24,7 +26,7 @@ fn follow(id: u32, position: vec4<u32>) {
 @compute @workgroup_size(WORKGROUP)
 fn follow_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (slot >= PARTICLES) { return; }
+    if (slot >= followed_count()) { return; }
     let position = stored_position(slot);
     follow(position.w, position_word(fraction_of(position), 0u));
 }

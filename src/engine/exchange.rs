@@ -3,8 +3,10 @@
 use super::readback::read_after;
 use super::{EngineError, recording::Recording};
 use crate::gpu::Gpu;
+use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Domain, PARTICLE_WORDS, Part, PlannedPart};
 use crate::shaders::Array;
+use crate::state::crossings;
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
@@ -214,4 +216,21 @@ impl<'a> Exchange<'a> {
 fn within(domain: &Domain, particles: &[u32]) -> Vec<u32> {
     let inside = |particle: &&[u32]| particle[3] != NOBODY && domain.contains([particle[0], particle[1], particle[2]]);
     particles.chunks_exact(PARTICLE).filter(inside).flatten().copied().collect()
+}
+
+/// How often each particle has crossed the box on every axis while it was a rank's own, two words each, from where all were last and these
+/// particles, its own, are now.
+pub(super) fn crossed(paths: &[u32], own: &[u32]) -> Vec<u32> {
+    let mut counted: Vec<[i64; 3]> = paths
+        .chunks_exact(PATH_WORDS)
+        .map(|path| std::array::from_fn(|axis| i64::from(path[PATH_WORDS / 2 + axis].cast_signed())))
+        .collect();
+    for particle in own.chunks_exact(PARTICLE) {
+        let id = particle[3] as usize;
+        if let (Some(counted), Some(path)) = (counted.get_mut(id), paths.chunks_exact(PATH_WORDS).nth(id)) {
+            let since = crossings([path[0], path[1], path[2]], [particle[0], particle[1], particle[2]]);
+            (0..3).for_each(|axis| counted[axis] += i64::from(since[axis]));
+        }
+    }
+    counted.into_iter().flatten().flat_map(|count| [count as u32, (count >> 32) as u32]).collect()
 }

@@ -294,6 +294,15 @@ impl<'a> Engine<'a> {
         })
     }
 
+    /// The same in order of the ids, with where particles were last if they are followed: what [`Self::upload_part`] takes.
+    pub(crate) fn pack_for_parts(&self, state: &State) -> Result<Vec<Vec<u32>>, EngineError> {
+        let mut contents = self.pack(state, &(0..state.len()).collect::<Vec<_>>())?;
+        if self.plan.paths.are_followed() {
+            contents.push(pack_paths(state)?);
+        }
+        Ok(contents)
+    }
+
     /// Leaves the other ranks, which learn of it where they wait for this one.
     pub(crate) fn leave(&mut self) {
         if let Some(mut exchange) = self.exchange.take() {
@@ -318,8 +327,16 @@ impl<'a> Engine<'a> {
         }
         self.gpu.queue.write_buffer(buffer, 0, bytes);
         // Sums over all ranks are with the first.
-        for (array, words) in self.plan.layout.buffers().into_iter().zip(contents).skip(1) {
-            let words = if exchange.is_first() { words.clone() } else { vec![0; words.len()] };
+        let first = exchange.is_first();
+        let arrays = self.plan.layout.buffers().into_iter().skip(1);
+        let followed = self.plan.paths.are_followed().then_some(Paths::BUFFER);
+        for (array, words) in arrays.chain(followed).zip(contents.iter().skip(1)) {
+            let mut words = words.clone();
+            match array {
+                _ if first => {}
+                Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
+                _ => words.fill(0),
+            }
             self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(&words));
         }
         exchange.begin(needed.len() as u64 / u64::from(PARTICLE_WORDS));
@@ -437,7 +454,8 @@ impl<'a> Engine<'a> {
         self.download()
     }
 
-    /// The same of one of several ranks: its own particles, as they are stored, and its part of what is summed over all.
+    /// The same of one of several ranks: its own particles, as they are stored, and its part of what is summed over all: with
+    /// that the times each particle has gone round the box, if it is followed, two words an axis.
     ///
     /// # Errors
     /// As [`Self::state`], or if the plan is of no part.
@@ -451,7 +469,10 @@ impl<'a> Engine<'a> {
     /// Particles, with the sums that belong to a state.
     fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
         let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| self.words(array));
-        std::iter::once(Ok(particles)).chain(sums.collect::<Vec<_>>()).collect()
+        let sums = sums.collect::<Result<Vec<_>, _>>()?;
+        let crossed = self.plan.paths.are_followed().then(|| self.words(Paths::BUFFER)).transpose()?;
+        let crossed = crossed.map(|paths| exchange::crossed(&paths, &particles));
+        Ok(std::iter::once(particles).chain(sums).chain(crossed).collect())
     }
 
     fn check_advanced(&self) -> Result<(), EngineError> {

@@ -38,6 +38,8 @@ impl Plan {
         let kernels = kernels.into_iter().map(|kernel| self.add_kernel(kernel)).collect();
         // Strictly less than half a box, whatever the rounding.
         let every = (0.499_999 / stride).floor().clamp(1.0, LONGEST) as u64;
+        // Between ranks particles are followed in every step: another may own them in the next.
+        let every = if self.part.is_some() { 1 } else { every };
         self.add_buffer(Paths::BUFFER, PATH * self.particles);
         self.paths = Paths { kernels, every };
     }

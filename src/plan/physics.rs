@@ -27,6 +27,8 @@ pub(crate) struct Measured {
     pub needs: Vec<Need>,
     /// The longest distance at which they look for pairs.
     pub range: f64,
+    /// Whether particles are followed.
+    pub follows: bool,
 }
 
 impl Measured {

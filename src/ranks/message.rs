@@ -125,7 +125,9 @@ pub(super) fn written(head: &impl Serialize, contents: &[Vec<u32>]) -> Result<Ve
     let head = serde_json::to_string(&(head, lengths)).map_err(|error| error.to_string())?;
     let mut bytes = head.into_bytes();
     bytes.push(b'\n');
-    contents.iter().for_each(|words| bytes.extend_from_slice(bytemuck::cast_slice(words)));
+    for words in contents {
+        bytes.extend_from_slice(bytemuck::cast_slice(words));
+    }
     Ok(bytes)
 }
 

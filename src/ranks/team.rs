@@ -55,8 +55,7 @@ impl<'a> Team<'a> {
     /// # Errors
     /// [`EngineError`] if it does not fit, or of the first rank that has one.
     pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
-        let order: Vec<usize> = (0..state.len()).collect();
-        let contents = self.engine.pack(state, &order)?;
+        let contents = self.engine.pack_for_parts(state)?;
         self.species.clone_from(&state.species);
         self.incomplete.clear();
         self.collected.clear();
@@ -150,6 +149,12 @@ impl<'a> Team<'a> {
         }
         let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
         let mut state = layout.unpack(self.engine.step(), &contents, count).map_err(problem)?;
+        if plan.paths.are_followed() {
+            let counted = contents.last().copied().unwrap_or_default();
+            // The high words are of the sign only.
+            let image = |words: &[u32]| [0, 2, 4].map(|axis| words[axis].cast_signed());
+            state.images = counted.chunks_exact(6).map(image).collect();
+        }
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }

@@ -121,9 +121,6 @@ fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
         SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
     }));
-    if scene.output.trajectory.is_some() {
-        reasons.push("`output.trajectory` follows particles on one device".to_owned());
-    }
     reasons
 }
 

@@ -26,11 +26,12 @@ use crate::scene::Output;
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let range = output.radial_distribution.as_ref().map_or(0.0, |asked| asked.range);
-    let measured = Measured { every: output.energies.every, needs: needs(output), range };
+    let follows = output.trajectory.is_some();
+    let measured = Measured { every: output.energies.every, needs: needs(output), range, follows };
     let mut physics = model.physics().plan(model, &measured, hardware, options);
     add_samplers(&mut Planner::new(model, output, equilibration, options, &mut physics));
     let mut plan = physics.plan;
-    if output.trajectory.is_some() {
+    if follows {
         plan.follow(physics.followers, physics.stride);
     }
     if options.suits_serial_memory(hardware) {

@@ -16,6 +16,7 @@ const STEPS: u64 = 30;
 const EVERY_THIRD: &str = "output.energies.every=3";
 const GAUSSIAN: &str = "noise.distribution=gaussian";
 
+const FOLLOWED: &str = r#"output.trajectory={"every":10}"#;
 const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
 const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
@@ -30,7 +31,8 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![SPLITTING, "space.box=[8.5,9,8.5]", MIXTURE, MIXTURE_FORCE], vec![[2, 2, 2]]),
         (vec![SPLITTING, "space.box=[9,3]", GAUSSIAN], vec![[2, 1, 1]]),
         (vec![STAGED, "space.box=[4,4,15]"], vec![[1, 1, 3]]),
-        (vec![GROOT_WARREN, "space.box=[5,5,9]"], vec![[2, 2, 2], [1, 1, 3], [1, 2, 4]]),
+        (vec![GROOT_WARREN, "space.box=[5,5,9]", FOLLOWED, "temperature=9"], vec![[2, 2, 2], [1, 1, 3], [1, 2, 4]]),
+        (vec![SPLITTING, "space.box=[4,4,10]", FOLLOWED, "temperature=9"], vec![[1, 1, 3]]),
         (vec![PREDICTED, "space.box=[12,16]", MIXTURE, MIXTURE_FORCE], vec![[1, 4, 1], [4, 2, 1]]),
         (vec![SPLITTING, "space.box=[4,4,13]", OPPOSED], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[4,7,9]", OPPOSED, COUETTE], vec![[1, 2, 1], [1, 2, 3]]),
@@ -64,6 +66,8 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
     for (changes, divisions) in cases() {
         let scene = scene(&changes);
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
+        let followed = changes.contains(&FOLLOWED);
+        assert_eq!(followed, alone.state.images.iter().flatten().filter(|image| **image != 0).count() > 9);
         for (number, parts) in divisions.into_iter().enumerate() {
             let batch = [8, 1, STEPS][number % 3];
             assert!(same(&alone, &divided(&scene, parts, batch)), "{changes:?} in {parts:?}");

@@ -83,7 +83,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
     builder.ordering();
     builder.integration();
     builder.buffers();
-    let groups = particles.div_ceil(builder.workgroup_size());
+    let groups = builder.slots.div_ceil(builder.workgroup_size());
     PhysicsPlan {
         reported: Some(builder.reported()),
         ordered: Some(builder.ordered()),

@@ -4,11 +4,11 @@
 use super::super::PARTICLE;
 use super::Builder;
 use crate::plan::{Domain, PlannedPart, Traversal};
-use crate::shaders::{Array, Choices, Constant, Entry, grid, pairs};
+use crate::shaders::{Array, Choices, Constant, Entry, grid, pairs, space};
 
 impl Builder<'_> {
     /// How far around a domain particles have to be known for those within it to be advanced: a cutoff for each pass over pairs that
-    /// depends on the one before, and where distances are counted their range.
+    /// depends on the one before; where distances are counted their range; and where particles are followed as far as one goes in a step.
     fn halo(&self) -> f64 {
         let densities = u32::from(self.force.many_body.is_some());
         let relaxations = match (self.splits() && self.relaxes_pairs(), self.relaxes_in_two_stages()) {
@@ -17,7 +17,8 @@ impl Builder<'_> {
             (true, true) => 2,
         };
         let passes = u32::from(self.traversal != Traversal::Alone) + relaxations + densities;
-        (f64::from(passes) * self.force.cutoff).max(self.measured.range)
+        let followed = if self.measured.follows { self.model.physics().reach(self.model) } else { 0.0 };
+        (f64::from(passes) * self.force.cutoff).max(self.measured.range).max(followed)
     }
 
     /// Plans the part, if the plan is of one.
@@ -33,7 +34,7 @@ impl Builder<'_> {
         if self.plan.part.is_none() {
             return Choices::new();
         }
-        Choices::new().with(grid::Stored::OfRank).with(pairs::Reporting::InOrder)
+        Choices::new().with(grid::Stored::OfRank).with(pairs::Reporting::InOrder).with(space::Followed::OfRank)
     }
 
     /// Adds the kernels that exchange particles, after which they are counted into cells by `bin`.
