@@ -37,7 +37,7 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![SPLITTING, "space.box=[4,4,13]", OPPOSED], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[4,7,9]", OPPOSED, COUETTE], vec![[1, 2, 1], [1, 2, 3]]),
         (vec![SPLITTING, "space.box=[6,5,9]", COUETTE], vec![[1, 1, 2]]),
-        (vec![SPLITTING, "space.box=[4,8,10]", SHEARED], vec![[1, 2, 1], [1, 1, 3]]),
+        (vec![SPLITTING, "space.box=[4,9,10]", SHEARED], vec![[1, 2, 1], [1, 1, 3]]),
         (vec![PREDICTED, "space.box=[5,6,6]", SHEARED, MIXTURE, MIXTURE_FORCE], vec![[1, 2, 2]]),
         (vec![GROOT_WARREN, "space.box=[4,4,9]", MANY_BODY], vec![[1, 1, 2]]),
         (vec![COTTER_REICH, "space.box=[4,7,9]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], vec![[1, 2, 2], [1, 3, 1]]),
