@@ -61,5 +61,5 @@ pub use reference::{Reference, References, Source};
 pub use request::Request;
 pub use run::{Phase, TradeoffOutcome, TradeoffRun};
 pub(crate) use stretch::Stretch;
-pub use summary::{Choice, ChoiceState, TradeoffSummary};
+pub use summary::{Choice, ChoiceState, TradeoffSummary, Wanted};
 pub use target::{Amount, Target, Verdict};
