@@ -228,7 +228,10 @@ impl fmt::Display for Expected {
                 write!(formatter, "not measured at this step; {words} off at a step of {step}, the nearest that was")?;
             }
             Basis::OtherChoice(choice) => {
-                write!(formatter, "not measured; {words} off with {choice} and a step of {step}, the nearest that was")?
+                write!(
+                    formatter,
+                    "not measured; {words} off with {choice} and a step of {step}, the nearest that was"
+                )?;
             }
         }
         write!(formatter, " ({}, {}, version {})", crate::printable::name(&self.scene), self.date, self.version)

@@ -104,28 +104,32 @@ pub(super) fn worst_error(choices: &[Choice], measures: &[String]) -> Option<Wor
 mod tests {
     use super::*;
 
-    fn known(error: f64) -> Option<Worst> {
-        Some(Worst { counted: error, measured: error })
+    fn of(asked: &Length, worst: Worst, done: usize) -> Extension {
+        extension(asked, Some(worst), 10.0, 5.0, done)
+    }
+
+    fn known(error: f64) -> Worst {
+        Worst { counted: error, measured: error }
     }
 
     #[test]
     fn four_times_the_samples_halve_an_error() {
         let asked = Length { error: Some(0.01), budget: None };
-        let found = extension(&asked, known(0.02), 10.0, 5.0, 0);
+        let found = of(&asked, known(0.02), 0);
         assert!((found.factor - 4.0 * MARGIN).abs() < 1e-12 && !found.is_short);
-        assert_eq!(extension(&asked, known(0.009), 10.0, 5.0, 0).factor, 1.0);
-        assert_eq!(extension(&asked, known(1.0), 10.0, 5.0, 0).factor, LARGEST_FACTOR);
-        assert!(extension(&asked, known(0.02), 10.0, 5.0, MOST_EXTENSIONS).is_short);
+        assert_eq!(of(&asked, known(0.009), 0).factor, 1.0);
+        assert_eq!(of(&asked, known(1.0), 0).factor, LARGEST_FACTOR);
+        assert!(of(&asked, known(0.02), MOST_EXTENSIONS).is_short);
     }
 
     #[test]
     fn errors_from_few_samples_are_not_believed() {
         let asked = Length { error: Some(0.01), budget: None };
-        let few = |error: f64| Some(Worst { counted: 3.0 * error, measured: error });
+        let few = |error: f64| Worst { counted: 3.0 * error, measured: error };
         // It seems to be reached, and more samples have to say so; where it is not, its size is the best guess of what is missing.
-        assert_eq!(extension(&asked, few(0.009), 10.0, 5.0, 0).factor, TO_BE_KNOWN);
-        assert!((extension(&asked, few(0.02), 10.0, 5.0, 0).factor - 4.0 * MARGIN).abs() < 1e-12);
-        assert_eq!(extension(&asked, few(0.003), 10.0, 5.0, 0).factor, 1.0);
+        assert_eq!(of(&asked, few(0.009), 0).factor, TO_BE_KNOWN);
+        assert!((of(&asked, few(0.02), 0).factor - 4.0 * MARGIN).abs() < 1e-12);
+        assert_eq!(of(&asked, few(0.003), 0).factor, 1.0);
         assert_eq!(extension(&asked, None, 10.0, 5.0, 0).factor, TO_BE_KNOWN);
     }
 
@@ -133,7 +137,7 @@ mod tests {
     fn the_rounds_that_are_expected_are_counted() {
         let asked = Length { error: Some(0.01), budget: None };
         let rounds = |worst: f64, done: usize| {
-            let found = extension(&asked, known(worst), 10.0, 5.0, done);
+            let found = of(&asked, known(worst), done);
             (found.rounds, found.total)
         };
         // 4.6, 115 and 11 500 times the samples; a million times is more than five rounds give.
@@ -148,12 +152,12 @@ mod tests {
     #[test]
     fn a_budget_limits_what_an_error_asks_for() {
         let asked = Length { error: Some(0.01), budget: Some(20.0) };
-        let found = extension(&asked, known(0.02), 10.0, 5.0, 0);
+        let found = of(&asked, known(0.02), 0);
         assert_eq!((found.factor, found.is_short), (2.0, true));
-        let found = extension(&Length { error: None, budget: Some(20.0) }, known(0.02), 10.0, 5.0, 0);
+        let found = of(&Length { error: None, budget: Some(20.0) }, known(0.02), 0);
         assert_eq!((found.factor, found.is_short), (2.0, false));
-        let used_up = extension(&Length { error: None, budget: Some(20.0) }, known(0.02), 19.0, 5.0, 0);
+        let used_up = extension(&Length { error: None, budget: Some(20.0) }, Some(known(0.02)), 19.0, 5.0, 0);
         assert_eq!((used_up.factor, used_up.is_short), (1.0, false));
-        assert_eq!(extension(&Length::default(), known(0.5), 10.0, 5.0, 0).factor, 1.0);
+        assert_eq!(of(&Length::default(), known(0.5), 0).factor, 1.0);
     }
 }

@@ -316,9 +316,10 @@ impl StudyRun<TradeoffSummary> {
             return Ok(());
         }
         let place = |name: &str| RunDirectory::open(self.directory().join(name));
-        let finer = place(FINER)?;
-        let coarser = self.summary.finer.last().map_or(COARSER, |run| run.name.as_str());
-        let limits = fields::distances(&place(coarser)?, &finer)?;
+        // Either may be the run of a choice.
+        let name = |index: usize, own| self.summary.finer.get(index).map_or(own, |run| run.name.as_str());
+        let finer = place(name(0, FINER))?;
+        let limits = fields::distances(&place(name(1, COARSER))?, &finer)?;
         let mut found = Vec::new();
         for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
             // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.

@@ -173,6 +173,13 @@ fn flows_are_compared_with_a_finer_run() {
     assert_eq!(summary.choice().map(|choice| choice.time_step), Some(0.04));
     let names = listing(&place.path("out"));
     assert!(names.contains(&files::plot("depth_distance")), "{names:?}");
+    // The finer run may be one of the choices, which is at no distance from itself.
+    let further = ["--vary", "time.step=0.01,0.02", "--finer", "time.step=0.01", "--force", "--quiet"];
+    succeeds(&borrowed(&arguments(&place, &further)));
+    let summary = TradeoffSummary::load(&place.path("out")).unwrap();
+    let distances: Vec<f64> =
+        summary.choices.iter().map(|choice| choice.error("depth_distance").unwrap().size()).collect();
+    assert!(distances[0] == 0.0 && distances[1] > 0.0, "{distances:?}");
 }
 
 /// One that is interrupted after its first run, and then goes on, measures what one measures that is not.
