@@ -65,7 +65,12 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     {
         panel = panel.with_reference("target", scale * most);
     }
-    let bars = if points.iter().any(|point| point.bar > 0.0) { ", bars: standard errors" } else { "" };
+    let few = points.iter().any(|point| point.error.from_few_samples);
+    let bars = match (points.iter().any(|point| point.bar > 0.0), few) {
+        (true, true) => ", bars: standard errors, of few samples three times",
+        (true, false) => ", bars: standard errors",
+        (false, _) => "",
+    };
     let subtitle = format!("{}{bars}", super::advice::reference_in_words(summary, measure));
     Some(Chart { title: format!("{}: {what}", request.title()), subtitle, panels: vec![panel] })
 }
