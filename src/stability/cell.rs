@@ -59,6 +59,11 @@ impl Cell {
         Some(if first.ends_with(':') { format!("{first} {}", lines.next().unwrap_or_default().trim()) } else { first })
     }
 
+    /// What so few particles do not have, in words.
+    pub(super) fn lacks(&self) -> Option<String> {
+        (!self.undefined.is_empty()).then(|| format!("so few particles have no {}", listed(&self.undefined)))
+    }
+
     /// Whether it has an error of all of these measures.
     pub(super) fn is_compared(&self, measures: &[String]) -> bool {
         measures.iter().all(|measure| self.error(measure).is_some())
@@ -76,7 +81,7 @@ impl fmt::Display for Cell {
         let nothing_is_known = self.verdict == Verdict::Right && self.errors.is_empty() && !self.undefined.is_empty();
         formatter.write_str(if nothing_is_known { "ran to its end" } else { self.verdict.name() })?;
         let what = match self.verdict {
-            _ if nothing_is_known => format!("so few particles have no {}", listed(&self.undefined)),
+            _ if nothing_is_known => self.lacks().unwrap_or_default(),
             Verdict::Right | Verdict::Biased if self.reason.is_none() => {
                 let words =
                     |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));

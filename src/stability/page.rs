@@ -6,6 +6,7 @@ use super::request::Request;
 use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::{short, three_digits};
+use crate::tradeoff;
 use std::fmt::Write as _;
 
 /// A law and a measured edge are said to part if they differ by more than this factor.
@@ -252,6 +253,12 @@ impl StabilitySummary {
     #[must_use]
     pub fn right_in_a_word(&self) -> &'static str {
         Verdict::Right.name_in(self)
+    }
+
+    /// What the mark of errors from few samples means, where there are any.
+    #[must_use]
+    pub fn legend(&self) -> Option<String> {
+        tradeoff::legend_of(self.rows.iter().flat_map(|row| &row.cells).flat_map(|cell| &cell.errors))
     }
 
     /// What else was found, line by line.

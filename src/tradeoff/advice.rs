@@ -59,7 +59,12 @@ const FEW_SAMPLES: char = '‡';
 
 /// What the mark means, where it is used.
 pub(super) fn legend(summary: &TradeoffSummary) -> Option<String> {
-    let few = summary.choices.iter().flat_map(|choice| &choice.errors).any(|error| error.from_few_samples);
+    legend_of(summary.choices.iter().flat_map(|choice| &choice.errors))
+}
+
+/// What the mark means, if one of these errors has it.
+pub(crate) fn legend_of<'e>(mut errors: impl Iterator<Item = &'e Deviation>) -> Option<String> {
+    let few = errors.any(|error| error.from_few_samples);
     few.then(|| format!("{FEW_SAMPLES} from few samples: the standard error is taken three times as large as they say"))
 }
 

@@ -51,6 +51,7 @@ mod table;
 mod target;
 
 pub use advice::error_in_words;
+pub(crate) use advice::legend_of;
 pub use cost::Cost;
 pub use deviation::Deviation;
 pub use length::Length;

@@ -266,6 +266,7 @@ fn laws_beyond_a_range_are_in_words() {
     let further = ["--vary", "time.step=0.02,0.04", "--bisections", "0", "--tolerance", "30%"];
     let said = succeeds(&borrowed(&arguments(&place, &further)));
     assert!(said.contains("B + W = 4 at 0.471, beyond the range"), "{said}");
+    assert!(said.contains("‡ from few samples"), "{said}");
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
     assert!(page.contains("B + W = 4 at 0.471, beyond the range"), "{page}");
 }
@@ -293,6 +294,8 @@ fn so_few_particles_are_mapped_to_where_runs_end() {
             assert!(said.contains(part), "{count}: `{part}` is not in: {said}");
         }
         assert!(!said.contains("biased") && !said.contains("RIGHT"), "{count}: {said}");
+        let table = fs::read_to_string(place.path(&format!("few{count}")).join(files::TABLE)).unwrap();
+        assert!(table.lines().nth(1).unwrap().contains("so few particles have no `temperature`"), "{table}");
         let first = &summary.rows[0].cells[0];
         assert!(
             first.verdict == Verdict::Right && !first.is_certain && first.undefined.len() == 2,
