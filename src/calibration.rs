@@ -1,7 +1,9 @@
 //! What is known of the errors of scenes before they run: tradeoffs that were made once and are shipped with the program.
 
+use crate::numbers::three_digits;
 use crate::scene::{self, Scene};
 use crate::tradeoff::{Choice, ChoiceState, Deviation, TradeoffSummary, error_in_words};
+use serde_json::Value;
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -14,13 +16,29 @@ const AS_DENSE: f64 = 1.05;
 static SUMMARIES: LazyLock<Vec<TradeoffSummary>> =
     LazyLock::new(|| scene::CALIBRATIONS.iter().filter_map(|text| serde_json::from_str(text).ok()).collect());
 
-/// Errors that were measured of a scene of the same physics, with the same integrator and about the same time step.
+/// How near what was measured comes to a scene.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Basis {
+    /// The same physics with about the same time step.
+    Measured,
+    /// The same physics with a smaller and a larger time step, between which errors are taken to go with a power of the step.
+    Interpolated([f64; 2]),
+    /// The same physics with another time step, all of those measured being on the same side of it.
+    OtherStep,
+    /// Another value of a single choice, as it was measured: `interactions.0.form = gradient`.
+    OtherChoice(String),
+}
+
+/// Errors that were measured of a scene of the same physics, with the same integrator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expected {
     /// Title of the scene that was measured.
     pub scene: String,
-    /// Its time step.
+    /// The time step that the errors are of.
     pub time_step: f64,
+    /// How near that comes to the scene.
+    pub basis: Basis,
     /// The errors, measure by measure.
     pub errors: Vec<Deviation>,
     /// When it was measured, as year, month and day.
@@ -29,32 +47,102 @@ pub struct Expected {
     pub version: String,
 }
 
+/// What was measured of a choice.
+struct Known {
+    summary: &'static TradeoffSummary,
+    choice: &'static Choice,
+    scene: Scene,
+}
+
+impl Known {
+    /// All that was measured and came to its end.
+    fn all() -> impl Iterator<Item = Self> {
+        let choices = SUMMARIES.iter().flat_map(|summary| summary.choices.iter().map(move |choice| (summary, choice)));
+        choices.filter_map(|(summary, choice)| {
+            let scene = measured_scene(summary, choice)?;
+            Some(Self { summary, choice, scene })
+        })
+    }
+
+    fn step(&self) -> f64 {
+        self.scene.time.step
+    }
+
+    fn expected(&self, basis: Basis) -> Expected {
+        Expected {
+            scene: self.scene.title.clone(),
+            time_step: self.choice.time_step,
+            basis,
+            errors: self.choice.errors.clone(),
+            date: self.summary.date.clone(),
+            version: self.summary.mesoscope_version.clone(),
+        }
+    }
+}
+
 /// The errors to expect of a scene; none where nothing like it was measured.
 ///
 /// ```
-/// use mesoscope::{calibration, scene};
+/// use mesoscope::calibration::{self, Basis};
+/// use mesoscope::scene;
 ///
 /// let fluid = scene::load("dpd-fluid", &["space.box=[20,20,20]".to_owned()])?;
-/// assert!(calibration::expected(&fluid).is_some_and(|expected| expected.time_step == fluid.time.step));
+/// let found = calibration::expected(&fluid).ok_or("it was measured")?;
+/// assert!(found.basis == Basis::Measured && found.time_step == fluid.time.step);
 /// let other = scene::load("dpd-fluid", &["interactions.0.repulsion=3".to_owned()])?;
 /// assert_eq!(calibration::expected(&other), None);
-/// # Ok::<(), scene::SceneError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
 pub fn expected(scene: &Scene) -> Option<Expected> {
-    let choices = SUMMARIES.iter().flat_map(|summary| summary.choices.iter().map(move |choice| (summary, choice)));
-    let alike = choices.filter_map(|(summary, choice)| {
-        let measured = measured_scene(summary, choice)?;
-        is_alike(scene, &measured).then_some((apart(scene, &measured), summary, choice, measured.title))
-    });
-    let (_, summary, choice, title) = alike.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Expected {
-        scene: title,
-        time_step: choice.time_step,
-        errors: choice.errors.clone(),
-        date: summary.date.clone(),
-        version: summary.mesoscope_version.clone(),
-    })
+    let nearest = |one: &Known, other: &Known| apart(scene, &one.scene).total_cmp(&apart(scene, &other.scene));
+    let (mut alike, others): (Vec<Known>, Vec<Known>) = Known::all()
+        .filter(|known| is_like(scene, &known.scene))
+        .partition(|known| other_choice(scene, &known.scene).is_none());
+    alike.sort_by(nearest);
+    if let Some(first) = alike.first() {
+        if apart(scene, &first.scene) <= ALIKE {
+            return Some(first.expected(Basis::Measured));
+        }
+        let step = scene.time.step;
+        let below = alike.iter().find(|known| known.step() < step);
+        let above = alike.iter().find(|known| known.step() > step);
+        return Some(match (below, above) {
+            (Some(below), Some(above)) => interpolated(step, below, above),
+            _ => first.expected(Basis::OtherStep),
+        });
+    }
+    let first = others.into_iter().min_by(nearest)?;
+    let choice = other_choice(scene, &first.scene)?;
+    Some(first.expected(Basis::OtherChoice(choice)))
+}
+
+/// Errors of a step between two that were measured.
+fn interpolated(step: f64, below: &Known, above: &Known) -> Expected {
+    let ends = [below.step(), above.step()];
+    let found = above.expected(Basis::Interpolated(ends));
+    let between = |high: &Deviation| {
+        let low = below.choice.error(&high.measure)?;
+        let error = between(step, ends, [low.error, high.error]);
+        // As uncertain as the less certain of both.
+        let uncertainty = low.uncertainty.zip(high.uncertainty).map(|(low, high)| low.max(high));
+        let from_few_samples = low.from_few_samples || high.from_few_samples;
+        Some(Deviation { error, uncertainty, from_few_samples, of_scheme: None, ..high.clone() })
+    };
+    let errors = found.errors.iter().filter_map(between).collect();
+    Expected { time_step: step, errors, ..found }
+}
+
+/// An error between two, by the power of the step that goes through both; by a straight line where they have no common sign, which is that of
+/// noise.
+fn between(step: f64, [low, high]: [f64; 2], errors: [f64; 2]) -> f64 {
+    let part = (step / low).ln() / (high / low).ln();
+    let ratio = errors[1] / errors[0];
+    if ratio.is_finite() && ratio > 0.0 {
+        errors[0] * ratio.powf(part)
+    } else {
+        errors[0] + (step - low) / (high - low) * (errors[1] - errors[0])
+    }
 }
 
 /// The scene of a choice that was finished.
@@ -72,9 +160,38 @@ fn apart(one: &Scene, other: &Scene) -> f64 {
     ratio.max(1.0 / ratio)
 }
 
-/// Whether two scenes simulate the same physics in the same way: the same interactions, temperature, integrator and particles in
-/// another number, in a box of another size.
-fn is_alike(one: &Scene, other: &Scene) -> bool {
+/// The single choice among those of the interactions that has another name in a scene that was measured: its key and that name.
+fn other_choice(scene: &Scene, measured: &Scene) -> Option<String> {
+    let [own, known] = [scene, measured].map(|scene| serde_json::to_value(&scene.interactions).unwrap_or_default());
+    let mut found = Vec::new();
+    differences(&own, &known, "interactions", &mut found);
+    match &found[..] {
+        [(key, Value::String(_), Value::String(name))] => Some(format!("{key} = {name}")),
+        _ => None,
+    }
+}
+
+/// The places at which two values differ, with both.
+fn differences<'v>(one: &'v Value, other: &'v Value, key: &str, found: &mut Vec<(String, &'v Value, &'v Value)>) {
+    match (one, other) {
+        (Value::Object(one), Value::Object(other)) if one.keys().eq(other.keys()) => {
+            for (name, value) in one {
+                differences(value, &other[name], &format!("{key}.{name}"), found);
+            }
+        }
+        (Value::Array(one), Value::Array(other)) if one.len() == other.len() => {
+            for (place, (one, other)) in one.iter().zip(other).enumerate() {
+                differences(one, other, &format!("{key}.{place}"), found);
+            }
+        }
+        _ if one == other => {}
+        _ => found.push((key.to_owned(), one, other)),
+    }
+}
+
+/// Whether two scenes simulate the same physics in the same way but for their time steps, and maybe for the name of a single choice: the same
+/// interactions, temperature, integrator and particles in another number, in a box of another size.
+fn is_like(one: &Scene, other: &Scene) -> bool {
     let volumes = [one, other].map(|scene| scene.space.volume());
     let groups = || one.particles.iter().zip(&other.particles);
     let as_dense = |(a, b): (&scene::ParticleGroup, &scene::ParticleGroup)| {
@@ -85,7 +202,7 @@ fn is_alike(one: &Scene, other: &Scene) -> bool {
     let alike = |(a, b): (&scene::ParticleGroup, &scene::ParticleGroup)| {
         (a.mass, a.fixed, a.tracer, &a.chain) == (b.mass, b.fixed, b.tracer, &b.chain)
     };
-    one.interactions == other.interactions
+    (one.interactions == other.interactions || other_choice(one, other).is_some())
         && one.temperature == other.temperature
         && one.integrator == other.integrator
         && one.space.lengths.len() == other.space.lengths.len()
@@ -93,7 +210,6 @@ fn is_alike(one: &Scene, other: &Scene) -> bool {
         && one.particles.len() == other.particles.len()
         && groups().all(alike)
         && groups().all(as_dense)
-        && apart(one, other) <= ALIKE
 }
 
 impl fmt::Display for Expected {
@@ -101,15 +217,24 @@ impl fmt::Display for Expected {
         let words =
             self.errors.iter().map(|error| format!("{} {}", error.measure.replace('_', " "), error_in_words(error)));
         let words: Vec<String> = words.collect();
-        write!(
-            formatter,
-            "{} off, as measured with a step of {} ({}, {}, version {})",
-            words.join(", "),
-            self.time_step,
-            crate::printable::name(&self.scene),
-            self.date,
-            self.version
-        )
+        let (words, step) = (words.join(", "), three_digits(self.time_step));
+        match &self.basis {
+            Basis::Measured => write!(formatter, "{words} off, as measured with a step of {step}")?,
+            Basis::Interpolated(ends) => {
+                let [low, high] = ends.map(three_digits);
+                write!(formatter, "{words} off, interpolated between steps of {low} and {high} that were measured")?;
+            }
+            Basis::OtherStep => {
+                write!(formatter, "not measured at this step; {words} off at a step of {step}, the nearest that was")?;
+            }
+            Basis::OtherChoice(choice) => {
+                write!(
+                    formatter,
+                    "not measured; {words} off with {choice} and a step of {step}, the nearest that was"
+                )?;
+            }
+        }
+        write!(formatter, " ({}, {}, version {})", crate::printable::name(&self.scene), self.date, self.version)
     }
 }
 
@@ -137,21 +262,66 @@ mod tests {
         };
         let base = scene(&[]);
         for set in ["space.box=[30,30,30]", "time.steps=9000", "time.step=0.048", "seed=9"] {
-            assert!(is_alike(&base, &scene(&[set])), "{set}");
+            assert!(is_like(&base, &scene(&[set])), "{set}");
         }
         for set in [
             "temperature=0.9",
-            "time.step=0.06",
             "interactions.0.friction=9",
             "integrator.type=groot-warren",
             "particles.0.number_density=4",
             "particles.0.mass=2",
             "space.walls={\"z\":{\"reflection\":\"bounce-back\"}}",
         ] {
-            assert!(!is_alike(&base, &scene(&[set])), "{set}");
+            assert!(!is_like(&base, &scene(&[set])), "{set}");
         }
-        // The error that is given is that of the nearest step.
-        let [near, far] = ["time.step=0.042", "time.step=0.2"].map(|step| expected(&scene(&[step])));
-        assert_eq!((near.unwrap().time_step, far), (0.04, None));
+    }
+
+    #[test]
+    fn errors_are_those_of_the_step_or_said_to_be_of_others() {
+        let at = |step: &str| {
+            let set = ["output={}".to_owned(), format!("time.step={step}")];
+            expected(&scene::load("dpd-fluid", &set).unwrap()).unwrap()
+        };
+        let near = at("0.042");
+        assert_eq!((near.time_step, near.basis), (0.04, Basis::Measured));
+        let outside = at("0.1");
+        assert_eq!((outside.time_step, &outside.basis), (0.06, &Basis::OtherStep));
+        assert!(outside.to_string().starts_with("not measured at this step; "), "{outside}");
+        // Between two steps an error lies between theirs.
+        let between = at("0.03");
+        assert_eq!(between.basis, Basis::Interpolated([0.02, 0.04]));
+        assert!(between.to_string().contains("interpolated between steps of 0.02 and 0.04"), "{between}");
+        let error = |found: &Expected| {
+            found.errors.iter().find(|e| e.measure == "configurational_temperature").unwrap().clone()
+        };
+        let [low, middle, high] = [at("0.02"), between, at("0.04")].map(|found| error(&found));
+        assert!(
+            high.error < middle.error && middle.error < low.error && low.error < 0.0,
+            "{low:?} {middle:?} {high:?}"
+        );
+        assert_eq!(middle.uncertainty, Some(low.uncertainty.unwrap().max(high.uncertainty.unwrap())));
+    }
+
+    #[test]
+    fn errors_between_two_steps_go_with_a_power_of_the_step() {
+        // Of second order: four times the error at twice the step.
+        assert!((super::between(0.03, [0.02, 0.04], [0.004, 0.016]) - 0.009).abs() < 1e-12);
+        assert!((super::between(0.03, [0.02, 0.04], [-0.004, -0.016]) + 0.009).abs() < 1e-12);
+        assert!((super::between(0.03, [0.02, 0.04], [-0.001, 0.003]) - 0.001).abs() < 1e-12);
+        assert_eq!(super::between(0.03, [0.02, 0.04], [0.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn shipped_scenes_of_families_that_were_measured_have_something_to_expect() {
+        let found = |name: &str| expected(&scene::load(name, &[]).unwrap()).unwrap();
+        assert_eq!((found("dpd-fluid").basis, found("shallow-water").basis), (Basis::Measured, Basis::Measured));
+        let memory = found("edpd-fluid");
+        assert_eq!((memory.time_step, memory.basis), (0.02, Basis::OtherStep));
+        let cells = found("voronoi-dpd");
+        assert_eq!(
+            (cells.time_step, &cells.basis),
+            (0.01, &Basis::OtherChoice("interactions.0.form = gradient".to_owned()))
+        );
+        assert!(cells.to_string().contains("off with interactions.0.form = gradient and a step of 0.01"), "{cells}");
     }
 }

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use mesoscope::output::RunDirectory;
+use mesoscope::output::{RunDirectory, files};
+use mesoscope::study::Kind;
 use mesoscope::{printable, run, sweep};
 
 use super::{AdapterArgument, Failure, print};
@@ -38,6 +39,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             "`--set {other}`: a plot can be drawn with another look, {}, but not of another run",
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
         )));
+    }
+    let is_run = arguments.directory.join(files::CHECKPOINT).exists();
+    if let Some(kind) = Kind::of(&arguments.directory).filter(|kind| !is_run && kind.summary != sweep::files::SUMMARY) {
+        let (shown, resuming) = (printable::path(&arguments.directory), kind.resuming(&arguments.directory));
+        return Err(Failure::usage(format!("`{shown}` holds a {}: {resuming} draws its pictures again", kind.noun)));
     }
     let choice = arguments.adapter.choice();
     let written = if arguments.directory.join(sweep::files::SUMMARY).exists() {

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::files;
+use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
-use mesoscope::{printable, sweep};
+use mesoscope::study::Kind;
 
 use super::{AdapterArgument, Failure, RanksArgument, print, report, whole_number};
 
@@ -38,10 +39,13 @@ pub struct Arguments {
 /// Continues the run.
 pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
-    let holds = |name: &str| arguments.directory.join(name).exists();
-    if holds(sweep::files::SUMMARY) && !holds(files::CHECKPOINT) {
+    let is_run = arguments.directory.join(files::CHECKPOINT).exists();
+    if let Some(kind) = Kind::of(&arguments.directory).filter(|_| !is_run) {
+        let resuming = kind.resuming(&arguments.directory);
+        let own = if kind.has_runs() { ", and a directory in it can be resumed on its own" } else { "" };
         return Err(Failure::usage(format!(
-            "`{shown}` holds a sweep, not a run: `mesoscope sweep --resume {shown}` finishes it, and a directory in it can be resumed on its own"
+            "`{shown}` holds a {}, not a run: {resuming} {}{own}",
+            kind.noun, kind.resumed
         )));
     }
     let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;

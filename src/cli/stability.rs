@@ -74,6 +74,7 @@ fn results(outcome: &StabilityOutcome, directory: &str) -> String {
     let mut rows = vec![header.to_vec()];
     rows.extend(summary.in_words().into_iter().map(|words| words.to_vec()));
     let mut text = aligned(&rows, "  ");
+    text.extend(summary.legend().map(|legend| format!("  {legend}\n")));
     text.extend(summary.findings().iter().map(|finding| format!("note: {finding}\n")));
     format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))
 }

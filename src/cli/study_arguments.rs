@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
-use mesoscope::study::{Observer, Record, StudyError, StudyRun};
+use mesoscope::study::{Kind, Observer, Record, StudyError, StudyRun};
 use mesoscope::tradeoff::References;
 
 use super::study_report::Reporter;
@@ -108,6 +108,7 @@ impl StudyArguments {
         runs: impl Fn(usize) -> String,
         execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
     ) -> Result<O, Failure> {
+        let directory = study.directory().to_path_buf();
         let executed = if self.how.quiet {
             execute(study, adapter, &mut |_| {})
         } else {
@@ -117,11 +118,17 @@ impl StudyArguments {
             executed
         };
         executed.map_err(|error| match error {
-            StudyError::Output(OutputError::ResultExists { .. }) => {
-                let command = R::KIND.command;
-                let hint = format!("hint: `mesoscope {command} --resume DIR` goes on with an interrupted one");
-                Failure::input_output(format!("{error}\n{hint}"))
-            }
+            // What is in the way may be of another kind, or no study.
+            StudyError::Output(OutputError::ResultExists { .. }) => match Kind::of(&directory) {
+                Some(kind) => {
+                    let resuming = kind.resuming(&directory);
+                    Failure::input_output(format!(
+                        "{error}\nhint: {resuming} goes on with an interrupted {}",
+                        kind.noun
+                    ))
+                }
+                None => error.into(),
+            },
             error => error.into(),
         })
     }

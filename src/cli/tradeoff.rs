@@ -95,7 +95,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.write {
         write(&outcome.summary, path)?;
     }
-    Ok(())
+    // Nobody said that it may take so long.
+    outcome.summary.wanted.map_or(Ok(()), |wanted| {
+        let goes_on = format!("pass --yes to run them: `mesoscope tradeoff --resume {directory} --yes` goes on");
+        Err(Failure::usage(format!("{wanted}: {goes_on}; the tables of what has run are written")))
+    })
 }
 
 fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
@@ -177,11 +181,8 @@ fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
     }
     let mut text = aligned(&rows, "  ");
     text.push_str("  errors against the references in tradeoff.md; * on the Pareto front of cost and error\n");
-    if summary.is_short {
-        text.push_str(
-            "the runs ended before all errors were as small as asked for: a larger --budget, or --yes beyond eight hours, makes them longer\n",
-        );
-    }
+    text.extend(summary.legend().map(|legend| format!("  {legend}\n")));
+    text.extend(summary.short_of_errors().map(|short| format!("{short}\n")));
     text.extend(summary.notes().iter().map(|note| format!("note: {note}\n")));
     text.push_str(&summary.advice());
     format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))

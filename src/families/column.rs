@@ -49,6 +49,11 @@ const MOMENTUM: [Column; 3] = [
     column("momentum_y", |row, _| row.momentum[1]),
     column("momentum_z", |row, _| row.momentum[2]),
 ];
+/// The axis of which a column of this name is the component of the total momentum.
+pub(crate) fn axis_of_momentum(name: &str) -> Option<usize> {
+    MOMENTUM.iter().position(|column| column.name == name)
+}
+
 /// Components of the velocity of the centre of mass.
 const CENTRE_OF_MASS: [Column; 3] = [
     column("center_of_mass_velocity_x", |row, _| row.centre_of_mass_velocity()[0]),

@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 /// Halvings of the distance to a bound.
 const ROUNDS: usize = 16;
 
+/// How many times a row is made wider, by its own width where values differ by ratios and twice as much each time where they differ by
+/// differences, to find a bound outside of it.
+const WIDTHS: usize = 6;
+
 /// Where a law puts the edge of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Bound {
@@ -20,13 +24,23 @@ pub struct Bound {
     pub at: f64,
 }
 
-/// The bounds of a row that lie between its ends.
+/// What laws say of a row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Bounds {
+    /// Bounds between its ends, by their value.
+    pub within: Vec<Bound>,
+    /// Bounds below or above them that are not far.
+    pub outside: Vec<Bound>,
+}
+
+/// The bounds of a row.
 ///
 /// # Errors
 /// [`SceneError`] when a file that scenes start from cannot be read, or is not what it was.
-pub(super) fn bounds(request: &Request, row: usize) -> Result<Vec<Bound>, SceneError> {
+pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError> {
     let along = &request.along;
-    let shares = along.values.iter().map(|value| limits(request, row, *value)).collect::<Result<Vec<_>, _>>()?;
+    let of_value = |value: &f64| Ok(limits(request, row, *value)?.unwrap_or_default());
+    let shares: Vec<Vec<families::Limit>> = along.values.iter().map(of_value).collect::<Result<_, SceneError>>()?;
     let mut laws: Vec<&'static str> = Vec::new();
     for limit in shares.iter().flatten() {
         if !laws.contains(&limit.law) {
@@ -36,29 +50,68 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<Vec<Bound>, SceneE
     let share = |limits: &[families::Limit], law: &str| {
         limits.iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
-    let mut found = Vec::new();
+    let mut found = Bounds::default();
     for law in laws {
         let beyond = shares.iter().flatten().find(|limit| limit.law == law).map(|limit| limit.beyond);
+        let is_within = |value: f64| Ok(limits(request, row, value)?.map(|limits| share(&limits, law) < 1.0));
         let crossing = shares.windows(2).position(|pair| (share(&pair[0], law) < 1.0) != (share(&pair[1], law) < 1.0));
-        let Some(place) = crossing else { continue };
-        let (low, high) = (along.values[place], along.values[place + 1]);
-        let rises = share(&shares[place], law) < 1.0;
-        let at = crossing_between(low, high, along.spacing, &|value| {
-            Ok((share(&limits(request, row, value)?, law) < 1.0) == rises)
-        })?;
-        found.push(Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at });
+        let inside = crossing.map(|place| [along.values[place], along.values[place + 1]]);
+        let ends = match inside {
+            Some(ends) => Some(ends),
+            // What is never strained has no bound.
+            None if shares.iter().all(|limits| share(limits, law) == 0.0) => None,
+            None => outside(&along.values, along.spacing, &is_within)?,
+        };
+        let Some([low, high]) = ends else { continue };
+        let at_low = is_within(low)?.unwrap_or(true);
+        let at = crossing_between(low, high, along.spacing, &|value| Ok(is_within(value)?.unwrap_or(true) == at_low))?;
+        let bound = Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at };
+        if inside.is_some() { found.within.push(bound) } else { found.outside.push(bound) }
     }
-    found.sort_by(|a, b| a.at.total_cmp(&b.at));
+    for bounds in [&mut found.within, &mut found.outside] {
+        bounds.sort_by(|a, b| a.at.total_cmp(&b.at));
+    }
     Ok(found)
 }
 
-/// What laws say of one scene; nothing where it is none.
-fn limits(request: &Request, row: usize, value: f64) -> Result<Vec<families::Limit>, SceneError> {
+/// Two values outside of a row, one beyond the other, between which a law changes its mind, on whichever side that is nearer. None where it
+/// does not.
+fn outside(
+    values: &[f64],
+    spacing: Spacing,
+    is_within: &dyn Fn(f64) -> Result<Option<bool>, SceneError>,
+) -> Result<Option<[f64; 2]>, SceneError> {
+    let [Some(first), Some(last)] = [values.first().copied(), values.last().copied()] else { return Ok(None) };
+    let Some(inside) = is_within(first)? else { return Ok(None) };
+    // Ratios of a single value, or of a narrow row, would lead nowhere.
+    let mut step = spacing.distance(first, last).max(spacing.least());
+    let [mut low, mut high] = [first, last];
+    for _ in 0..WIDTHS {
+        let [lower, higher] = [spacing.moved(low, -step), spacing.moved(high, step)];
+        // Most keys are above zero, and so are their bounds.
+        let lower = if low > 0.0 && lower <= 0.0 { low / 8.0 } else { lower };
+        // What is no scene says nothing.
+        if is_within(higher)? == Some(!inside) {
+            return Ok(Some([high, higher]));
+        }
+        if is_within(lower)? == Some(!inside) {
+            return Ok(Some([lower, low]));
+        }
+        [low, high] = [lower, higher];
+        if spacing == Spacing::Linear {
+            step *= 2.0;
+        }
+    }
+    Ok(None)
+}
+
+/// What laws say of one scene; none where it is none.
+fn limits(request: &Request, row: usize, value: f64) -> Result<Option<Vec<families::Limit>>, SceneError> {
     match request.varied(row, value) {
-        Ok(scene) => Ok(families::limits(&scene)),
+        Ok(scene) => Ok(Some(families::limits(&scene))),
         // That says nothing about the scene.
         Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => Err(error),
-        Err(_) => Ok(Vec::new()),
+        Err(_) => Ok(None),
     }
 }
 
@@ -93,7 +146,14 @@ mod tests {
         std::fs::write(&path, scene).unwrap();
         let request = Request::load(path.to_str().unwrap(), &[], &["time.step=0.01..2/6".to_owned()]).unwrap();
         let found = bounds(&request, 0).unwrap();
-        assert_eq!(found.len(), 1, "{found:?}");
-        assert!((found[0].at - 0.5).abs() < 1e-3 && found[0].is_of_stability, "{found:?}");
+        assert_eq!((found.within.len(), found.outside.len()), (1, 0), "{found:?}");
+        assert!((found.within[0].at - 0.5).abs() < 1e-3 && found.within[0].is_of_stability, "{found:?}");
+        // It does not vanish where it lies beyond the values, or below them.
+        for range in ["0.01..0.1/3", "0.8..2/3", "0.1..0.2/2:linear", "0.3,0.4"] {
+            let request = Request::load(path.to_str().unwrap(), &[], &[format!("time.step={range}")]).unwrap();
+            let found = bounds(&request, 0).unwrap();
+            assert_eq!((found.within.len(), found.outside.len()), (0, 1), "{range}: {found:?}");
+            assert!((found.outside[0].at - 0.5).abs() < 1e-3, "{range}: {found:?}");
+        }
     }
 }

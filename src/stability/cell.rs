@@ -1,6 +1,7 @@
 //! One scene of a map: run until it is plain what becomes of it.
 
 use super::verdict::{Verdict, verdict};
+use crate::families::Model;
 use crate::gpu::{AdapterChoice, GpuError};
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
@@ -12,9 +13,9 @@ use std::fmt;
 /// Parts of the averaged time after which a verdict that is certain ends a run.
 const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
 
-/// An error from too few samples to reach its plateau is likely too small. A choice on the safe side: of short runs of a fluid some were off by
-/// five of their errors.
-const UNCONVERGED: f64 = 3.0;
+/// Particles below which a measure may have no number for no other reason: a single one that keeps its momentum has no temperature, and two
+/// that do not meet have no forces.
+const FEW: u64 = 3;
 
 /// What became of one scene of a map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,6 +37,9 @@ pub struct Cell {
     /// Measures that are still on their way to equilibrium: their errors say little.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unequilibrated: Vec<String>,
+    /// Measures that so few particles do not have.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub undefined: Vec<String>,
 }
 
 impl Cell {
@@ -43,8 +47,8 @@ impl Cell {
     pub(super) fn refused(value: f64, reason: String) -> Self {
         let (verdict, is_certain) = (Verdict::Refused, true);
         let reason = Some(reason);
-        let (errors, unequilibrated) = (Vec::new(), Vec::new());
-        Self { value, verdict, is_certain, steps: 0, time_step: None, errors, reason, unequilibrated }
+        let (errors, unequilibrated, undefined) = (Vec::new(), Vec::new(), Vec::new());
+        Self { value, verdict, is_certain, steps: 0, time_step: None, errors, reason, unequilibrated, undefined }
     }
 
     /// Why it was refused, or became unstable, in a line.
@@ -53,6 +57,11 @@ impl Cell {
         let first = lines.next()?.to_owned();
         // A heading has the mistakes below it.
         Some(if first.ends_with(':') { format!("{first} {}", lines.next().unwrap_or_default().trim()) } else { first })
+    }
+
+    /// What so few particles do not have, in words.
+    pub(super) fn lacks(&self) -> Option<String> {
+        (!self.undefined.is_empty()).then(|| format!("so few particles have no {}", listed(&self.undefined)))
     }
 
     /// Whether it has an error of all of these measures.
@@ -69,8 +78,10 @@ impl Cell {
 
 impl fmt::Display for Cell {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.verdict.name())?;
+        let nothing_is_known = self.verdict == Verdict::Right && self.errors.is_empty() && !self.undefined.is_empty();
+        formatter.write_str(if nothing_is_known { "ran to its end" } else { self.verdict.name() })?;
         let what = match self.verdict {
+            _ if nothing_is_known => self.lacks().unwrap_or_default(),
             Verdict::Right | Verdict::Biased if self.reason.is_none() => {
                 let words =
                     |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
@@ -131,6 +142,7 @@ fn run(
         errors: Vec::new(),
         reason: None,
         unequilibrated: Vec::new(),
+        undefined: Vec::new(),
     };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
@@ -149,10 +161,15 @@ fn run(
             Stop::Reached => {}
         }
         cell.steps = trial.step();
-        (cell.errors, cell.reason) = compare(&trial, scene, comparison);
+        let (errors, lost) = compare(&trial, scene, comparison);
+        cell.errors = errors;
         (cell.verdict, cell.is_certain) = verdict(&cell.errors, comparison.tolerance);
-        if cell.reason.is_some() {
+        if Model::new(scene).particle_count() < FEW {
+            cell.undefined = lost;
+        } else if !lost.is_empty() {
             (cell.verdict, cell.is_certain) = (Verdict::Biased, true);
+            let has = if lost.len() == 1 { "has" } else { "have" };
+            cell.reason = Some(format!("{} {has} no number", listed(&lost)));
         }
         cell.unequilibrated = unequilibrated(&trial, &cell.errors);
         cell.is_certain &= cell.unequilibrated.is_empty();
@@ -165,32 +182,34 @@ fn run(
     Ok(Some(cell))
 }
 
+/// Names of measures in a sentence.
+fn listed(measures: &[String]) -> String {
+    measures.iter().map(|measure| format!("`{measure}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// How far measures are off, and which are not numbers.
-fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Vec<Deviation>, Option<String>) {
+fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Vec<Deviation>, Vec<String>) {
     let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in comparison.measures {
         let Some(reference) = reference(measure, scene, comparison.references) else { continue };
         let mean = || {
             let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
-            estimate.map(|found| {
-                let factor = if found.converged { 1.0 } else { UNCONVERGED };
-                Measured {
-                    measure: measure.clone(),
-                    value: found.mean,
-                    standard_error: found.standard_error.map(|error| factor * error),
-                    fluctuates: true,
-                }
+            estimate.map(|found| Measured {
+                measure: measure.clone(),
+                value: found.mean,
+                standard_error: found.standard_error,
+                fluctuates: true,
+                from_few_samples: !found.converged,
             })
         };
         let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
         match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {
             Some(error) => errors.push(error),
-            None => lost.push(format!("`{measure}`")),
+            None => lost.push(measure.clone()),
         }
     }
-    let reason = (!lost.is_empty()).then(|| format!("{} has no number", lost.join(", ")));
-    (errors, reason)
+    (errors, lost)
 }
 
 /// Measures whose rows after equilibration begin with a transient.

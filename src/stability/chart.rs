@@ -8,11 +8,6 @@ use crate::numbers::short;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
 use crate::study::readable;
 
-/// The place of an edge on its axis: the middle between two neighbours.
-fn middle(summary: &StabilitySummary, low: f64, high: f64) -> f64 {
-    summary.spacing.middle(low, high)
-}
-
 fn axis(label: &str, spacing: Spacing) -> Axis {
     match spacing {
         Spacing::Log => Axis::log(label),
@@ -24,11 +19,13 @@ fn axis(label: &str, spacing: Spacing) -> Axis {
 pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
     let percent = format!("{} %", short(100.0 * summary.tolerance()));
     let measures: Vec<String> = summary.measures.iter().map(|measure| measure.replace('_', " ")).collect();
-    let subtitle = if measures.is_empty() {
+    let subtitle = if summary.compares_nothing() {
         "nothing is compared".to_owned()
     } else {
         format!("right: {} within {percent}", measures.join(", "))
     };
+    // What is not in the picture is in words.
+    let subtitle = [subtitle].into_iter().chain(super::page::laws_outside(summary)).collect::<Vec<_>>().join("; ");
     let has_errors = summary.rows.iter().flat_map(|row| &row.cells).any(|cell| !cell.errors.is_empty());
     let is_curve = summary.rows.len() == 1 && has_errors;
     let panel = if is_curve { of_a_row(summary) } else { of_rows(summary, request, &percent) };
@@ -71,7 +68,7 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
             continue;
         }
         let name = match verdict {
-            Verdict::Right if !summary.measures.is_empty() => format!("right within {percent}"),
+            Verdict::Right if !summary.compares_nothing() => format!("right within {percent}"),
             other => other.name_in(summary).to_owned(),
         };
         panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(number)));
@@ -119,8 +116,37 @@ fn of_a_row(summary: &StabilitySummary) -> Panel {
     for (number, bound) in row.bounds.iter().enumerate() {
         panel.series.push(vertical(&format!("law: {}", bound.law), bound.at, number + 1));
     }
-    if let Some((Some(low), high)) = row.unstable_from() {
-        panel.series.push(vertical("first unstable", middle(summary, low, high), 0));
+    if let Some((_, first)) = row.unstable_from() {
+        panel.series.push(vertical("first unstable", first, 0));
     }
     panel.with_reference("tolerance", tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::cell::Cell;
+    use super::super::{Bound, Request};
+    use super::*;
+    use crate::study::Record as _;
+
+    #[test]
+    fn the_line_of_the_first_unstable_run_is_where_that_run_is() {
+        let request = Request::load("dpd-fluid", &[], &["time.step=0.1..0.4/3".to_owned()]).unwrap();
+        let mut summary = StabilitySummary::before(&request);
+        for (value, verdict) in [(0.1, Verdict::Right), (0.2, Verdict::Biased), (0.4, Verdict::Unstable)] {
+            summary.rows[0].add(Cell { verdict, ..Cell::refused(value, String::new()) });
+        }
+        let law = |law: &str, at: f64| Bound { law: law.to_owned(), is_of_stability: true, at };
+        summary.rows[0].outside = vec![law("low", 0.05), law("high", 0.8)];
+        let panel = of_a_row(&summary);
+        let line = panel.series.iter().find(|series| series.name == "first unstable").unwrap();
+        assert!(line.points.iter().all(|[value, _]| *value == 0.4), "{line:?}");
+        // Laws outside of the picture are in its words.
+        let subtitle = chart(&summary, &request).subtitle;
+        assert!(
+            subtitle.ends_with("; law low at 0.05, below the range; law high at 0.8, beyond the range"),
+            "{subtitle}"
+        );
+    }
 }

@@ -6,6 +6,7 @@ use super::request::Request;
 use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::{short, three_digits};
+use crate::tradeoff;
 use std::fmt::Write as _;
 
 /// A law and a measured edge are said to part if they differ by more than this factor.
@@ -35,9 +36,40 @@ pub(super) fn unstable_in_words(row: &Row) -> String {
 
 /// What laws say of a row, in words.
 fn bounds_in_words(row: &Row) -> String {
-    let words = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, three_digits(bound.at)));
-    let words: Vec<String> = words.collect();
-    if words.is_empty() { "none in this range".to_owned() } else { words.join("; ") }
+    let within = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, three_digits(bound.at)));
+    let outside = row
+        .outside
+        .iter()
+        .map(|bound| format!("{} at {}, {} the range", bound.law, three_digits(bound.at), side(row, bound)));
+    let words: Vec<String> = within.chain(outside).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join("; ") }
+}
+
+/// On which side of a row a bound lies that is not in it.
+fn side(row: &Row, bound: &Bound) -> &'static str {
+    if row.cells.last().is_some_and(|cell| cell.value < bound.at) { "beyond" } else { "below" }
+}
+
+/// The laws that bound no row within its range, and where they do.
+pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
+    let inside = |law: &str| summary.rows.iter().flat_map(|row| &row.bounds).any(|bound| bound.law == law);
+    let mut found: Vec<(&str, &str, Vec<f64>)> = Vec::new();
+    for row in &summary.rows {
+        for bound in row.outside.iter().filter(|bound| !inside(&bound.law)) {
+            let side = side(row, bound);
+            match found.iter_mut().find(|(law, known, _)| *law == bound.law && *known == side) {
+                Some((.., places)) => places.push(bound.at),
+                None => found.push((&bound.law, side, vec![bound.at])),
+            }
+        }
+    }
+    let words = |(law, side, places): (&str, &str, Vec<f64>)| {
+        let [least, most] =
+            [f64::min, f64::max].map(|of| three_digits(places.iter().copied().reduce(of).unwrap_or(f64::NAN)));
+        let places = if least == most { least } else { format!("{least} to {most}") };
+        format!("law {law} at {places}, {side} the range")
+    };
+    found.into_iter().map(words).collect()
 }
 
 /// Where laws and measurement part, law by law: of stability and the first unstable runs, of accuracy and the first biased ones.
@@ -55,11 +87,15 @@ fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
             }
         };
         let middle = |low: f64, high: f64| summary.spacing.middle(low, high);
-        if let Some(bound) = row.bounds.iter().find(|bound| bound.is_of_stability) {
+        let first = |is_of_stability: bool| {
+            let all = row.bounds.iter().chain(&row.outside);
+            all.filter(|bound| bound.is_of_stability == is_of_stability).min_by(|a, b| a.at.total_cmp(&b.at))
+        };
+        if let Some(bound) = first(true) {
             parts(bound, row.unstable_from().and_then(|(low, high)| Some(middle(low?, high))));
         }
         // What is biased beyond a law of accuracy, and right before.
-        if let Some(bound) = row.bounds.iter().find(|bound| !bound.is_of_stability) {
+        if let Some(bound) = first(false) {
             let edges = row.edges();
             let bias = edges.iter().find(|edge| (edge.below, edge.above) == (Verdict::Right, Verdict::Biased));
             parts(bound, bias.map(|edge| middle(edge.low, edge.high)));
@@ -69,14 +105,41 @@ fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
         ratios.sort_by(f64::total_cmp);
         let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
         let kind = if bound.is_of_stability { "unstable" } else { "biased" };
-        let (where_to, rows) = if ratios.len() == 1 {
-            (format!("at {least} times"), format!("the first {kind} run is"))
+        let (place, rows) = if ratios.len() == 1 {
+            (least, "runs".to_owned())
         } else {
-            (format!("at {least} to {most} times"), format!("in {} rows the first {kind} runs are", ratios.len()))
+            (format!("{least} to {most}"), format!("in {} rows runs", ratios.len()))
         };
-        format!("{rows} {where_to} what the law {} says", bound.law)
+        format!("{rows} become {kind} at {place} times what the law {} says", bound.law)
     };
     found.into_iter().map(words).collect()
+}
+
+/// Rows whose runs are the same, digit by digit: what tells these rows apart makes no difference.
+fn same_rows(summary: &StabilitySummary) -> Vec<String> {
+    let is_same = |one: &Row, other: &Row| {
+        let mut both = one
+            .cells
+            .iter()
+            .filter_map(|cell| Some((cell, other.cells.iter().find(|found| found.value == cell.value)?)));
+        let has_numbers = both.clone().any(|(cell, _)| cell.errors.iter().any(|error| error.uncertainty != Some(0.0)));
+        has_numbers && both.all(|(one, other)| one == other)
+    };
+    let mut groups: Vec<Vec<&Row>> = Vec::new();
+    for row in &summary.rows {
+        match groups.iter_mut().find(|group| is_same(group[0], row)) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    let in_words = |group: Vec<&Row>| {
+        let labels: Vec<&str> = group.iter().map(|row| row.label.as_str()).collect();
+        format!(
+            "{} are the same runs, digit by digit: what tells these rows apart makes no difference",
+            labels.join(" and ")
+        )
+    };
+    groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
 }
 
 /// The result, line by line.
@@ -84,12 +147,27 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
     let mut lines = differences(summary);
     let cells = || summary.rows.iter().flat_map(|row| &row.cells);
     let compared = |cell: &&Cell| cell.is_compared(&summary.measures);
-    let lawless = cells().filter(|cell| cell.verdict == Verdict::Right && !compared(cell)).count();
+    let has_all = |cell: &&Cell| cell.undefined.is_empty();
+    let lawless = cells().filter(has_all).filter(|cell| cell.verdict == Verdict::Right && !compared(cell)).count();
     if lawless > 0 {
         lines.push(format!(
             "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
         ));
     }
+    let few = cells().filter(|cell| !has_all(cell));
+    let mut undefined: Vec<String> =
+        few.clone().flat_map(|cell| &cell.undefined).map(|name| format!("`{name}`")).collect();
+    undefined.sort();
+    undefined.dedup();
+    if !undefined.is_empty() {
+        lines.push(format!(
+            "{} of {} runs have so few particles that they have no {}, which cannot be compared: of these it is known where runs end, and no more",
+            few.count(),
+            cells().count(),
+            undefined.join(", ")
+        ));
+    }
+    lines.extend(same_rows(summary));
     let settled = |cell: &&Cell| cell.unequilibrated.is_empty();
     let open = cells().filter(compared).filter(settled).filter(|cell| !cell.is_certain).count();
     if open > 0 && !summary.measures.is_empty() {
@@ -125,7 +203,7 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let keys = request.short_keys();
     let key = keys.short(&summary.key);
     let measures: Vec<String> = summary.measures.iter().map(|measure| format!("`{measure}`")).collect();
-    let meaning = if measures.is_empty() {
+    let meaning = if summary.compares_nothing() {
         "Nothing is compared, so that nobody knows whether what ran to its end is right.".to_owned()
     } else {
         format!("Right means that {} are within {} %.", measures.join(", "), short(100.0 * summary.tolerance()))
@@ -175,6 +253,12 @@ impl StabilitySummary {
     #[must_use]
     pub fn right_in_a_word(&self) -> &'static str {
         Verdict::Right.name_in(self)
+    }
+
+    /// What the mark of errors from few samples means, where there are any.
+    #[must_use]
+    pub fn legend(&self) -> Option<String> {
+        tradeoff::legend_of(self.rows.iter().flat_map(|row| &row.cells).flat_map(|cell| &cell.errors))
     }
 
     /// What else was found, line by line.

@@ -34,6 +34,22 @@ impl Spacing {
         }
     }
 
+    /// The value so far from another, in the sense of [`Self::distance`].
+    pub(super) fn moved(self, value: f64, distance: f64) -> f64 {
+        match self {
+            Self::Log => value * distance.exp(),
+            Self::Linear => value + distance,
+        }
+    }
+
+    /// A distance below which values are as good as the same.
+    pub(super) fn least(self) -> f64 {
+        match self {
+            Self::Log => std::f64::consts::LN_2,
+            Self::Linear => f64::MIN_POSITIVE,
+        }
+    }
+
     /// The value at a part of the way from one to another.
     fn at(self, low: f64, high: f64, part: f64) -> f64 {
         match self {

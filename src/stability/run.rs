@@ -54,7 +54,8 @@ impl StudyRun<StabilitySummary> {
         self.check_place()?;
         for row in 0..self.summary.rows.len() {
             // Also of a map that goes on: this version may know of other laws.
-            self.summary.rows[row].bounds = bounds(&self.request, row)?;
+            let found = bounds(&self.request, row)?;
+            (self.summary.rows[row].bounds, self.summary.rows[row].outside) = (found.within, found.outside);
         }
         let mut waiting = self.waiting();
         let gpu = run::adapter_for(&self.request.base, adapter).map_err(|source| match source {

@@ -50,6 +50,9 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// Where laws put its edges; none before the map is begun.
     pub bounds: Vec<Bound>,
+    /// Where they put edges that lie outside of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<Bound>,
 }
 
 /// Where one verdict ends and another begins.
@@ -118,6 +121,15 @@ impl StabilitySummary {
         self.arguments.tolerance
     }
 
+    /// Whether no run is compared with anything: no law says what should be, or there are too few particles for what it says.
+    #[must_use]
+    pub fn compares_nothing(&self) -> bool {
+        let cells = || self.rows.iter().flat_map(|row| &row.cells);
+        let is_all_undefined =
+            cells().any(|cell| !cell.undefined.is_empty()) && cells().all(|cell| cell.errors.is_empty());
+        self.measures.is_empty() || is_all_undefined
+    }
+
     /// Reads the summary in the directory of a map.
     ///
     /// # Errors
@@ -140,6 +152,7 @@ impl Record for StabilitySummary {
             setting: request.setting(row),
             cells: Vec::new(),
             bounds: Vec::new(),
+            outside: Vec::new(),
         };
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -182,7 +195,8 @@ mod tests {
     use super::*;
 
     fn row(verdicts: &[(f64, Verdict)]) -> Row {
-        let mut row = Row { label: String::new(), setting: None, cells: Vec::new(), bounds: Vec::new() };
+        let (label, bounds, outside) = (String::new(), Vec::new(), Vec::new());
+        let mut row = Row { label, setting: None, cells: Vec::new(), bounds, outside };
         for (value, verdict) in verdicts {
             row.add(Cell { verdict: *verdict, ..Cell::refused(*value, String::new()) });
         }

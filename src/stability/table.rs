@@ -43,6 +43,7 @@ fn cells(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<String> {
         cells.push(number(error.map(|error| error.error)));
         cells.push(number(error.and_then(|error| error.uncertainty)));
     }
-    cells.push(cell.reason.clone().unwrap_or_default().replace('\n', "; "));
+    let reason = cell.reason.clone().or_else(|| cell.lacks());
+    cells.push(reason.unwrap_or_default().replace('\n', "; "));
     cells
 }

@@ -27,7 +27,7 @@ impl Verdict {
 
     /// What it is called in a map that compares nothing, where nobody knows what is right, or else.
     pub(super) fn name_in(self, summary: &StabilitySummary) -> &'static str {
-        if self == Self::Right && summary.measures.is_empty() { "ran to its end" } else { self.name() }
+        if self == Self::Right && summary.compares_nothing() { "ran to its end" } else { self.name() }
     }
 
     /// Its word.
@@ -66,7 +66,8 @@ mod tests {
     use super::*;
 
     fn deviation(error: f64, uncertainty: Option<f64>) -> Deviation {
-        Deviation { measure: String::new(), error, uncertainty, relative: true, on_front: false, of_scheme: None }
+        let (measure, relative) = (String::new(), true);
+        Deviation { measure, error, uncertainty, from_few_samples: false, relative, on_front: false, of_scheme: None }
     }
 
     #[test]

@@ -76,9 +76,8 @@ pub enum StudyError {
     },
     /// It was asked to stop before its end.
     #[error(
-        "interrupted{progress}; `mesoscope {} --resume {}` {}",
-        kind.command,
-        printable::path(directory),
+        "interrupted{progress}; {} {}",
+        kind.resuming(directory),
         kind.resumed
     )]
     Interrupted {
@@ -169,8 +168,11 @@ pub struct Mistake {
     pub message: String,
 }
 
-/// What a directory lacks.
+/// What a directory lacks, and what it has instead.
 fn lacking(path: &Path, kind: &Kind) -> String {
+    if let Some(other) = Kind::of(path) {
+        return format!("it holds a {}, and {} {}", other.noun, other.resuming(path), other.resumed);
+    }
     if path.is_dir() { format!("it has no {}", kind.summary) } else { "there is no such directory".to_owned() }
 }
 

@@ -1,5 +1,8 @@
 //! The kinds of studies: their words and their files.
 
+use crate::printable;
+use std::path::Path;
+
 /// What a kind of study is called, and what belongs to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
@@ -77,6 +80,24 @@ pub(crate) const STABILITY: Kind = Kind {
 pub(super) const KINDS: [&Kind; 3] = [&SWEEP, &TRADEOFF, &STABILITY];
 
 impl Kind {
+    /// The kind of the study in a directory; none where there is none.
+    #[must_use]
+    pub fn of(directory: &Path) -> Option<&'static Self> {
+        KINDS.into_iter().find(|kind| directory.join(kind.summary).exists())
+    }
+
+    /// What goes on with one of them in a directory.
+    #[must_use]
+    pub fn resuming(&self, directory: &Path) -> String {
+        format!("`mesoscope {} --resume {}`", self.command, printable::path(directory))
+    }
+
+    /// Whether its runs have directories of their own.
+    #[must_use]
+    pub fn has_runs(&self) -> bool {
+        !self.runs.is_empty()
+    }
+
     /// Whether it may have written a file of this name.
     #[must_use]
     pub fn has_file(&self, name: &str) -> bool {

@@ -186,9 +186,7 @@ impl<R: Record> StudyRun<R> {
         if self.may_be_long || seconds <= LONG {
             return Ok(());
         }
-        let hours = seconds / 3600.0;
-        let expected = if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) };
-        Err(StudyError::Long { kind: R::KIND, expected })
+        Err(StudyError::Long { kind: R::KIND, expected: in_hours(seconds) })
     }
 
     /// How many of so many runs are under way at once, of which this scene is the largest.
@@ -200,6 +198,12 @@ impl<R: Record> StudyRun<R> {
         };
         self.jobs.unwrap_or_else(|| default_jobs(gpu.description(), largest(), runs)).clamp(1, runs.max(1))
     }
+}
+
+/// A long time in hours or days.
+pub(crate) fn in_hours(seconds: f64) -> String {
+    let hours = seconds / 3600.0;
+    if hours < 48.0 { format!("{hours:.0} hours") } else { format!("{:.0} days", hours / 24.0) }
 }
 
 /// The scene of the most particles.

@@ -68,7 +68,13 @@ impl Group<'_> {
             let values: Vec<f64> = all().map(|observable| observable.value).collect();
             let unequilibrated = all().any(|observable| observable.unequilibrated);
             let (value, error) = mean(&values);
-            Some(Observable { name: observable.name, value, error: Some(error), unequilibrated })
+            Some(Observable {
+                name: observable.name,
+                value,
+                error: Some(error),
+                from_few_samples: false,
+                unequilibrated,
+            })
         };
         observables(first).into_iter().filter_map(average).collect()
     }

@@ -5,13 +5,15 @@ use serde_json::{Map, Value};
 
 /// A quantity with its standard error, which may be missing.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Observable {
+pub(crate) struct Observable {
     /// `temperature`, `diffusion.diffusion_einstein`.
     pub name: String,
     /// Its value.
     pub value: f64,
     /// Its standard error.
     pub error: Option<f64>,
+    /// Whether there were too few samples for the error to settle, so that it is likely larger.
+    pub from_few_samples: bool,
     /// Whether it is a mean that includes the way to equilibrium.
     pub unequilibrated: bool,
 }
@@ -27,17 +29,19 @@ pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
     means.chain(results).collect()
 }
 
-/// The numbers among the means and results of a run: name, value and standard error.
-pub(crate) fn numbers_of(means: &Map<String, Value>, results: &Map<String, Value>) -> Vec<(String, f64, Option<f64>)> {
+/// The numbers among the means and results of a run.
+pub(crate) fn numbers_of(means: &Map<String, Value>, results: &Map<String, Value>) -> Vec<Observable> {
     let means = means.iter().filter_map(|(name, found)| observable(name.clone(), found));
     let results = results.iter().flat_map(|(name, result)| self::results(name, result));
-    means.chain(results).map(|found| (found.name, found.value, found.error)).collect()
+    means.chain(results).collect()
 }
 
 /// A number, or an object with a mean or a value and maybe a standard error.
 pub(super) fn observable(name: String, found: &Value) -> Option<Observable> {
     let value = found.as_f64().or_else(|| found["mean"].as_f64()).or_else(|| found["value"].as_f64())?;
-    Some(Observable { name, value, error: found["standard_error"].as_f64(), unequilibrated: false })
+    let error = found["standard_error"].as_f64();
+    let from_few_samples = error.is_some() && found["converged"] == false;
+    Some(Observable { name, value, error, from_few_samples, unequilibrated: false })
 }
 
 /// The numbers in the result of an analysis: `radial_distribution.peak_height`.

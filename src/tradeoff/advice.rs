@@ -5,7 +5,7 @@ use super::reference::Source;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{short, with_error};
-use crate::study::Setting;
+use crate::study::{Setting, in_hours};
 use std::fmt::Write as _;
 
 /// Errors that the page names the cheapest choice for.
@@ -20,9 +20,13 @@ pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A duration in seconds or minutes.
+/// A duration in seconds, minutes or hours.
 pub(super) fn duration(seconds: f64) -> String {
-    if seconds < 120.0 { format!("{seconds:.0} s") } else { format!("{:.0} minutes", seconds / 60.0) }
+    match seconds {
+        ..120.0 => format!("{seconds:.0} s"),
+        120.0..7200.0 => format!("{:.0} minutes", seconds / 60.0),
+        _ => in_hours(seconds),
+    }
 }
 
 /// What a measure is compared with.
@@ -40,14 +44,38 @@ pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> St
     }
 }
 
-/// An error with its uncertainty, in per cent where it is relative.
+/// An error with its uncertainty, in per cent where it is a part of something.
 #[must_use]
 pub fn error_in_words(error: &Deviation) -> String {
-    let scale = if error.relative { 100.0 } else { 1.0 };
-    let unit = if error.relative { " %" } else { "" };
+    let (scale, unit) = if error.is_part() { (100.0, " %") } else { (1.0, "") };
     let text =
         with_error(scale * error.error, error.uncertainty.filter(|found| *found > 0.0).map(|found| scale * found));
-    format!("{text}{unit}")
+    let mark = if error.from_few_samples { format!(" {FEW_SAMPLES}") } else { String::new() };
+    format!("{text}{unit}{mark}")
+}
+
+/// What marks an error from few samples.
+const FEW_SAMPLES: char = '‡';
+
+/// What the mark means, where it is used.
+pub(super) fn legend(summary: &TradeoffSummary) -> Option<String> {
+    legend_of(summary.choices.iter().flat_map(|choice| &choice.errors))
+}
+
+/// What the mark means, if one of these errors has it.
+pub(crate) fn legend_of<'e>(mut errors: impl Iterator<Item = &'e Deviation>) -> Option<String> {
+    let few = errors.any(|error| error.from_few_samples);
+    few.then(|| format!("{FEW_SAMPLES} from few samples: the standard error is taken three times as large as they say"))
+}
+
+/// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
+pub(super) fn short_of_errors(summary: &TradeoffSummary) -> Option<String> {
+    let more = match &summary.wanted {
+        Some(wanted) => format!("{wanted}, and wants --yes"),
+        None if summary.arguments.length.budget.is_some() => "a larger --budget makes them longer".to_owned(),
+        None => "--set time.steps=N begins with longer ones".to_owned(),
+    };
+    summary.is_short.then(|| format!("The runs ended before all errors were as small as asked for: {more}"))
 }
 
 /// The whole page, in Markdown.
@@ -64,10 +92,8 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     for note in &notes(summary) {
         let _ = writeln!(text, "{note}\n");
     }
-    if summary.is_short {
-        text.push_str(
-            "**The runs ended before the errors were as small as asked for**: a larger --budget, or --yes beyond eight hours, makes them longer.\n\n",
-        );
+    if let Some(short) = short_of_errors(summary) {
+        let _ = writeln!(text, "**{short}.**\n");
     }
     targets(&mut text, summary);
     table(&mut text, summary);
@@ -102,7 +128,38 @@ pub(super) fn notes(summary: &TradeoffSummary) -> Vec<String> {
             }
         }
     }
+    notes.extend(same_runs(summary));
     notes
+}
+
+/// Choices whose runs measure the same to the last digit: what tells them apart makes no difference to them.
+fn same_runs(summary: &TradeoffSummary) -> Vec<String> {
+    let mut groups: Vec<Vec<&Choice>> = Vec::new();
+    let measured = summary.choices.iter().filter(|choice| choice.measured.iter().any(|found| found.fluctuates));
+    for choice in measured {
+        let is_same =
+            |group: &&mut Vec<&Choice>| (group[0].steps, &group[0].measured) == (choice.steps, &choice.measured);
+        match groups.iter_mut().find(is_same) {
+            Some(group) => group.push(choice),
+            None => groups.push(vec![choice]),
+        }
+    }
+    let in_words = |group: Vec<&Choice>| {
+        let labels: Vec<String> = group.iter().map(|choice| format!("`{}`", choice.label)).collect();
+        format!(
+            "{} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs.",
+            labels.join(" and ")
+        )
+    };
+    groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
+}
+
+/// Targets that no choice can be said to meet, as they are parts of nothing.
+fn parts_of_nothing(summary: &TradeoffSummary) -> Vec<String> {
+    let is_of_nothing = |target: &&Target| {
+        summary.reference(&target.measure).is_some_and(|reference| target.is_part_of_nothing(reference.value))
+    };
+    summary.arguments.targets.iter().filter(is_of_nothing).map(Target::part_of_nothing).collect()
 }
 
 /// The targets, and which choice meets them.
@@ -146,6 +203,14 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
         return;
     }
     let _ = write!(text, "{bold}No choice meets the targets.{bold} ");
+    let of_nothing = parts_of_nothing(summary);
+    if !of_nothing.is_empty() {
+        for reason in of_nothing {
+            let _ = write!(text, "{}. ", capitalised(&reason));
+        }
+        text.push_str("\n\n");
+        return;
+    }
     if let Some((choice, target, factor)) = nearest(summary) {
         let error = choice.error(&target.measure).map_or_else(String::new, error_in_words);
         let _ = write!(
@@ -202,7 +267,8 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
         }
         text.push('\n');
     }
-    text.push_str("\nErrors with standard errors; those in per cent are relative to the reference of the measure.");
+    text.push_str("\nErrors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.");
+    text.extend(legend(summary).map(|legend| format!(" {legend}.")));
     let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
     if let Some(largest) = distances.reduce(f64::max) {
         let _ = write!(
@@ -235,13 +301,16 @@ fn costs(text: &mut String, summary: &TradeoffSummary) {
     text.push('\n');
 }
 
+/// The beginning of a sentence.
+fn capitalised(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().into_iter().flat_map(char::to_uppercase).chain(rest).collect()
+}
+
 /// What a measure says.
 fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
     let _ = writeln!(text, "## {}\n", measure.replace('_', " "));
-    let reference = reference_in_words(summary, measure);
-    let mut first = reference.chars();
-    let reference: String = first.next().into_iter().flat_map(char::to_uppercase).chain(first).collect();
-    let _ = writeln!(text, "{reference}.\n");
+    let _ = writeln!(text, "{}.\n", capitalised(&reference_in_words(summary, measure)));
     let mut front: Vec<(&Choice, &Deviation)> = summary
         .choices
         .iter()
@@ -312,4 +381,34 @@ fn unstable(text: &mut String, summary: &TradeoffSummary) {
         let _ = writeln!(text, "- {}: {}", choice.label, choice.failure.as_deref().unwrap_or("it became unstable"));
     }
     text.push('\n');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_in_per_cent_as_in_the_pictures() {
+        let deviation = |measure: &str, relative: bool, from_few_samples: bool| {
+            let (measure, uncertainty) = (measure.to_owned(), Some(0.001));
+            Deviation {
+                measure,
+                error: 0.023,
+                uncertainty,
+                from_few_samples,
+                relative,
+                on_front: false,
+                of_scheme: None,
+            }
+        };
+        assert_eq!(error_in_words(&deviation("pressure", true, false)), "2.30 ± 0.10 %");
+        assert_eq!(error_in_words(&deviation("limited_exchange_share", false, false)), "2.30 ± 0.10 %");
+        assert_eq!(error_in_words(&deviation("depth_distance", false, true)), "2.30 ± 0.10 % ‡");
+        assert_eq!(error_in_words(&deviation("momentum_x", false, false)), "0.0230 ± 0.0010");
+    }
+
+    #[test]
+    fn durations_are_in_units_of_their_size() {
+        assert_eq!([7.0, 600.0, 10_000.0, 864_000.0].map(duration), ["7 s", "10 minutes", "3 hours", "10 days"]);
+    }
 }

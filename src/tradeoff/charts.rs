@@ -18,9 +18,8 @@ struct Point<'a> {
 /// The chart of a measure; none where no choice has both a cost and an error.
 pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
     let relative = summary.reference(measure)?.value != 0.0;
-    // Drifts and distances are parts of something already.
-    let percent = relative || super::measures::is_part(measure);
-    let scale = if percent { 100.0 } else { 1.0 };
+    let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
+    let scale = if is_part { 100.0 } else { 1.0 };
     let point = |choice| {
         let choice: &Choice = choice;
         let (error, cost) = (choice.error(measure)?, choice.cost?);
@@ -33,7 +32,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     }
     let groups = Groups::of(request);
     let what = measure.replace('_', " ");
-    let unit = if percent { " (%)" } else { "" };
+    let unit = if is_part { " (%)" } else { "" };
     let mut panel = Panel {
         x: Axis::log("seconds of steps a unit of simulated time (s)"),
         y: Axis::log(&format!("error of {what}{unit}")),
@@ -66,7 +65,12 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     {
         panel = panel.with_reference("target", scale * most);
     }
-    let bars = if points.iter().any(|point| point.bar > 0.0) { ", bars: standard errors" } else { "" };
+    let few = points.iter().any(|point| point.error.from_few_samples);
+    let bars = match (points.iter().any(|point| point.bar > 0.0), few) {
+        (true, true) => ", bars: standard errors, of few samples three times",
+        (true, false) => ", bars: standard errors",
+        (false, _) => "",
+    };
     let subtitle = format!("{}{bars}", super::advice::reference_in_words(summary, measure));
     Some(Chart { title: format!("{}: {what}", request.title()), subtitle, panels: vec![panel] })
 }

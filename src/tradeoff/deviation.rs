@@ -1,6 +1,6 @@
 //! How far a measure of a choice is from its reference.
 
-use super::measures::Measured;
+use super::measures::{self, Measured};
 use super::reference::Reference;
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +11,12 @@ pub struct Deviation {
     pub measure: String,
     /// The value less its reference, as a part of the reference where `relative`.
     pub error: f64,
-    /// Standard error of that, of the value and of the reference together; none where one of them is unknown.
+    /// Standard error of that, of the value and of the reference together, as [`Measured::uncertainty`] counts it; none where one of them is
+    /// unknown.
     pub uncertainty: Option<f64>,
+    /// Whether there were too few samples to know the standard error of the value.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub from_few_samples: bool,
     /// Whether both are parts of the reference.
     pub relative: bool,
     /// Whether no other choice costs less and errs less.
@@ -28,11 +32,12 @@ impl Deviation {
         let relative = reference.value != 0.0;
         let scale = if relative { reference.value.abs() } else { 1.0 };
         let uncertainty =
-            measured.standard_error.zip(reference.uncertainty).map(|(own, other)| own.hypot(other) / scale);
+            measured.uncertainty().zip(reference.uncertainty).map(|(own, other)| own.hypot(other) / scale);
         Self {
             measure: measured.measure.clone(),
             error: (measured.value - reference.value) / scale,
             uncertainty,
+            from_few_samples: measured.from_few_samples,
             relative,
             on_front: false,
             of_scheme: None,
@@ -43,6 +48,12 @@ impl Deviation {
     pub(super) fn with_scheme(self, value: Option<f64>, reference: &Reference) -> Self {
         let scale = if self.relative { reference.value.abs() } else { 1.0 };
         Self { of_scheme: value.map(|value| (value - reference.value) / scale), ..self }
+    }
+
+    /// Whether it is a part of something: of the reference, or what a drift, a distance or a share is one of.
+    #[must_use]
+    pub fn is_part(&self) -> bool {
+        self.relative || measures::is_part(&self.measure)
     }
 
     /// The error without its sign.
@@ -69,7 +80,8 @@ mod tests {
     use super::*;
 
     fn measured(value: f64, standard_error: Option<f64>) -> Measured {
-        Measured { measure: "pressure".to_owned(), value, standard_error, fluctuates: true }
+        let measure = "pressure".to_owned();
+        Measured { measure, value, standard_error, fluctuates: true, from_few_samples: false }
     }
 
     fn reference(value: f64, uncertainty: Option<f64>) -> Reference {
@@ -86,5 +98,14 @@ mod tests {
         let absolute = Deviation::new(&measured(-0.1, Some(0.01)), &reference(0.0, Some(0.0)));
         assert_eq!((absolute.error, absolute.relative, absolute.is_within_noise()), (-0.1, false, false));
         assert_eq!(Deviation::new(&measured(1.0, None), &reference(1.0, Some(0.1))).uncertainty, None);
+    }
+
+    #[test]
+    fn standard_errors_from_few_samples_count_three_times() {
+        let few = Measured { from_few_samples: true, ..measured(21.0, Some(0.1)) };
+        let found = Deviation::new(&few, &reference(20.0, Some(0.4)));
+        assert!((found.uncertainty.unwrap_or(0.0) - 0.025).abs() < 1e-15 && found.from_few_samples, "{found:?}");
+        let enough = Deviation::new(&measured(21.0, Some(0.3)), &reference(20.0, Some(0.4)));
+        assert!(enough.uncertainty == found.uncertainty && !enough.from_few_samples, "{enough:?}");
     }
 }

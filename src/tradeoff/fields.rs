@@ -42,7 +42,8 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
 }
 
 fn measured(name: &str, end: &str, value: f64) -> Measured {
-    Measured { measure: format!("{name}{end}"), value, standard_error: None, fluctuates: false }
+    let measure = format!("{name}{end}");
+    Measured { measure, value, standard_error: None, fluctuates: false, from_few_samples: false }
 }
 
 /// Fields that say how far a flow is from another, whatever a scene draws.

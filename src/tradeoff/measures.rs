@@ -19,6 +19,10 @@ pub(super) const CIRCULATION_DRIFT: &str = "circulation_drift";
 /// How often the limit has cut an exchange, over faces of Voronoi cells and steps.
 pub(super) const LIMITED_EXCHANGES: &str = "limited_exchange_share";
 
+/// By what the standard error of a mean from too few samples is taken to be larger. A choice on the safe side: of short runs of a fluid some
+/// were off by five of their errors.
+const FEW_SAMPLES: f64 = 3.0;
+
 /// Faces of a cell in a periodic plane, each shared by two.
 const FACES_A_CELL: f64 = 3.0;
 
@@ -36,14 +40,32 @@ pub struct Measured {
     pub standard_error: Option<f64>,
     /// Whether it is a mean that more samples make more certain.
     pub fluctuates: bool,
+    /// Whether there were too few samples for the standard error to reach its plateau.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub from_few_samples: bool,
+}
+
+impl Measured {
+    /// The standard error that counts: of what is from few samples it is taken to be larger than what they say.
+    #[must_use]
+    pub fn uncertainty(&self) -> Option<f64> {
+        let factor = if self.from_few_samples { FEW_SAMPLES } else { 1.0 };
+        self.standard_error.map(|error| factor * error)
+    }
 }
 
 /// Everything that a finished run says by itself.
 pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let mut measured: Vec<Measured> = numbers_of(&summary.means, &summary.results)
         .into_iter()
-        .filter(|(_, value, _)| value.is_finite())
-        .map(|(measure, value, standard_error)| Measured { measure, value, standard_error, fluctuates: true })
+        .filter(|found| found.value.is_finite())
+        .map(|found| Measured {
+            measure: found.name,
+            value: found.value,
+            standard_error: found.error,
+            fluctuates: true,
+            from_few_samples: found.from_few_samples,
+        })
         .collect();
     let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
     measured.extend(of_table(&table, scene));
@@ -75,7 +97,8 @@ fn limited_exchange_share(table: &Table, scene: &Scene) -> Option<Measured> {
 
 /// What has no statistical error.
 fn certain(measure: &str, value: f64) -> Measured {
-    Measured { measure: measure.to_owned(), value, standard_error: Some(0.0), fluctuates: false }
+    let (measure, standard_error) = (measure.to_owned(), Some(0.0));
+    Measured { measure, value, standard_error, fluctuates: false, from_few_samples: false }
 }
 
 /// How far the total energy of a table has gone from its first value; none where that is zero or one is not a number.

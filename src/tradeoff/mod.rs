@@ -51,6 +51,7 @@ mod table;
 mod target;
 
 pub use advice::error_in_words;
+pub(crate) use advice::legend_of;
 pub use cost::Cost;
 pub use deviation::Deviation;
 pub use length::Length;
@@ -61,5 +62,5 @@ pub use reference::{Reference, References, Source};
 pub use request::Request;
 pub use run::{Phase, TradeoffOutcome, TradeoffRun};
 pub(crate) use stretch::Stretch;
-pub use summary::{Choice, ChoiceState, TradeoffSummary};
+pub use summary::{Choice, ChoiceState, TradeoffSummary, Wanted};
 pub use target::{Amount, Target, Verdict};

@@ -2,8 +2,9 @@
 
 use super::fields::{DISTANCE, FROM_EXACT};
 use super::measures::{CIRCULATION_DRIFT, ENERGY_DRIFT, LIMITED_EXCHANGES, Measured};
-use crate::families::{ExactMean, Model};
+use crate::families::{self, ExactMean, KeptQuantity, Model, column};
 use crate::scene::Scene;
+use crate::state::State;
 use serde::{Deserialize, Serialize};
 
 /// The value that a measure should have.
@@ -96,6 +97,9 @@ pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
         }
         _ if measure.ends_with(DISTANCE) => (0.0, "no distance from the finer run".to_owned()),
         _ if measure.ends_with(FROM_EXACT) => (0.0, "no distance from the exact flow, which is steady".to_owned()),
+        _ if column::axis_of_momentum(measure).is_some() => {
+            (kept_momentum(measure, scene)?, "the total momentum at the start, which is constant".to_owned())
+        }
         _ => (exact_mean(measure, scene)?.continuous, "the mean of the exact motion in equilibrium".to_owned()),
     };
     Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source: Source::Predicted(law) })
@@ -104,6 +108,18 @@ pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
 fn has_thermostat(scene: &Scene) -> bool {
     let model = Model::new(scene);
     model.physics().has_thermostat(&model)
+}
+
+/// A component of the total momentum that a scene starts with, if it keeps it.
+fn kept_momentum(measure: &str, scene: &Scene) -> Option<f64> {
+    let (model, axis) = (Model::new(scene), column::axis_of_momentum(measure)?);
+    // What is kept does not depend on the state; its sums do.
+    let is_kept = |state: &State| {
+        let kept = model.physics().kept(&model, state).into_iter();
+        kept.filter(|sum| sum.quantity == KeptQuantity::Momentum).nth(axis).map(|sum| sum.total as f64 * sum.unit)
+    };
+    is_kept(&State::default())?;
+    is_kept(&families::initial_state(scene, &model))
 }
 
 /// The exact mean of a column in equilibrium, where it is known.
@@ -122,7 +138,7 @@ pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
 pub(super) fn finer(measure: &str, name: &str, finer: &[Measured], coarser: &[Measured]) -> Option<Reference> {
     let find = |list: &[Measured]| list.iter().find(|found| found.measure == measure).cloned();
     let (fine, coarse) = (find(finer)?, find(coarser));
-    let own = fine.standard_error;
+    let own = fine.uncertainty();
     let bias = coarse.map(|coarse| (fine.value - coarse.value).abs());
     let uncertainty = own.zip(bias).map(|(own, bias)| own.hypot(bias));
     let source = Source::Finer(name.to_owned());
@@ -137,7 +153,8 @@ mod tests {
 
     fn measured(value: f64, standard_error: f64) -> Vec<Measured> {
         let standard_error = Some(standard_error);
-        vec![Measured { measure: "pressure".to_owned(), value, standard_error, fluctuates: true }]
+        let measure = "pressure".to_owned();
+        vec![Measured { measure, value, standard_error, fluctuates: true, from_few_samples: false }]
     }
 
     #[test]
@@ -146,6 +163,10 @@ mod tests {
         assert!((found.uncertainty.unwrap() - 0.03_f64.hypot(0.5)).abs() < 1e-12);
         assert_eq!(finer("pressure", "finer", &measured(20.0, 0.03), &[]).unwrap().uncertainty, None);
         assert_eq!(finer("energy", "finer", &measured(20.0, 0.03), &[]), None);
+        let few: Vec<Measured> =
+            measured(20.0, 0.03).into_iter().map(|found| Measured { from_few_samples: true, ..found }).collect();
+        let found = finer("pressure", "finer", &few, &measured(20.0, 0.04)).unwrap();
+        assert!((found.uncertainty.unwrap() - 0.09).abs() < 1e-12, "{found:?}");
     }
 
     #[test]
@@ -157,6 +178,16 @@ mod tests {
         assert_eq!(predicted("temperature", &water), None);
         assert_eq!(predicted(CIRCULATION_DRIFT, &water).unwrap().value, 0.0);
         assert_eq!(predicted(ENERGY_DRIFT, &water).unwrap().value, 0.0);
+    }
+
+    #[test]
+    fn momentum_is_predicted_where_it_is_kept() {
+        let fluid = |set: &str| scene::load("dpd-fluid", &[set.to_owned()]).unwrap();
+        for measure in ["momentum_x", "momentum_y", "momentum_z"] {
+            assert_eq!(predicted(measure, &fluid("seed=2")).map(|found| found.value), Some(0.0), "{measure}");
+        }
+        // A bath that acts on each particle alone keeps none.
+        assert_eq!(predicted("momentum_x", &scene::load("langevin-gas", &[]).unwrap()), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What a tradeoff is asked for.
 
 use super::length::Length;
-use super::reference::References;
+use super::reference::{self, References};
 use super::target::Target;
 use super::{fields, measures};
 use crate::families::Model;
@@ -130,9 +130,18 @@ impl Request {
     /// The same with targets, whose measures are assessed too.
     ///
     /// # Errors
-    /// [`StudyError::Arguments`] names those of measures that no run has.
+    /// [`StudyError::Arguments`] names those of measures that no run has, and parts of what is known to be zero.
     pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, StudyError> {
         self.check_names("--target", targets.iter().map(|target| target.measure.as_str()))?;
+        let of_nothing = |target: &&Target| {
+            let known = self.arguments.references.find(&target.measure).cloned();
+            let known = known.or_else(|| reference::predicted(&target.measure, &self.base));
+            known.is_some_and(|reference| target.is_part_of_nothing(reference.value))
+        };
+        let of_nothing: Vec<String> = targets.iter().filter(of_nothing).map(Target::part_of_nothing).collect();
+        if !of_nothing.is_empty() {
+            return Err(StudyError::Arguments { mistakes: of_nothing });
+        }
         self.arguments.targets = targets;
         Ok(self)
     }
@@ -223,36 +232,26 @@ impl Request {
         self.sweep.keys().into_iter().filter(is_physical).collect()
     }
 
-    /// Looks for names of measures that no run has. What an analysis will find is not known yet: its name is.
+    /// Looks for names of measures that no run has.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
         let columns = measures::names(&self.base);
         let fields = fields::compared(&self.base, &Model::new(&self.base));
-        let analyses: Vec<&str> =
-            run::asked_analyses(&self.base, &Model::new(&self.base)).iter().map(|asked| asked.id.name()).collect();
+        let asked = run::asked_analyses(&self.base, &Model::new(&self.base));
+        let curve = AnalysisId::RadialDistribution.name();
+        let curve = asked.iter().any(|asked| asked.id.name() == curve).then_some(curve);
+        let compared = fields.iter().map(|field| field.stem()).chain(curve);
+        let distances = compared.map(|of| format!("{of}{}", fields::DISTANCE));
+        let found = asked
+            .iter()
+            .flat_map(|asked| asked.found.iter().map(move |number| format!("{}.{number}", asked.id.name())));
+        let accepted: Vec<String> = columns.into_iter().chain(found).chain(distances).collect();
         let mut mistakes = Vec::new();
-        for name in wanted {
-            let of_analysis = |part: &str| analyses.contains(&part);
-            let compared = name.strip_suffix(super::fields::DISTANCE);
-            let is_distance = compared.is_some_and(|of| {
-                let is_field = fields.iter().any(|field| field.stem() == of);
-                is_field || of == AnalysisId::RadialDistribution.name() && of_analysis(of)
-            });
-            if columns.iter().any(|known| known == name)
-                || is_distance
-                || name.split_once('.').is_some_and(|(analysis, _)| of_analysis(analysis))
-            {
-                continue;
-            }
-            let near = nearest(name, columns.iter().map(String::as_str));
+        for name in wanted.filter(|name| !accepted.iter().any(|known| known == name)) {
+            let near = nearest(name, accepted.iter().map(String::as_str));
             let near = did_you_mean(near.as_deref());
-            let also = if analyses.is_empty() {
-                String::new()
-            } else {
-                format!(", and what its analyses find, as `{}.…`", analyses.join(".…`, `"))
-            };
             mistakes.push(format!(
-                "`{option} {name}`: no run of this scene measures that{near}; accepted: {}{also}",
-                columns.join(", ")
+                "`{option} {name}`: no run of this scene measures that{near}; accepted: {}",
+                accepted.join(", ")
             ));
         }
         if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
@@ -281,8 +280,21 @@ mod tests {
         let text = request.clone().with_measures(&["presure".to_owned()]).unwrap_err().to_string();
         assert!(text.contains("did you mean `pressure`?"), "{text}");
         assert!(request.clone().with_measures(&["radial_distribution.peak_height".to_owned()]).is_ok());
-        let target = Target::parse("colour=1%").unwrap();
-        assert!(request.with_targets(vec![target]).is_err());
+        let target = |text: &str| request.clone().with_targets(vec![Target::parse(text).unwrap()]);
+        assert!(target("colour=1%").is_err());
+        let text = target("radial_distribution.peak_hight=1%").unwrap_err().to_string();
+        assert!(text.contains("did you mean `radial_distribution.peak_height`?"), "{text}");
+    }
+
+    #[test]
+    fn nothing_is_a_part_of_zero() {
+        let request = request(&["time.step=0.02,0.04"]).unwrap();
+        let target = |request: &Request, text: &str| request.clone().with_targets(vec![Target::parse(text).unwrap()]);
+        let text = target(&request, "momentum_x=1%").unwrap_err().to_string();
+        assert!(text.contains("`momentum_x` should be is 0") && text.contains("--target momentum_x=VALUE"), "{text}");
+        assert!(target(&request, "momentum_x=0.01").is_ok() && target(&request, "pressure=1%").is_ok());
+        let given = request.with_references(References::parse(&["pressure=0".to_owned()]).unwrap()).unwrap();
+        assert!(target(&given, "pressure=1%").is_err() && target(&given, "pressure=0.1").is_ok());
     }
 
     #[test]

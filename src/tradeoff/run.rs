@@ -1,11 +1,11 @@
 //! A tradeoff from its first run to its page.
 
 use super::cost::{self, Timed};
-use super::length::{self, Extension};
+use super::length::{self, Extension, Worst};
 use super::measures;
 use super::request::{COARSER, FINER};
 use super::stretch::Stretch;
-use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::summary::{Choice, ChoiceState, TradeoffSummary, Wanted};
 use super::target::Verdict;
 use super::{advice, charts, fields, files, table};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
@@ -44,6 +44,10 @@ pub enum Phase {
         worst: Option<f64>,
         /// Seconds that the runs are expected to take in all by then.
         seconds: f64,
+        /// How many extensions are expected, this one included.
+        rounds: usize,
+        /// Seconds that the runs are expected to take in all after the last of them.
+        total: f64,
     },
     /// Steps of all choices are timed in turns.
     Timing,
@@ -52,12 +56,17 @@ pub enum Phase {
 impl fmt::Display for Phase {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Extended { factor, worst, seconds } => {
+            Self::Extended { factor, worst, seconds, rounds, total } => {
                 if let Some(worst) = worst {
                     write!(formatter, "the largest standard error is {} %: ", with_error(100.0 * worst, None))?;
                 }
                 let duration = advice::duration(*seconds);
-                write!(formatter, "means are taken over {factor:.1} times the time, about {duration} of runs in all")
+                write!(formatter, "means are taken over {factor:.1} times the time, about {duration} of runs in all")?;
+                if *rounds > 1 {
+                    let duration = advice::duration(*total);
+                    write!(formatter, "; {rounds} such rounds are expected, about {duration} by the last")?;
+                }
+                Ok(())
             }
             Self::Timing => formatter.write_str("timing steps in turns"),
         }
@@ -106,29 +115,34 @@ impl StudyRun<TradeoffSummary> {
             self.summary.assess(&self.request)?;
             let spent = self.summary.spent;
             let extension = if self.summary.is_long_enough {
-                Extension { factor: 1.0, is_short: self.summary.is_short }
+                Extension::none(self.summary.is_short)
             } else {
                 self.extension(spent)
             };
+            self.summary.wanted = None;
             if extension.factor <= 1.0 {
                 self.summary.is_short = extension.is_short;
                 break;
             }
             let length = self.request.arguments.length;
-            if length.budget.is_none() && self.refuse_long(spent * extension.factor).is_err() {
-                // What is known by now is worth its tables.
+            let total = spent * extension.total;
+            if length.budget.is_none() && self.refuse_long(total).is_err() {
+                // What is known by now is worth its tables, and it can go on from here.
                 self.summary.is_short = true;
+                self.summary.wanted = Some(Wanted { rounds: extension.rounds, seconds: total });
                 break;
             }
             let worst = length.error.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
+            let worst = worst.map(|worst| worst.counted);
             self.summary.stretch.averaged *= extension.factor;
             self.summary.extensions += 1;
             self.summary.is_short = extension.is_short;
             self.save()?;
-            let phase = Phase::Extended { factor: extension.factor, worst, seconds: spent * extension.factor };
+            let Extension { factor, rounds, .. } = extension;
+            let phase = Phase::Extended { factor, worst, seconds: spent * factor, rounds, total };
             observer(StudyEvent::Phase { phase: &phase, runs: self.waiting(&runs).len() });
         }
-        self.summary.is_long_enough = true;
+        self.summary.is_long_enough = self.summary.wanted.is_none();
         self.save()?;
         observer(StudyEvent::Phase { phase: &Phase::Timing, runs: 0 });
         self.time(&runs, adapter)?;
@@ -302,9 +316,10 @@ impl StudyRun<TradeoffSummary> {
             return Ok(());
         }
         let place = |name: &str| RunDirectory::open(self.directory().join(name));
-        let finer = place(FINER)?;
-        let coarser = self.summary.finer.last().map_or(COARSER, |run| run.name.as_str());
-        let limits = fields::distances(&place(coarser)?, &finer)?;
+        // Either may be the run of a choice.
+        let name = |index: usize, own| self.summary.finer.get(index).map_or(own, |run| run.name.as_str());
+        let finer = place(name(0, FINER))?;
+        let limits = fields::distances(&place(name(1, COARSER))?, &finer)?;
         let mut found = Vec::new();
         for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
             // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
@@ -346,7 +361,10 @@ impl StudyRun<TradeoffSummary> {
                 };
                 let fluctuates = choice.value(&target.measure).is_some_and(|measured| measured.fluctuates);
                 let is_known = error.uncertainty.is_some() && fluctuates;
-                is_known && target.verdict(error, reference.value) == Verdict::Open
+                // More samples make no part of nothing.
+                is_known
+                    && !target.is_part_of_nothing(reference.value)
+                    && target.verdict(error, reference.value) == Verdict::Open
             })
         });
         if asked.budget.is_none() && summary.extensions >= MOST_FOR_A_VERDICT {
@@ -355,7 +373,9 @@ impl StudyRun<TradeoffSummary> {
         if !is_open {
             return found;
         }
-        let wanted = length::Length { error: worst.map(|worst| worst / FOR_A_VERDICT.sqrt()), ..asked };
+        let worst = worst.map(|Worst { counted, .. }| Worst { counted, measured: counted });
+        let error = worst.map(|worst| worst.counted / FOR_A_VERDICT.sqrt());
+        let wanted = length::Length { error, ..asked };
         let more = length::extension(&wanted, worst, spent, summary.stretch.averaged, summary.extensions);
         Extension { is_short: found.is_short || more.is_short, ..more }
     }

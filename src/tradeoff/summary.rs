@@ -38,6 +38,9 @@ pub struct TradeoffSummary {
     pub extensions: usize,
     /// Whether the budget, or the number of extensions, ended before the errors were as small as they were to be.
     pub is_short: bool,
+    /// What more of runs is wanted, where that is so much that nobody but the user can say that it may be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wanted: Option<Wanted>,
     /// The measures that are assessed.
     pub measures: Vec<String>,
     /// What they are compared with.
@@ -51,6 +54,27 @@ pub struct TradeoffSummary {
     pub finer: Vec<Choice>,
     /// The name of the cheapest choice that meets all targets.
     pub chosen: Option<String>,
+}
+
+/// How much longer runs have to become for what is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Wanted {
+    /// How often they are to be made longer.
+    pub rounds: usize,
+    /// Seconds that all of them are expected to take in all by then.
+    pub seconds: f64,
+}
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounds =
+            if self.rounds == 1 { "one more round".to_owned() } else { format!("{} more rounds", self.rounds) };
+        write!(
+            formatter,
+            "what is asked for takes {rounds} of longer runs, about {} of runs in all",
+            super::advice::duration(self.seconds)
+        )
+    }
 }
 
 /// One choice: a variant, what it costs and what it misses.
@@ -175,6 +199,18 @@ impl TradeoffSummary {
         super::advice::notes(self)
     }
 
+    /// What the mark of errors from few samples means, where there are any.
+    #[must_use]
+    pub fn legend(&self) -> Option<String> {
+        super::advice::legend(self)
+    }
+
+    /// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
+    #[must_use]
+    pub fn short_of_errors(&self) -> Option<String> {
+        super::advice::short_of_errors(self)
+    }
+
     /// What meets the targets, in words; nothing where there are none.
     #[must_use]
     pub fn advice(&self) -> String {
@@ -253,6 +289,7 @@ impl Record for TradeoffSummary {
             is_long_enough: false,
             extensions: 0,
             is_short: false,
+            wanted: None,
             measures: Vec::new(),
             references: Vec::new(),
             physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),

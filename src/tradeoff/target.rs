@@ -1,6 +1,7 @@
 //! What a choice is to reach, and whether it does.
 
 use super::deviation::Deviation;
+use super::measures;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -71,6 +72,20 @@ impl Target {
         Ok(Self { measure: measure.to_owned(), amount })
     }
 
+    /// Whether it is a part of a reference of this value, of which there is none: zero is what drifts and distances should be, and these are
+    /// parts of something else.
+    pub(super) fn is_part_of_nothing(&self, reference: f64) -> bool {
+        matches!(self.amount, Amount::Relative(_)) && reference == 0.0 && !measures::is_part(&self.measure)
+    }
+
+    /// What to say of such a target.
+    pub(super) fn part_of_nothing(&self) -> String {
+        let measure = &self.measure;
+        format!(
+            "what `{measure}` should be is 0, of which there are no parts: give an error in its own units, `--target {measure}=VALUE`"
+        )
+    }
+
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
     pub(super) fn most(&self, reference: f64, relative: bool) -> f64 {
         let (own, other) = match self.amount {
@@ -81,9 +96,12 @@ impl Target {
         if relative { own } else { other }
     }
 
-    /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open.
+    /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open, and so does a part of nothing.
     #[must_use]
     pub fn verdict(&self, deviation: &Deviation, reference: f64) -> Verdict {
+        if self.is_part_of_nothing(reference) {
+            return Verdict::Open;
+        }
         let most = self.most(reference, deviation.relative);
         let Some(uncertainty) = deviation.uncertainty else { return Verdict::Open };
         let (size, margin) = (deviation.size(), CONFIDENCE * uncertainty);
@@ -119,6 +137,7 @@ mod tests {
             measure: "pressure".to_owned(),
             error,
             uncertainty,
+            from_few_samples: false,
             relative: true,
             on_front: false,
             of_scheme: None,
@@ -131,6 +150,13 @@ mod tests {
         let absolute = Target { amount: Amount::Absolute(0.2), ..target.clone() };
         assert_eq!(absolute.verdict(&deviation(0.02, Some(0.0)), 23.6), Verdict::Misses);
         assert_eq!(absolute.verdict(&deviation(0.008, Some(0.0)), 23.6), Verdict::Meets);
+        // No error is a part of nothing, but a drift is one of an energy.
+        let of_nothing = |measure: &str| {
+            let target = Target { measure: measure.to_owned(), ..target.clone() };
+            let deviation = Deviation { measure: measure.to_owned(), relative: false, ..deviation(0.0, Some(0.0)) };
+            target.verdict(&deviation, 0.0)
+        };
+        assert_eq!((of_nothing("momentum_x"), of_nothing("energy_drift")), (Verdict::Open, Verdict::Meets));
         assert!(Verdict::Meets < Verdict::Open && Verdict::Open < Verdict::Misses);
     }
 

@@ -360,6 +360,16 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     assert!(!said.contains("pays for"), "{said}");
+    let said = succeeds(&["check", "dpd-fluid", "--set", "time.step=0.03"]);
+    assert!(
+        said.contains("off, interpolated between steps of 0.02 and 0.04 that were measured (DPD fluid, 20"),
+        "{said}"
+    );
+    let said = succeeds(&["check", "edpd-fluid"]);
+    assert!(
+        said.contains("not measured at this step; ") && said.contains("off at a step of 0.02, the nearest"),
+        "{said}"
+    );
     // B + W = dt²(1 + 1000 tanh(500 dt)/(500 dt)), which is 4 at dt = 1.236.
     let forgotten = ["interactions.1.bath.rate=1000", "output.energies.every=1"];
     let said = succeeds(&["check", "gle-oscillator", "--set", forgotten[0], "--set", forgotten[1]]);

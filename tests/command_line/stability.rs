@@ -256,5 +256,65 @@ fn laws_of_accuracy_are_compared_with_where_bias_begins() {
         ["--set", "time.equilibration=100", "--tolerance", "10%", "--bisections", "0", "--vary"].map(str::to_owned);
     let arguments: Vec<String> = own.chain(set).chain(vary).chain(["time.step=0.01,0.04,0.14".to_owned()]).collect();
     let said = succeeds(&borrowed(&arguments));
-    assert!(said.contains("the first biased run is at 3.") && said.contains("what the law friction"), "{said}");
+    assert!(said.contains("runs become biased at 3.") && said.contains("what the law friction"), "{said}");
+}
+
+/// A law does not vanish where the range ends before it.
+#[test]
+fn laws_beyond_a_range_are_in_words() {
+    let place = place();
+    let further = ["--vary", "time.step=0.02,0.04", "--bisections", "0", "--tolerance", "30%"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("B + W = 4 at 0.471, beyond the range"), "{said}");
+    assert!(said.contains("‡ from few samples"), "{said}");
+    let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
+    assert!(page.contains("B + W = 4 at 0.471, beyond the range"), "{page}");
+}
+
+/// A particle that keeps its momentum has no temperature: nothing is compared, and it is known where runs end.
+#[test]
+fn so_few_particles_are_mapped_to_where_runs_end() {
+    let place = place();
+    let few = |count: u32| {
+        let particles = format!(r#"particles=[{{"species":"A","count":{count}}}]"#);
+        let set = ["output.radial_distribution=null", "time.steps=300", "time.equilibration=0", &particles];
+        let own = ["stability", "dpd-fluid", "--bisections", "0", "--vary", "time.step=0.04,100", "--out"];
+        let out = format!("few{count}");
+        let own = own.map(str::to_owned).into_iter().chain([place.argument(&out)]);
+        let all = own.chain(set.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+        let said = succeeds(&borrowed(&all.collect::<Vec<_>>()));
+        (said, StabilitySummary::load(&place.path(&out)).unwrap())
+    };
+    for count in [0, 1] {
+        let (said, summary) = few(count);
+        for part in [
+            "RAN TO ITS END: time.step UP TO",
+            "have so few particles that they have no `configurational_temperature`, `temperature`, which cannot be compared",
+        ] {
+            assert!(said.contains(part), "{count}: `{part}` is not in: {said}");
+        }
+        assert!(!said.contains("biased") && !said.contains("RIGHT"), "{count}: {said}");
+        let table = fs::read_to_string(place.path(&format!("few{count}")).join(files::TABLE)).unwrap();
+        assert!(table.lines().nth(1).unwrap().contains("so few particles have no `temperature`"), "{table}");
+        let first = &summary.rows[0].cells[0];
+        assert!(
+            first.verdict == Verdict::Right && !first.is_certain && first.undefined.len() == 2,
+            "{count}: {first:?}"
+        );
+    }
+    // Many particles that have no number are another matter: they are not said to be few.
+    let (said, _) = few(3);
+    assert!(!said.contains("so few particles"), "{said}");
+}
+
+/// Rows that a setting does not tell apart are the same runs.
+#[test]
+fn rows_that_are_the_same_runs_are_said_to_be() {
+    let place = place();
+    let further = ["--vary", "output.plot.width=640,700", "--vary", "time.step=0.02,0.04", "--bisections", "0"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("width = 640 and width = 700 are the same runs, digit by digit"), "{said}");
+    let further = ["--vary", "seed=1,2", "--vary", "time.step=0.02,0.04", "--bisections", "0", "--force"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(!said.contains("are the same runs"), "{said}");
 }

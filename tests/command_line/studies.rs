@@ -235,8 +235,12 @@ fn a_study_replaces_one_of_another_kind_only_when_asked_and_wholly() {
     fs::write(out.join("notes.md"), "mine").unwrap();
     let before = listing(&out);
     for next in ["stability", "tradeoff"] {
-        refused(&study(next, &["--out", "out"]), &["exists already", "--force"]);
+        // What goes on is what is there.
+        let goes_on = "`mesoscope sweep --resume out` goes on with an interrupted sweep";
+        refused(&study(next, &["--out", "out"]), &["exists already", "--force", goes_on]);
         assert_eq!(listing(&out), before, "{next}");
+        let goes_on = "it holds a sweep, and `mesoscope sweep --resume out` finishes the sweep";
+        refused(&[next, "--resume", "out"], &["there is no ", goes_on]);
     }
     for (next, expected) in [
         ("tradeoff", &["finer", "notes.md", "step=0.02", "tradeoff-temperature.png"][..]),
@@ -245,6 +249,11 @@ fn a_study_replaces_one_of_another_kind_only_when_asked_and_wholly() {
     ] {
         succeeds_in(&here, &study(next, &["--out", "out", "--force"]));
         let found = listing(&out);
+        let goes_on = format!("`mesoscope {next} --resume {}`", place.argument("out"));
+        fails(&["resume", &place.argument("out")], 2, &["not a run", &goes_on]);
+        if next != "sweep" {
+            fails(&["plot", &place.argument("out")], 2, &[&goes_on, "draws its pictures again"]);
+        }
         assert!(expected.iter().all(|name| found.iter().any(|own| own == name)), "{next}: {found:?}");
         let others = ["sweep", "tradeoff", "stability", "seed=", "step="].into_iter().filter(|start| match next {
             "sweep" => !["sweep", "seed="].contains(start),

@@ -17,6 +17,8 @@ use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
+const MEAN_SQUARE: &str = "mean_square";
+
 /// The autocorrelation of a quantity.
 pub(super) struct Autocorrelation(pub CorrelatedQuantity);
 
@@ -82,6 +84,10 @@ impl Descriptor for Autocorrelation {
             ["time", "autocorrelation", "autocorrelation_error", "fit"].map(|name| drawn.column(name));
         let fitted = (formula(&drawn.result["fit"]), fit);
         autocorrelation_chart(drawn.title(), self.0.name(), (&lags, &values, &errors), (&fitted.0, &fitted.1))
+    }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![MEAN_SQUARE]
     }
 }
 
@@ -191,7 +197,7 @@ impl Analysis for Correlation {
         let result = match (missing, first) {
             (None, Some(first)) => {
                 let mean_square = Coefficient { value: first.mean, standard_error: first.standard_error };
-                let mut result = json!({ "windows": average.windows().len(), "mean_square": mean_square });
+                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: mean_square });
                 if self.asked.fit != DecayFit::None {
                     result["fit"] = fitted;
                 }

@@ -24,6 +24,9 @@ enum Kind {
     Equilibrium,
 }
 
+const REDUCED_TIME: &str = "reduced_time";
+const REDUCED_FRICTION: &str = "reduced_friction";
+
 /// Pulses, correlations and variances of harmonic chains.
 pub(super) struct Chain;
 
@@ -55,6 +58,10 @@ impl Descriptor for Chain {
         let (Some(asked), Some(trios)) = (&scene.output.chain, model.particles().chains.as_ref()) else { return 0 };
         let samples = scene.time.steps.checked_div(asked.every).map_or(0, |times| times.saturating_add(1));
         numbers_kept(trios, samples).saturating_mul(8)
+    }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![REDUCED_TIME, REDUCED_FRICTION]
     }
 }
 
@@ -253,8 +260,8 @@ impl Chains {
         let plateaus = kernels.iter().filter_map(|kernel| Some((kernel.cluster_size().to_string(), kernel.plateau()?)));
         let plateaus: Map<String, Value> = plateaus.map(|(size, plateau)| (size, json!(plateau.friction))).collect();
         json!({
-            "reduced_time": value("tau"),
-            "reduced_friction": self.trios.pulse.reduced_friction,
+            REDUCED_TIME: value("tau"),
+            REDUCED_FRICTION: self.trios.pulse.reduced_friction,
             "plateau_friction_by_cluster_size": plateaus,
             "chains": chains,
         })

@@ -39,6 +39,12 @@ pub(super) trait Descriptor {
         Vec::new()
     }
 
+    /// The names of the numbers that it finds, as they stand at the top of its result; counts of samples and what was asked for are none.
+    fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
+        let _ = (scene, model);
+        Vec::new()
+    }
+
     /// Bytes that its sections add to a checkpoint, if they are many.
     fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
         let _ = (scene, model);

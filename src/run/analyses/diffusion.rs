@@ -76,6 +76,10 @@ impl Descriptor for Diffusion {
             .filter_map(|(label, key)| printed(label, &result[key]))
             .collect()
     }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![EINSTEIN, GREEN_KUBO]
+    }
 }
 
 /// Means over particles, sample by sample.

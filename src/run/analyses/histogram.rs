@@ -27,6 +27,13 @@ const MOMENTS: usize = 5;
 const FARTHEST: f64 = 8.0;
 
 /// Columns of the densities to compare with.
+const BELOW: &str = "below";
+const ABOVE: &str = "above";
+const MEAN: &str = "mean";
+const DEVIATION: &str = "standard_deviation";
+const KURTOSIS: &str = "kurtosis";
+const MEAN_SQUARE: &str = "mean_square";
+const VARIANCE_OF_SQUARE: &str = "variance_of_square";
 const MAXWELL: &str = "maxwell";
 const GAUSSIAN: &str = "gaussian";
 
@@ -111,6 +118,11 @@ impl Descriptor for Histogram {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         density_chart(drawn.title(), drawn.table)
+    }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        let of_components = [BELOW, KURTOSIS].into_iter().filter(|_| self.0 != CountedQuantity::Speed);
+        [ABOVE, MEAN, DEVIATION, MEAN_SQUARE, VARIANCE_OF_SQUARE].into_iter().chain(of_components).collect()
     }
 }
 
@@ -320,17 +332,17 @@ impl Analysis for Counts {
             put("values", total);
             put("range", self.range);
             if !speed {
-                put("below", histogram.below);
+                put(BELOW, histogram.below);
             }
-            put("above", histogram.above);
-            put("mean", value.first);
-            put("standard_deviation", value.standard_deviation());
+            put(ABOVE, histogram.above);
+            put(MEAN, value.first);
+            put(DEVIATION, value.standard_deviation());
             if !speed {
                 // About zero it says nothing of a magnitude.
-                put("kurtosis", value.kurtosis());
+                put(KURTOSIS, value.kurtosis());
             }
-            put("mean_square", magnitude.second);
-            put("variance_of_square", magnitude.variance_of_square());
+            put(MEAN_SQUARE, magnitude.second);
+            put(VARIANCE_OF_SQUARE, magnitude.variance_of_square());
             Ok(Value::Object(result))
         };
         Conclusion { warnings, ..Conclusion::new(table, result) }

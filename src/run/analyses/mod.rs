@@ -86,6 +86,8 @@ pub struct AskedAnalysis {
     pub detail: Option<String>,
     /// The tables that it writes.
     pub tables: &'static [AnalysisTable],
+    /// The names of the numbers that it finds, as its results have them: `peak_height`.
+    pub found: Vec<&'static str>,
     /// Numbers that its tables will hold, if they are many.
     pub(crate) numbers: u64,
     /// Bytes that it adds to a checkpoint, if they are many.
@@ -110,7 +112,8 @@ pub fn asked_analyses(scene: &Scene, model: &Model) -> Vec<AskedAnalysis> {
         let Sampling { first, every, detail, numbers, left_out } = descriptor.asked(scene, model)?;
         let tables = id.tables().split_at(id.tables().len().saturating_sub(left_out)).0;
         let kept_bytes = descriptor.kept_bytes(scene, model);
-        Some(AskedAnalysis { id, first, every, detail, tables, numbers, kept_bytes })
+        let found = descriptor.finds(scene, model);
+        Some(AskedAnalysis { id, first, every, detail, tables, found, numbers, kept_bytes })
     });
     asked.collect()
 }

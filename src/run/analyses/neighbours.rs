@@ -39,6 +39,10 @@ impl Descriptor for Neighbours {
             .filter_map(|(label, key)| Some((label.to_owned(), printed_mean(&result[key])?)))
             .collect()
     }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![MEAN, VARIANCE]
+    }
 }
 
 /// Cells by their number of neighbours, over all samples.

@@ -131,6 +131,11 @@ impl Descriptor for Profiles {
         let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
         8 * BlockSums::blocks_after(samples) * u64::from(asked.bins) * Sums::of(model, asked).kept() as u64
     }
+
+    fn finds(&self, scene: &Scene, _: &Model) -> Vec<&'static str> {
+        let asked = scene.output.profiles.as_ref();
+        asked.filter(|asked| shows(asked, ProfiledQuantity::Temperature)).map(|_| TEMPERATURE).into_iter().collect()
+    }
 }
 
 fn density_of(species: usize) -> String {

@@ -52,6 +52,10 @@ impl Descriptor for RadialDistribution {
         let distance = result[PEAK_DISTANCE].as_f64().unwrap_or(f64::NAN);
         vec![("g(r) peak".to_owned(), format!("{height:.3} at {distance:.3}"))]
     }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![PEAK_DISTANCE, PEAK_HEIGHT]
+    }
 }
 
 /// Pairs by distance, counted over all samples.

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
 /// Names in the result.
+const INITIAL_AMPLITUDE: &str = "initial_amplitude";
 const DECAY_RATE: &str = "decay_rate";
 const KINEMATIC_VISCOSITY: &str = "kinematic_viscosity";
 const SHEAR_VISCOSITY: &str = "shear_viscosity";
@@ -40,6 +41,11 @@ impl Descriptor for ShearWave {
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         printed("shear viscosity (wave)", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    }
+
+    fn finds(&self, _: &Scene, model: &Model) -> Vec<&'static str> {
+        let known = model.physics().known_viscosities().into_iter().map(|(name, _)| name);
+        [INITIAL_AMPLITUDE, DECAY_RATE, KINEMATIC_VISCOSITY, SHEAR_VISCOSITY].into_iter().chain(known).collect()
     }
 }
 
@@ -134,7 +140,7 @@ impl Decay {
         let mut result = json!({
             "samples": self.samples.len(),
             "wave_number": wave_number,
-            "initial_amplitude": decay.amplitude,
+            INITIAL_AMPLITUDE: decay.amplitude,
             DECAY_RATE: scaled(1.0),
             KINEMATIC_VISCOSITY: scaled(wave_number.powi(-2)),
             SHEAR_VISCOSITY: scaled(density * wave_number.powi(-2)),

@@ -84,6 +84,16 @@ impl Descriptor for Stress {
         let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
         samples.saturating_mul(8 * KEPT as u64)
     }
+
+    fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
+        let Some(asked) = &scene.output.stress else { return Vec::new() };
+        let found = [
+            (SURFACE_TENSION, asked.normal.is_some()),
+            (SHEARED, model.particles().shear.is_some()),
+            (VISCOSITY, asked.window.is_some()),
+        ];
+        found.into_iter().filter(|(_, is_found)| *is_found).map(|(name, _)| name).collect()
+    }
 }
 
 /// Numbers of a sample: the step and three tensors of six components.

@@ -17,6 +17,7 @@ use std::f64::consts::TAU;
 
 /// Names in the result.
 const SHEAR_VISCOSITY: &str = "shear_viscosity";
+const KINEMATIC_VISCOSITY: &str = "kinematic_viscosity";
 const WAVES: &str = "waves";
 const OF_WAVE: &str = "viscosity";
 
@@ -62,6 +63,10 @@ impl Descriptor for Viscosity {
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         printed("shear viscosity", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    }
+
+    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+        vec![SHEAR_VISCOSITY, KINEMATIC_VISCOSITY]
     }
 }
 
@@ -141,7 +146,7 @@ impl Analysis for Amplitudes {
             };
             json!({
                 SHEAR_VISCOSITY: found.viscosity,
-                "kinematic_viscosity": found.kinematic_viscosity,
+                KINEMATIC_VISCOSITY: found.kinematic_viscosity,
                 WAVES: found.waves.iter().map(wave).collect::<Vec<Value>>(),
             })
         });
