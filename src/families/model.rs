@@ -187,6 +187,16 @@ impl Model {
         }
     }
 
+    /// Edges of what pictures show: the box, with the layers of frozen particles behind its walls.
+    #[must_use]
+    pub(crate) fn edges_with_layers(&self) -> [f64; 3] {
+        let mut edges = self.units.edges();
+        for walls in &self.particles().walls {
+            edges[walls.axis] += 2.0 * walls.layer;
+        }
+        edges
+    }
+
     /// The physics of its family.
     #[must_use]
     pub(crate) fn physics(&self) -> &dyn Physics {

@@ -209,15 +209,10 @@ impl<'a> Pictures<'a> {
             return Ok(());
         }
         // With layers of frozen particles the picture shows what is behind the walls too.
-        let mut lengths = units.edges();
-        let mut behind = [0.0; 3];
-        for walls in &model.particles().walls {
-            behind[walls.axis] = walls.layer;
-            lengths[walls.axis] += 2.0 * walls.layer;
-        }
+        let (edges, lengths) = (units.edges(), model.edges_with_layers());
         let place = |position: &[u32; 3]| {
             let place = units.position(*position);
-            std::array::from_fn(|axis| place[axis] + behind[axis])
+            std::array::from_fn(|axis| place[axis] + 0.5 * (lengths[axis] - edges[axis]))
         };
         let positions: Vec<[f64; 3]> = state.positions.iter().map(place).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;

@@ -10,8 +10,6 @@ use crate::support::{
     reference_of_particles, same_energies, start, units_of_a_step,
 };
 
-const TWO_STAGES: &str = r#"integrator={"type":"splitting","relaxation":"two-stages"}"#;
-
 fn read(document: &Value) -> Scene {
     crate::support::scene(&document.to_string())
 }
@@ -178,7 +176,7 @@ fn layered_fluid(channel: &(Vec<f64>, Value, Value), integrator: &str, others: &
 
 #[test]
 fn frozen_layers_agree_with_the_reference() {
-    for integrator in INTEGRATORS.iter().chain(&[TWO_STAGES]) {
+    for integrator in INTEGRATORS {
         for channel in &layered_channels() {
             agree(&layered_fluid(channel, integrator, &[]));
         }
@@ -209,7 +207,7 @@ fn frozen_layers_beside_others_agree_with_the_reference() {
 /// What is frozen is where it was against its wall, with the same momentum, after any step; the wall goes on by the same integer in every one.
 #[test]
 fn frozen_particles_go_with_their_walls() {
-    for integrator in INTEGRATORS.iter().chain(&[TWO_STAGES]) {
+    for integrator in INTEGRATORS {
         for channel in &layered_channels() {
             let scene = read(&layered_fluid(channel, integrator, &[]));
             let (model, state) = start(&scene);
@@ -330,6 +328,32 @@ fn a_moving_wall_reverses_velocities_relative_to_its_own() {
             let taken = found.walls[1].momentum().map(|units| units as f64 * model.units.momentum);
             assert_eq!(taken, [2.0 * (1.0 - 2.0), 2.0 * (0.25 + 1.25), 2.0 * 10.0], "{name}");
             assert_eq!(found.walls[0].momentum(), [0; 3], "{name}");
+        }
+    }
+}
+
+/// The same beside layers that move, whose pairs have potential energies and do work.
+#[test]
+fn energy_is_the_work_that_layers_do() {
+    for integrator in [&INTEGRATORS[0], &INTEGRATORS[1], &INTEGRATORS[3]] {
+        let mut document = layered_fluid(&layered_channels()[2], integrator, &[]);
+        document["interactions"][0] = json!({"type": "dpd", "repulsion": 25, "friction": 0});
+        document["space"]["walls"]["z"]["upper_velocity"] = json!([0, -3, 0]);
+        document["particles"][0]["placement"] = json!({"type": "lattice"});
+        document["time"]["step"] = json!(0.002);
+        document["output"]["energies"]["every"] = json!(100);
+        let scene = read(&document);
+        let (model, state) = start(&scene);
+        let implementations: [Box<dyn Implementation>; 2] =
+            [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
+        for mut implementation in implementations {
+            let first = implementation.observe();
+            implementation.step(500);
+            let last = implementation.observe();
+            let gained = last.total_energy() - first.total_energy();
+            let (work, name) = (last.on_walls.work, implementation.name());
+            assert!(work.abs() > 20.0, "{name}: {work}: too little to say something");
+            assert!((gained - work).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {work}");
         }
     }
 }

@@ -138,3 +138,94 @@ impl Layer {
         behind
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::document::Scene;
+    use crate::families::initial_state;
+    use serde_json::{Value, json};
+
+    fn start(seed: u64, walls: &Value, placement: &Value) -> (Model, State) {
+        let scene: Scene = serde_json::from_value(json!({
+            "title": "test", "seed": seed, "space": {"box": [9.0, 8.0, 7.0], "walls": walls},
+            "time": {"step": 0.1, "steps": 1}, "temperature": 1.0, "interactions": [{"type": "dpd"}],
+            "particles": [{"species": "A", "count": 10},
+                {"species": "W", "number_density": 3.0, "mass": 2.0, "placement": placement}],
+        }))
+        .unwrap();
+        let model = Model::new(&scene);
+        let state = initial_state(&scene, &model);
+        (model, state)
+    }
+
+    /// Heights above the lower wall of the frozen particles.
+    fn heights(model: &Model, state: &State) -> Vec<f64> {
+        state.positions[10..].iter().map(|position| model.units.position(*position)[2]).collect()
+    }
+
+    #[test]
+    fn half_of_a_layer_is_behind_each_wall() {
+        let walls = json!({"x": {}, "z": {"lower_velocity": [0, 1.5, 0], "upper_velocity": [0, -0.5, 0]}});
+        let (model, state) = start(1, &walls, &json!({"type": "behind-walls", "axis": "z", "thickness": 1.1}));
+        let heights = heights(&model, &state);
+        assert_eq!(heights.len(), (3.0 * 2.0 * 1.1 * 9.0 * 8.0_f64).round() as usize);
+        let lower = heights.iter().filter(|height| (-1.1..0.0).contains(*height)).count();
+        let upper = heights.iter().filter(|height| (7.0..8.1).contains(*height)).count();
+        assert_eq!([lower, upper], [heights.len().div_ceil(2), heights.len() / 2]);
+        for (id, height) in heights.iter().enumerate() {
+            let [x, y, _] = model.units.position(state.positions[10 + id]);
+            assert!((0.0..9.0).contains(&x) && (0.0..8.0).contains(&y), "{x} {y}");
+            let momentum = model.units.momentum(state.momenta[10 + id]);
+            assert_eq!(momentum, [0.0, if *height < 0.0 { 3.0 } else { -1.0 }, 0.0]);
+        }
+        // Both layers and the space between them, over which nothing acts.
+        let gap = model.units.gaps[2];
+        assert!(gap > 2.0 * 1.1 + 1.0 && gap < 2.0 * 1.1 + 1.01, "{gap}");
+        // Particles between the walls start at rest together, whatever those behind them do.
+        let moving = state.momenta[..10].iter().fold([0; 3], |sum, p| std::array::from_fn(|axis| sum[axis] + p[axis]));
+        assert_eq!(moving, [0; 3]);
+    }
+
+    #[test]
+    fn one_wall_alone_has_a_layer() {
+        for (wall, low, high) in [("lower", -2.0, 0.0), ("upper", 7.0, 9.0)] {
+            let placement = json!({"type": "behind-walls", "axis": "z", "wall": wall, "thickness": 2});
+            let (model, state) = start(1, &json!({"z": {}}), &placement);
+            let heights = heights(&model, &state);
+            assert_eq!(heights.len(), 432);
+            assert!(heights.iter().all(|height| (low..high).contains(height)), "{wall}");
+        }
+    }
+
+    /// As dense at every depth, and nobody as close to a neighbour as random places are: of 648 there would be 5 pairs within .12.
+    #[test]
+    fn layers_are_even() {
+        for seed in 1..=3 {
+            let placement = json!({"type": "behind-walls", "axis": "z", "wall": "upper", "thickness": 3});
+            let (model, state) = start(seed, &json!({"z": {}}), &placement);
+            let heights = heights(&model, &state);
+            for depth in 0..6 {
+                let low = 7.0 + 0.5 * f64::from(depth);
+                let found = heights.iter().filter(|height| (low..low + 0.5).contains(*height)).count();
+                // 108 each, of which chance among neighbours of .7 leaves fewer than the root off.
+                assert!((85..=131).contains(&found), "{found} in depth {depth}");
+            }
+            let frozen = &state.positions[10..];
+            let distance = |(a, b): (usize, usize)| {
+                model.units.displacement(frozen[a], frozen[b]).iter().map(|part| part * part).sum::<f64>().sqrt()
+            };
+            let pairs = (0..frozen.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+            let nearest = pairs.map(distance).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 0.3, "{nearest}");
+        }
+        let positions = |seed: u64| {
+            let placement = json!({"type": "behind-walls", "axis": "z", "thickness": 1});
+            start(seed, &json!({"z": {}}), &placement).1.positions
+        };
+        assert_eq!(positions(4), positions(4));
+        assert_ne!(positions(4)[10..], positions(5)[10..]);
+    }
+}

@@ -152,8 +152,13 @@ fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
-            || scene.particles.iter().any(|group| group.fixed)
+            || scene.particles.iter().any(is_fixed_in_space)
             || scene.interactions.iter().any(coupled))
+}
+
+/// Whether particles are held where they start, not behind walls.
+fn is_fixed_in_space(group: &ParticleGroup) -> bool {
+    group.fixed && !group.is_frozen()
 }
 
 /// Whether an interaction does anything: one of a strength of zero is as good as none, and is not computed. Pairs decide by themselves
@@ -324,7 +329,7 @@ fn first_of_more(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> String 
         };
         return format!("{what} in interactions[{index}]");
     }
-    match scene.particles.iter().position(|group| group.fixed) {
+    match scene.particles.iter().position(is_fixed_in_space) {
         Some(group) => format!("particles[{group}], which are fixed"),
         None => "a box of one dimension".to_owned(),
     }
