@@ -432,6 +432,11 @@ impl Builder<'_> {
         if self.model.has_frozen_particles() { beside_layers } else { pass }
     }
 
+    /// What passes choose that give frozen particles impulses before the end of a step.
+    fn booking_of_layers(&self) -> Choices {
+        if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() }
+    }
+
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
     fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
@@ -471,10 +476,7 @@ impl Builder<'_> {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let once = self.visits_once();
         let dense = self.model.particles().have_local_densities();
-        let found = match self.model.has_frozen_particles() {
-            false => with(pairs::Pass::Find),
-            true => with(pairs::Pass::FindBesideLayers).and(&walls::booking(self.model)),
-        };
+        let found = with(self.either(pairs::Pass::Find, pairs::Pass::FindBesideLayers)).and(&self.booking_of_layers());
         let find = match (once, dense) {
             (true, _) => self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick)),
             (false, true) => self.traversal("find", self.traversal, Masks::Kept, &found),
@@ -535,8 +537,8 @@ impl Builder<'_> {
 
     /// Adds the first of two stages of friction, which leaves momenta for these kernels, those of the second.
     fn first_stage(&mut self, second: [usize; 3], kept: &Choices) {
-        let booking = if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() };
-        let pass = booking
+        let pass = self
+            .booking_of_layers()
             .with(self.either(pairs::Pass::RelaxFirst, pairs::Pass::RelaxFirstBesideLayers))
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
