@@ -213,6 +213,8 @@ fn layers_behind_walls() {
         &["particles[1].velocities: found velocities", "that of their wall"],
     );
     CHANNEL.refused_with(&[&layer(&[r#"chain={"beads":3}"#])], &["particles[1].chain: found a chain"]);
+    let warnings = CHANNEL.warnings(&[&layer(&["placement.thickness=0.9"])]);
+    assert!(warnings.iter().any(|warning| warning.contains("less than the cutoff of 1")), "{warnings:?}");
     // Specular walls move if something behind them drags the fluid along.
     CHANNEL.accepted(&[r#"space.walls.z.reflection="specular""#, &layer(&[])]);
 }
