@@ -196,11 +196,11 @@ fn is_like(one: &Scene, other: &Scene) -> bool {
     let groups = || one.particles.iter().zip(&other.particles);
     let as_dense = |(a, b): (&scene::ParticleGroup, &scene::ParticleGroup)| {
         let [a, b] =
-            [a.resolved_count(volumes[0]) as f64 / volumes[0], b.resolved_count(volumes[1]) as f64 / volumes[1]];
+            [a.resolved_count(&one.space) as f64 / volumes[0], b.resolved_count(&other.space) as f64 / volumes[1]];
         a.max(b) <= AS_DENSE * a.min(b)
     };
     let alike = |(a, b): (&scene::ParticleGroup, &scene::ParticleGroup)| {
-        (a.mass, a.fixed, a.tracer, &a.chain) == (b.mass, b.fixed, b.tracer, &b.chain)
+        (a.mass, a.fixed, a.is_frozen(), a.tracer, &a.chain) == (b.mass, b.fixed, b.is_frozen(), b.tracer, &b.chain)
     };
     (one.interactions == other.interactions || other_choice(one, other).is_some())
         && one.temperature == other.temperature

@@ -30,10 +30,14 @@ pub struct Units {
 }
 
 impl Units {
-    /// The real position of an integer one, in `[0, length)` on each axis.
+    /// The real position of an integer one, in `[0, length)` on each axis; negative behind a lower wall.
     #[must_use]
     pub fn position(&self, fraction: [u32; 3]) -> [f64; 3] {
-        std::array::from_fn(|axis| f64::from(fraction[axis]) * self.lengths[axis] / 4_294_967_296.0)
+        std::array::from_fn(|axis| {
+            let position = f64::from(fraction[axis]) * self.lengths[axis] / 4_294_967_296.0;
+            let behind_lower = self.gaps[axis] > 0.0 && position > self.lengths[axis] - 0.5 * self.gaps[axis];
+            if behind_lower { position - self.lengths[axis] } else { position }
+        })
     }
 
     /// The integer position of a real one, taken modulo the box.

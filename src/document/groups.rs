@@ -1,5 +1,6 @@
 //! Groups of particles: how many, where they start and how fast.
 
+use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +14,8 @@ pub struct ParticleGroup {
     /// Number of particles; give this or `number_density`, or list `placement.positions`. With a `state`, its file knows it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u64>,
-    /// Particles per unit volume (area in two dimensions); the count is rounded to the nearest integer.
+    /// Particles per unit volume (area in two dimensions), of the box or, behind walls, of their layer; the count is rounded to the nearest
+    /// integer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub number_density: Option<f64>,
@@ -86,9 +88,39 @@ pub enum Placement {
         #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
+    /// In a layer behind the walls across an axis, evenly but in no order. The particles are frozen: they never move against their wall, and
+    /// what pairs give them the wall takes up.
+    #[serde(rename_all = "kebab-case")]
+    BehindWalls {
+        /// The axis that the walls cross.
+        axis: Axis,
+        /// The wall; left out, both.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        wall: Option<WallSide>,
+        /// Depth of the layer, in units of length: the largest cutoff makes it as good as one without an end.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        thickness: f64,
+    },
+}
+
+/// One of the two walls across an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum WallSide {
+    /// At the coordinate 0.
+    Lower,
+    /// At the length of the box.
+    Upper,
 }
 
 impl Placement {
+    /// Volume (area) in which a density counts particles: that of the layers behind walls, else that of the box.
+    pub(crate) fn volume(&self, space: &Space) -> f64 {
+        let Self::BehindWalls { axis, wall, thickness } = self else { return space.volume() };
+        let layers = if wall.is_some() { 1.0 } else { 2.0 };
+        space.lengths.get(*axis as usize).map_or(0.0, |length| layers * thickness * space.volume() / length)
+    }
+
     /// Whether the particles start on a lattice, shifted or not.
     #[must_use]
     pub fn is_lattice(&self) -> bool {
@@ -134,14 +166,26 @@ fn one_period() -> u32 {
 }
 
 impl ParticleGroup {
+    /// Whether the particles make up a layer behind walls, and never move against them.
+    #[must_use]
+    pub fn is_frozen(&self) -> bool {
+        matches!(self.placement, Placement::BehindWalls { .. })
+    }
+
+    /// Whether nothing that acts on the particles moves them.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.fixed || self.is_frozen()
+    }
+
     /// Number of particles, whichever way the scene gives it; a density is rounded to whole chains.
     #[must_use]
-    pub fn resolved_count(&self, volume: f64) -> u64 {
+    pub fn resolved_count(&self, space: &Space) -> u64 {
         let beads = self.chain.as_ref().map_or(1.0, |chain| f64::from(chain.beads.max(1)));
         match (&self.placement, self.count, self.number_density) {
             (Placement::Listed { positions }, _, _) => positions.len() as u64,
             (_, Some(count), _) => count,
-            (_, None, Some(density)) => ((density * volume / beads).round() * beads) as u64,
+            (_, None, Some(density)) => ((density * self.placement.volume(space) / beads).round() * beads) as u64,
             (_, None, None) => 0,
         }
     }

@@ -30,7 +30,7 @@ pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{FileLinks, FilePlaces, FileStart, KeptStart};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
-pub use groups::{Chain, ParticleGroup, Placement, Velocities};
+pub use groups::{Chain, ParticleGroup, Placement, Velocities, WallSide};
 pub use integrator::{Integrator, PairRelaxation};
 pub use interaction::Interaction;
 pub use molecules::Molecule;

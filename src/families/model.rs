@@ -15,8 +15,10 @@ pub struct Species {
     pub mass: f64,
     /// Number of particles.
     pub count: u64,
-    /// Whether they are held where they start.
+    /// Whether nothing that acts on them moves them: held where they start, or frozen behind a wall.
     pub fixed: bool,
+    /// Whether they make up layers behind walls, which take up what they are given.
+    pub frozen: bool,
 }
 
 /// Everything the equations of motion need.
@@ -64,12 +66,13 @@ impl Model {
     pub fn new(scene: &Scene) -> Self {
         let mut species: Vec<Species> = Vec::new();
         for group in &scene.particles {
-            let count = group.resolved_count(scene.space.volume());
+            let count = group.resolved_count(&scene.space);
             if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
                 known.count = known.count.saturating_add(count);
             } else {
                 let name = group.species.clone();
-                species.push(Species { name, mass: group.mass, count, fixed: group.fixed });
+                let (fixed, frozen) = (group.is_held(), group.is_frozen());
+                species.push(Species { name, mass: group.mass, count, fixed, frozen });
             }
         }
         let mut lengths = [1.0; 3];
@@ -113,16 +116,29 @@ impl Model {
         self.physics().has_memory()
     }
 
-    /// Whether some particles are held where they start.
+    /// Whether some particles are held where they start; those behind walls are not among them.
     #[must_use]
     pub fn has_fixed_particles(&self) -> bool {
-        self.species.iter().any(|species| species.fixed && species.count > 0)
+        self.species.iter().any(|species| species.fixed && !species.frozen && species.count > 0)
+    }
+
+    /// Whether there are frozen particles behind walls.
+    #[must_use]
+    pub fn has_frozen_particles(&self) -> bool {
+        self.species.iter().any(|species| species.frozen && species.count > 0)
     }
 
     /// Number of particles that can move.
     #[must_use]
     pub fn mobile_particles(&self) -> u64 {
         self.species.iter().filter(|species| !species.fixed).map(|species| species.count).sum()
+    }
+
+    /// Mass of all particles but those of layers behind walls, which have none that counts.
+    #[must_use]
+    pub(crate) fn mobile_mass(&self) -> f64 {
+        let species = self.species.iter().filter(|species| !species.frozen);
+        species.map(|species| species.mass * species.count as f64).sum()
     }
 
     /// Whether the equations of motion keep the total momentum. A mesh, a rotation and whatever acts on particles by
@@ -169,6 +185,16 @@ impl Model {
                 .min(self.physics().longest_step(self)),
             ..Plan::new(self.units, layout, quanta)
         }
+    }
+
+    /// Edges of what pictures show: the box, with the layers of frozen particles behind its walls.
+    #[must_use]
+    pub(crate) fn edges_with_layers(&self) -> [f64; 3] {
+        let mut edges = self.units.edges();
+        for walls in &self.particles().walls {
+            edges[walls.axis] += 2.0 * walls.layer;
+        }
+        edges
     }
 
     /// The physics of its family.

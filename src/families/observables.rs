@@ -205,7 +205,7 @@ impl Observables {
     }
 
     fn pressure_of(&self, virial: f64) -> f64 {
-        let density = self.particles as f64 / self.volume;
+        let density = self.mobile as f64 / self.volume;
         density * self.kinetic_temperature() + virial / (self.dimension as f64 * self.volume)
     }
 }

@@ -34,7 +34,7 @@ fn hottest(scene: &Scene) -> f64 {
 
 /// Groups of particles that move, with their places.
 fn moving(scene: &Scene) -> impl Iterator<Item = (usize, &ParticleGroup)> {
-    let moves = |group: &ParticleGroup| !group.fixed && group.resolved_count(scene.space.volume()) > 0;
+    let moves = |group: &ParticleGroup| !group.is_held() && group.resolved_count(&scene.space) > 0;
     scene.particles.iter().enumerate().filter(move |(_, group)| moves(group))
 }
 

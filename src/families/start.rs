@@ -1,6 +1,6 @@
 //! Where the particles of a scene start, and how fast.
 
-use super::particles::chains;
+use super::particles::{chains, layers};
 use crate::document::{FileStart, Generator, ParticleGroup, Placement, Scene, StateVelocities, Velocities};
 use crate::families::Model;
 use crate::noise::{self, stream};
@@ -43,14 +43,14 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut lattice = 0;
     for group in &scene.particles {
         let first = state.len();
-        let count = group.resolved_count(scene.space.volume()) as usize;
+        let count = group.resolved_count(&scene.space) as usize;
         place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
         let ids = first..first + count;
         model.physics().set_in_motion(&mut state, group, ids, model);
         let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
         state.species.resize(first + count, species as u32);
-        if group.velocities == Velocities::Thermal && !group.fixed {
+        if group.velocities == Velocities::Thermal && !group.is_held() {
             thermal.extend(first..first + count);
         }
     }
@@ -210,6 +210,7 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
                 model.units.place(position)
             }));
         }
+        Placement::BehindWalls { .. } => layers::place(state, &group.placement, count, model),
     }
 }
 
@@ -247,6 +248,10 @@ pub(super) fn set_in_motion(state: &mut State, group: &ParticleGroup, ids: Range
     let (first, count) = (ids.start, ids.len());
     match &group.velocities {
         _ if group.fixed => state.momenta.resize(first + count, [0; 3]),
+        _ if group.is_frozen() => {
+            let momenta = layers::momenta(&state.positions[first..first + count], group.mass, model);
+            state.momenta.extend(momenta);
+        }
         Velocities::Thermal => {
             let key = noise::step_key(model.seed, stream::VELOCITY, 0);
             state.momenta.extend((first..first + count).map(|id| thermal_momentum(id, group.mass, key, model)));

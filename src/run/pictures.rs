@@ -208,7 +208,13 @@ impl<'a> Pictures<'a> {
         if units.dimension == 1 {
             return Ok(());
         }
-        let positions: Vec<[f64; 3]> = state.positions.iter().map(|position| units.position(*position)).collect();
+        // With layers of frozen particles the picture shows what is behind the walls too.
+        let (edges, lengths) = (units.edges(), model.edges_with_layers());
+        let place = |position: &[u32; 3]| {
+            let place = units.position(*position);
+            std::array::from_fn(|axis| place[axis] + 0.5 * (lengths[axis] - edges[axis]))
+        };
+        let positions: Vec<[f64; 3]> = state.positions.iter().map(place).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
         let speed = |(momentum, species): (&[i32; 3], &u32)| {
             let mass = model.species.get(*species as usize).map_or(f64::NAN, |species| species.mass);
@@ -228,7 +234,7 @@ impl<'a> Pictures<'a> {
         };
         let picture = ParticlePicture {
             dimension: units.dimension as u32,
-            lengths: units.edges(),
+            lengths,
             positions: &positions,
             species: &state.species,
             species_names: &names,

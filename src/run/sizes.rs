@@ -76,7 +76,7 @@ impl Sizes {
             _ if model.units.dimension == 1 => (0, 0, 0),
             PictureKind::Particles | PictureKind::Cells => {
                 let [width, height] =
-                    snapshot_size(&output.snapshot, model.units.dimension as u32, model.units.edges());
+                    snapshot_size(&output.snapshot, model.units.dimension as u32, model.edges_with_layers());
                 ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))
             }
         };

@@ -44,7 +44,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
         }
         if let Velocities::Listed { velocities } = &group.velocities {
             let path = format!("{path}.velocities.velocities");
-            let count = group.resolved_count(scene.space.volume());
+            let count = group.resolved_count(&scene.space);
             if velocities.len() as u64 != count {
                 let found = format!("found a list of {}", velocities.len());
                 problems.push(Problem::new(
@@ -101,7 +101,6 @@ fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &
 }
 
 fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
-    let volume = scene.space.volume();
     // In double precision, since a density can ask for more particles than any integer holds.
     let amounts: Vec<f64> = scene
         .particles
@@ -109,7 +108,7 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
         .map(|group| match (&group.placement, group.count, group.number_density) {
             (Placement::Listed { positions }, _, _) => positions.len() as f64,
             (_, Some(count), _) => count as f64,
-            (_, None, density) => (density.unwrap_or(0.0) * volume).round(),
+            (_, None, density) => (density.unwrap_or(0.0) * group.placement.volume(&scene.space)).round(),
         })
         .collect();
     let total: f64 = amounts.iter().sum();
@@ -148,7 +147,7 @@ fn check_number_of_runs(scene: &Scene, problems: &mut Problems) {
         let runs = scene.particles.iter().filter(asked).filter_map(|group| {
             let beads = u64::from(group.chain.as_ref()?.beads.max(1));
             let starts = if group.chain.as_ref()?.closed { beads } else { beads.saturating_sub(length - 1) };
-            Some((group.resolved_count(scene.space.volume()) / beads).saturating_mul(starts))
+            Some((group.resolved_count(&scene.space) / beads).saturating_mul(starts))
         });
         runs.fold(0, u64::saturating_add)
     };

@@ -50,7 +50,7 @@ const WATER: &str = r#"{
     "output": {"energies": {"every": 1000}}
 }"#;
 
-const CASES: [Case; 16] = [
+const CASES: [Case; 17] = [
     Case { name: "pairs, splitting", scene: FLUID, changes: &[], twice: true },
     Case {
         name: "pairs, Groot and Warren with Gaussian noise",
@@ -107,6 +107,16 @@ const CASES: [Case; 16] = [
         name: "pairs between walls",
         scene: FLUID,
         changes: &[r#"space.walls={"z":{"lower_velocity":[-1,0.5,0],"upper_velocity":[1,0,0]}}"#],
+        twice: true,
+    },
+    Case {
+        name: "pairs beside frozen layers",
+        scene: FLUID,
+        changes: &[
+            r#"space.walls={"z":{"lower_velocity":[-1,0.5,0],"upper_velocity":[1,0,0]}}"#,
+            r#"particles=[{"species":"A","number_density":3},
+                {"species":"B","number_density":3,"placement":{"type":"behind-walls","axis":"z","thickness":1}}]"#,
+        ],
         twice: true,
     },
     Case {
@@ -354,7 +364,7 @@ mod tests {
             let expected: &[&str] = match case.name {
                 "coloured noise, Langevin bath and tethers" => &[],
                 "pairs and a body force" => &["momentum less what body forces put in"],
-                "pairs between walls" => &["momentum with what walls took up"],
+                "pairs between walls" | "pairs beside frozen layers" => &["momentum with what walls took up"],
                 "pairs in shear" => &["momentum with what boundaries took"],
                 "Voronoi cells" => &["momentum", "mass"],
                 "Voronoi cells with energy" => &["momentum", "mass", "energy"],

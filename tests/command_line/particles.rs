@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use hoomd_gsd::file_layer::{GsdFile, Mode};
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
 use serde_json::json;
@@ -160,6 +161,51 @@ fn half_a_run_resumed_is_a_whole_run() {
         let [whole, parts] = [whole, parts].map(|path| Summary::load(&path.join(files::SUMMARY)).unwrap());
         assert_eq!(whole.means, parts.means);
         assert_eq!(whole.results, parts.results);
+    }
+}
+
+/// Frozen particles behind walls are in checkpoints, trajectories and pictures, not in profiles, and a run in parts has the files of a whole one.
+#[test]
+fn layers_behind_walls_are_in_the_files_of_a_run() {
+    let walls = json!({"z": {"lower_velocity": [-1, 0, 0], "upper_velocity": [1, 0, 0]}});
+    let placement = json!({"type": "behind-walls", "axis": "z", "thickness": 1});
+    let place = place()
+        .with("/space/walls", walls)
+        .with("/time/steps", json!(40))
+        .with(
+            "/particles",
+            json!([{"species": "fluid", "number_density": 3},
+                {"species": "wall", "number_density": 3, "placement": placement}]),
+        )
+        .with("/output/trajectory", json!({"every": 20, "format": "gsd"}))
+        .with("/output/profiles", json!({"axis": "z", "every": 2, "bins": 10}));
+    place.whole_again_and_in_parts();
+    let whole = place.path("whole");
+    assert_eq!(state(&whole).len(), 375 + 150);
+    assert!(colours(&whole.join("snapshot.png")) > 10);
+    let columns = place.table("whole", "profiles.csv").columns;
+    assert!(
+        columns.contains(&"number_density".to_owned())
+            && !columns.iter().any(|name| name.starts_with("number_density_0"))
+    );
+    let counted: f64 = place.table("whole", "profiles.csv").values("number_density").iter().sum();
+    assert!((counted / 10.0 - 3.0).abs() < 1e-9, "{counted}");
+
+    let file = GsdFile::open(whole.join(files::TRAJECTORY_GSD), Mode::Read).unwrap();
+    let lengths: Vec<f32> = file.iter_scalars(0, "configuration/box").unwrap().collect();
+    assert!(lengths[2] > 8.0 && lengths[2] < 8.01, "{lengths:?}");
+    let kinds: Vec<u32> = file.iter_scalars(0, "particles/typeid").unwrap().collect();
+    for frame in 0..file.n_frames() {
+        let positions: Vec<[f32; 3]> = file.iter_arrays(frame, "particles/position").unwrap().collect();
+        let velocities: Vec<[f32; 3]> = file.iter_arrays(frame, "particles/velocity").unwrap().collect();
+        for ((kind, [_, _, z]), velocity) in kinds.iter().zip(positions).zip(velocities) {
+            if *kind == 0 {
+                assert!(z.abs() <= 2.5, "{z}");
+            } else {
+                assert!(z.abs() >= 2.5 && z.abs() <= 3.5, "{z}");
+                assert_eq!(velocity, [z.signum(), 0.0, 0.0]);
+            }
+        }
     }
 }
 

@@ -16,10 +16,21 @@ const WALLS: [&str; 2] = [
 const DRIVEN: &str =
     r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[3,0.3,0.2]}]"#;
 
+/// The mixture, and frozen particles behind the walls of each of those above.
+const LAYERED: [&str; 2] = [
+    r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":2.5},
+        {"species":"C","number_density":3,"placement":{"type":"behind-walls","axis":"z","thickness":0.9}}]"#,
+    r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":2.5},
+        {"species":"C","number_density":3,"placement":{"type":"behind-walls","axis":"x","wall":"upper","thickness":1}}]"#,
+];
+
 fn scenes() -> Vec<Scene> {
-    let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", MIXTURE, DRIVEN];
-    let scene = |(number, integrator): (usize, &&str)| fluid(&[&base[..], &[integrator, WALLS[number % 2]]].concat());
-    INTEGRATORS.iter().enumerate().map(scene).collect()
+    let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", DRIVEN];
+    let scene = |(number, integrator): (usize, &&str)| {
+        [MIXTURE, LAYERED[number % 2]]
+            .map(|particles| fluid(&[&base[..], &[particles, integrator, WALLS[number % 2]]].concat()))
+    };
+    INTEGRATORS.iter().enumerate().flat_map(scene).collect()
 }
 
 #[test]
@@ -27,7 +38,7 @@ fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
     let mut random = rand::rngs::StdRng::seed_from_u64(3);
     for scene in scenes() {
         let plain = bytes::run(&scene, Options::default(), STEPS, 8);
-        assert!(plain.state.walls.iter().all(|wall| wall.momentum() != [0; 3]));
+        assert!(plain.state.walls.iter().all(|wall| wall.momentum() != [0; 3]), "{:?}", plain.state.walls);
         for changed in [
             Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() },
             Options { traversal: Some(Traversal::Rows), ..Options::default() },
@@ -60,11 +71,14 @@ fn a_resumed_run_goes_on_with_the_same_bytes() {
 #[test]
 fn reports_change_nothing() {
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
-        let with_reports = |every: &str| {
-            let changes = ["time.steps=1000", "time.step=0.02", every, MIXTURE, DRIVEN, integrator, WALLS[number % 2]];
-            bytes::run(&fluid(&changes), Options::default(), STEPS, 8).state
-        };
-        let [often, seldom] = ["output.energies.every=1", "output.energies.every=1000"].map(with_reports);
-        assert!(often == seldom, "{integrator}");
+        for particles in [MIXTURE, LAYERED[number % 2]] {
+            let with_reports = |every: &str| {
+                let changes =
+                    ["time.steps=1000", "time.step=0.02", every, particles, DRIVEN, integrator, WALLS[number % 2]];
+                bytes::run(&fluid(&changes), Options::default(), STEPS, 8).state
+            };
+            let [often, seldom] = ["output.energies.every=1", "output.energies.every=1000"].map(with_reports);
+            assert!(often == seldom, "{integrator} {particles}");
+        }
     }
 }

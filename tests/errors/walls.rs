@@ -157,3 +157,106 @@ fn bonds_through_walls() {
     let [particles, interactions] = bonded("[[1,0.25,4],[1,9.75,4.5]]");
     CHANNEL.accepted(&[&particles, &interactions]);
 }
+
+const LAYER: &str =
+    r#"{"species":"wall","number_density":3,"placement":{"type":"behind-walls","axis":"z","thickness":1}}"#;
+
+/// A layer with a change, beside the fluid.
+fn layer(changes: &[&str]) -> String {
+    let mut layer: Value = serde_json::from_str(LAYER).unwrap();
+    for change in changes {
+        let (path, value) = change.split_once('=').unwrap();
+        match path.split_once('.') {
+            Some((first, second)) => layer[first][second] = serde_json::from_str(value).unwrap(),
+            None => layer[path] = serde_json::from_str(value).unwrap(),
+        }
+    }
+    format!(r#"particles=[{{"species":"water","count":300}},{layer}]"#)
+}
+
+#[test]
+fn layers_behind_walls() {
+    let scene = CHANNEL.accepted(&[&layer(&[])]);
+    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert_eq!(CHANNEL.warnings(&[&layer(&[])]), Vec::<String>::new());
+    let (model, state) = crate::support::start(&scene);
+    assert_eq!((model.mobile_particles(), state.len()), (300, 900));
+    CHANNEL.refused_with(
+        &["space.walls={}", &layer(&[])],
+        &[r#"particles[1].placement.axis: found "z", across which there are no walls"#, "into `space.walls.z`"],
+    );
+    CHANNEL.refused_with(
+        &["space.box=[10,10]", r#"space.walls={"y":{}}"#, &layer(&[])],
+        &[r#"particles[1].placement.axis: found "z""#, "one of the 2 axes of the box"],
+    );
+    for thickness in ["0", "-1"] {
+        CHANNEL.refused_with(
+            &[&layer(&[&format!("placement.thickness={thickness}")])],
+            &["particles[1].placement.thickness"],
+        );
+    }
+    CHANNEL.refused_with(
+        &[&layer(&["placement.thickness=11"])],
+        &["particles[1].placement.thickness: found 11", "at most 10, the distance of the walls"],
+    );
+    CHANNEL.refused_with(&[&layer(&[r#"placement.wall="left""#])], &["particles[1].placement.wall", "lower"]);
+    CHANNEL.refused_with(
+        &[&layer(&[r#"species="water""#])],
+        &["particles[1].species: found `water`", "another name than `water` in particles[0]"],
+    );
+    CHANNEL.refused_with(
+        &[&layer(&["fixed=true"])],
+        &["particles[1].fixed: found true", "particles behind walls are frozen"],
+    );
+    CHANNEL.refused_with(
+        &[&layer(&[r#"velocities={"type":"rest"}"#])],
+        &["particles[1].velocities: found velocities", "that of their wall"],
+    );
+    CHANNEL.refused_with(&[&layer(&[r#"chain={"beads":3}"#])], &["particles[1].chain: found a chain"]);
+    let warnings = CHANNEL.warnings(&[&layer(&["placement.thickness=0.9"])]);
+    assert!(warnings.iter().any(|warning| warning.contains("less than the cutoff of 1")), "{warnings:?}");
+    // Specular walls move if something behind them drags the fluid along.
+    CHANNEL.accepted(&[r#"space.walls.z.reflection="specular""#, &layer(&[])]);
+}
+
+/// All that goes together with no layer, at once.
+#[test]
+fn what_takes_no_layers() {
+    let other = r#"{"species":"end","count":9,"placement":{"type":"behind-walls","axis":"x","thickness":1}}"#;
+    let two = layer(&[]).replace("}}]", &format!("}}}},{other}]"));
+    let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"many_body":{"repulsion":9}},
+        {"type":"langevin","friction":1},
+        {"type":"bonds","pairs":[[0,1],[1,300]],"potential":{"type":"harmonic","stiffness":2}},
+        {"type":"bonds","pairs":[[2,3]],"friction":1},
+        {"type":"body-force","force":[1,0,0],"species":["wall"]}]"#;
+    let changes = [
+        r#"space.walls={"x":{},"z":{}}"#,
+        &two,
+        interactions,
+        r#"output.diffusion={"every":2,"window":8}"#,
+        r#"output.stress={"every":2}"#,
+        r#"output.profiles={"axis":"z","every":2,"quantities":["stress"]}"#,
+    ];
+    let problems = CHANNEL.problems(&changes);
+    for expected in [
+        r#"particles[2].placement.axis: found "x" beside "z" in particles[1]"#,
+        "interactions[0]: found a many-body repulsion together with frozen particles in particles[1]",
+        "interactions[1]: found a bath on every particle together with frozen particles",
+        "interactions[2].pairs[1]: found particle 300, which is frozen",
+        "interactions[3]: found a bath on every bond together with frozen particles",
+        "interactions[4].species[0]: found `wall`",
+        "output.diffusion: found in a scene with frozen particles",
+        "output.stress: found in a scene with frozen particles",
+        "output.profiles.quantities: found in a scene with frozen particles",
+    ] {
+        assert!(problems.iter().any(|problem| problem.contains(expected)), "{expected}\n{problems:#?}");
+    }
+    let remembers = r#"interactions.0.bath={"type":"memory","rate":3}"#;
+    let problems = CHANNEL.problems(&[&layer(&[]), remembers]);
+    assert!(
+        problems.iter().any(|problem| problem.contains("interactions[0]: found a bath with memory")),
+        "{problems:#?}"
+    );
+    let problems = CHANNEL.problems(&[&layer(&[]), "molecules=[{\"beads\":[\"water\"],\"count\":3}]"]);
+    assert!(problems.iter().any(|problem| problem.contains("particles[1].placement: found beside")), "{problems:#?}");
+}

@@ -11,10 +11,14 @@ const SLIT: &str = r#"space={"box":[4,4,2],"walls":{"z":{"lower_velocity":[-3,0,
 const CAVITY: &str = r#"space={"box":[4,4,4],"walls":{"x":{},"y":{"reflection":"specular"},"z":{}}}"#;
 const DUCT: &str = r#"space={"box":[4,4,4],"walls":{"x":{"lower_velocity":[0,0,-2]},"y":{"reflection":"specular"}}}"#;
 
+/// Particles behind a wall that are not frozen there.
 fn behind(scene: &Scene, state: &State) -> usize {
-    let ends = start(scene).0.units.ends();
-    let is_behind = |position: &&[u32; 3]| (0..3).any(|axis| ends[axis] > 0 && position[axis] >= ends[axis]);
-    state.positions.iter().filter(is_behind).count()
+    let model = start(scene).0;
+    let ends = model.units.ends();
+    let is_behind = |(position, species): &(&[u32; 3], &u32)| {
+        !model.species[**species as usize].frozen && (0..3).any(|axis| ends[axis] > 0 && position[axis] >= ends[axis])
+    };
+    state.positions.iter().zip(&state.species).filter(is_behind).count()
 }
 
 /// Runs some steps, of which each is looked at, and gives the last state.
@@ -47,6 +51,32 @@ fn nobody_is_behind_a_wall() {
             let weak = r#"interactions=[{"type":"dpd","repulsion":2,"friction":4.5}]"#;
             steps(&fluid(&[space, step, heat, random, weak, integrator]), 12);
         }
+    }
+}
+
+/// Ten thousand steps in a small hot slit whose walls move with layers behind them, driven across itself too: nobody gets behind a wall, what is
+/// frozen stays there, and momentum with what the walls have taken up keeps one value.
+#[test]
+fn ten_thousand_steps_beside_layers() {
+    let particles = r#"particles=[{"species":"A","number_density":3},
+        {"species":"W","number_density":3,"placement":{"type":"behind-walls","axis":"z","thickness":1}}]"#;
+    let forces =
+        r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[0.5,0.1,-0.3]}]"#;
+    let scene = fluid(&[SLIT, particles, forces, "temperature=2", "time.step=0.02", "output.energies.every=10000"]);
+    let (model, first) = start(&scene);
+    let frozen: Vec<usize> = (0..first.len()).filter(|id| model.species[first.species[*id] as usize].frozen).collect();
+    assert_eq!((frozen.len(), behind(&scene, &first)), (96, 0));
+    let mut engine = engine(&scene, &first, Options::default());
+    for _ in 0..100 {
+        engine.advance(100, 100).unwrap();
+        let state = engine.state().unwrap();
+        assert_eq!(behind(&scene, &state), 0, "step {}", state.step);
+        assert_eq!(state.exchanged_momentum(), first.exchanged_momentum(), "step {}", state.step);
+        for id in &frozen {
+            assert_eq!(state.positions[*id][2], first.positions[*id][2], "step {}", state.step);
+            assert_eq!(state.momenta[*id], first.momenta[*id], "step {}", state.step);
+        }
+        assert!(state.walls.iter().all(|wall| wall.momentum() != [0; 3]));
     }
 }
 

@@ -45,11 +45,12 @@ fn channels() -> Vec<(Vec<f64>, Value)> {
     ]
 }
 
-/// That every particle is between the walls, to the last place.
+/// That every particle that is not frozen is between the walls, to the last place.
 fn between_walls(scene: &Scene, state: &State) {
-    let ends = start(scene).0.units.ends();
-    for (axis, end) in ends.into_iter().enumerate().filter(|(_, end)| *end > 0) {
-        let behind = state.positions.iter().position(|position| position[axis] >= end);
+    let model = start(scene).0;
+    for (axis, end) in model.units.ends().into_iter().enumerate().filter(|(_, end)| *end > 0) {
+        let moves = |id: &usize| !model.species[state.species[*id] as usize].frozen;
+        let behind = (0..state.len()).filter(moves).find(|id| state.positions[*id][axis] >= end);
         assert_eq!(behind, None, "step {}: behind a wall across axis {axis}", state.step);
     }
 }
@@ -129,6 +130,119 @@ fn walls_beside_others_agree_with_the_reference() {
             json!({"species": "light", "placement": {"type": "listed", "positions": [near(0.0), near(0.6), near(-0.6)]}}),
         );
         agree(&document);
+    }
+}
+
+/// Walls with layers of frozen particles behind them: both moving, one alone that is thin, beside other walls, specular ones that move.
+fn layered_channels() -> Vec<(Vec<f64>, Value, Value)> {
+    let layer = |axis: &str, wall: Option<&str>, thickness: f64| {
+        let mut placement = json!({"type": "behind-walls", "axis": axis, "thickness": thickness});
+        if let Some(wall) = wall {
+            placement["wall"] = json!(wall);
+        }
+        json!({"species": format!("{} wall", wall.unwrap_or("each")), "number_density": 3.3, "mass": 0.7, "placement": placement})
+    };
+    let both = json!([layer("z", Some("lower"), 1.0), layer("z", Some("upper"), 0.6)]);
+    vec![
+        (
+            vec![9.0, 7.0],
+            json!({"y": {"lower_velocity": [-2.0, 0], "upper_velocity": [3.0, 0]}}),
+            json!([layer("y", None, 1.0)]),
+        ),
+        (vec![9.0, 7.0], json!({"x": {}, "y": {}}), json!([layer("x", Some("upper"), 0.5)])),
+        (
+            vec![5.0, 4.0, 4.5],
+            json!({"x": {"reflection": "specular"}, "z": {"lower_velocity": [0, 0.5, 0], "upper_velocity": [0, -1.0, 0]}}),
+            both,
+        ),
+        (
+            vec![5.0, 4.0, 4.5],
+            json!({"x": {"reflection": "specular", "lower_velocity": [0, 0, -1.5]}}),
+            json!([layer("x", None, 1.2)]),
+        ),
+    ]
+}
+
+/// A fluid beside layers, whose pairs with those of the first have coefficients of their own.
+fn layered_fluid(channel: &(Vec<f64>, Value, Value), integrator: &str, others: &[Value]) -> Value {
+    let (edges, walls, layers) = channel;
+    let mut document = fluid(edges, walls, integrator, others);
+    let groups = document["particles"].as_array_mut().unwrap();
+    groups.extend(layers.as_array().unwrap().iter().cloned());
+    let name = layers[0]["species"].clone();
+    document["interactions"][0]["pairs"] = json!([{"between": ["light", name], "repulsion": 30, "friction": 6}, {"between": ["heavy", name], "friction": 0}]);
+    document
+}
+
+#[test]
+fn frozen_layers_agree_with_the_reference() {
+    for integrator in INTEGRATORS {
+        for channel in &layered_channels() {
+            agree(&layered_fluid(channel, integrator, &[]));
+        }
+    }
+}
+
+/// With bonds between particles that move, body forces that leave frozen ones alone, and ranges of pairs of species.
+#[test]
+fn frozen_layers_beside_others_agree_with_the_reference() {
+    let bonds = json!({"type": "bonds", "pairs": [[0, 1], [1, 2]], "potential": {"type": "harmonic", "stiffness": 1}});
+    for (number, integrator) in INTEGRATORS.iter().enumerate() {
+        let channel = &layered_channels()[number % 4];
+        let force = json!({"type": "body-force", "force": &[30.0, -1.0, 4.0][..channel.0.len()]});
+        let mut document = layered_fluid(channel, integrator, &[force, bonds.clone()]);
+        document["interactions"][0]["pairs"][0]["cutoff"] = json!(0.8);
+        let last = channel.0.len() - 1;
+        let near = |shift: f64| {
+            (0..channel.0.len()).map(|axis| if axis == last { 2.0 + shift } else { 1.0 }).collect::<Vec<f64>>()
+        };
+        document["particles"].as_array_mut().unwrap().insert(
+            0,
+            json!({"species": "light", "placement": {"type": "listed", "positions": [near(0.0), near(0.6), near(-0.6)]}}),
+        );
+        agree(&document);
+    }
+}
+
+/// What is frozen is where it was against its wall, with the same momentum, after any step; the wall goes on by the same integer in every one.
+#[test]
+fn frozen_particles_go_with_their_walls() {
+    for integrator in INTEGRATORS {
+        for channel in &layered_channels() {
+            let scene = read(&layered_fluid(channel, integrator, &[]));
+            let (model, state) = start(&scene);
+            let implementations: [Box<dyn Implementation>; 2] =
+                [Box::new(Device::new(&scene)), reference_of_particles(model.clone(), state.clone())];
+            let frozen: Vec<usize> =
+                (0..state.len()).filter(|id| model.species[state.species[*id] as usize].frozen).collect();
+            assert!(frozen.len() > 10);
+            for mut implementation in implementations {
+                let mut before = state.clone();
+                let mut shifts = Vec::new();
+                for step in 1..=4 {
+                    implementation.step(1);
+                    let found = implementation.state();
+                    let shift = |id: &usize| -> [u32; 3] {
+                        std::array::from_fn(|axis| found.positions[*id][axis].wrapping_sub(before.positions[*id][axis]))
+                    };
+                    let now: Vec<[u32; 3]> = frozen.iter().map(shift).collect();
+                    assert!(step == 1 || now == shifts, "{} step {step}", implementation.name());
+                    assert!(frozen.iter().all(|id| found.momenta[*id] == state.momenta[*id]), "step {step}");
+                    for id in &frozen {
+                        let velocity = model.units.momentum(state.momenta[*id]).map(|momentum| momentum / 0.7);
+                        for axis in 0..3 {
+                            let moved =
+                                f64::from(now[frozen.iter().position(|other| other == id).unwrap()][axis] as i32);
+                            let expected =
+                                velocity[axis] * model.time_step / model.units.lengths[axis] * 4_294_967_296.0;
+                            assert!((moved - expected).abs() <= 2.0 + 1e-6 * expected.abs(), "{moved} {expected}");
+                        }
+                    }
+                    shifts = now;
+                    before = found;
+                }
+            }
+        }
     }
 }
 
@@ -214,6 +328,32 @@ fn a_moving_wall_reverses_velocities_relative_to_its_own() {
             let taken = found.walls[1].momentum().map(|units| units as f64 * model.units.momentum);
             assert_eq!(taken, [2.0 * (1.0 - 2.0), 2.0 * (0.25 + 1.25), 2.0 * 10.0], "{name}");
             assert_eq!(found.walls[0].momentum(), [0; 3], "{name}");
+        }
+    }
+}
+
+/// The same beside layers that move, whose pairs have potential energies and do work.
+#[test]
+fn energy_is_the_work_that_layers_do() {
+    for integrator in [&INTEGRATORS[0], &INTEGRATORS[1], &INTEGRATORS[3]] {
+        let mut document = layered_fluid(&layered_channels()[2], integrator, &[]);
+        document["interactions"][0] = json!({"type": "dpd", "repulsion": 25, "friction": 0});
+        document["space"]["walls"]["z"]["upper_velocity"] = json!([0, -3, 0]);
+        document["particles"][0]["placement"] = json!({"type": "lattice"});
+        document["time"]["step"] = json!(0.002);
+        document["output"]["energies"]["every"] = json!(100);
+        let scene = read(&document);
+        let (model, state) = start(&scene);
+        let implementations: [Box<dyn Implementation>; 2] =
+            [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
+        for mut implementation in implementations {
+            let first = implementation.observe();
+            implementation.step(500);
+            let last = implementation.observe();
+            let gained = last.total_energy() - first.total_energy();
+            let (work, name) = (last.on_walls.work, implementation.name());
+            assert!(work.abs() > 20.0, "{name}: {work}: too little to say something");
+            assert!((gained - work).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {work}");
         }
     }
 }

@@ -72,6 +72,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             range_plans,
             many_body_plans,
             relaxed_plans,
+            layered_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -336,6 +337,43 @@ fn walled_plans() -> Vec<(String, Plan)> {
                 for integrator in INTEGRATORS {
                     let changes = [&[particles, interactions.as_str(), space, integrator], &samplers[..]].concat();
                     plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Pairs beside frozen particles behind walls, with bonds, body forces, ranges of their own and profiles.
+fn layered_plans() -> Vec<(String, Plan)> {
+    let layer = |axis: &str| {
+        format!(
+            r#"particles=[{{"species":"A","count":200}},
+                {{"species":"B","count":40,"placement":{{"type":"behind-walls","axis":"{axis}","thickness":1}}}}]"#
+        )
+    };
+    let spaces = [
+        (r#"space={"box":[9,7],"walls":{"y":{"upper_velocity":[1,0]}}}"#, "y"),
+        (r#"space={"box":[9,7,8],"walls":{"x":{"reflection":"specular"},"z":{"upper_velocity":[0,1,0]}}}"#, "z"),
+        (r#"space={"box":[9,7,8],"walls":{"x":{}}}"#, "x"),
+    ];
+    let bonds = r#",{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":9}}"#;
+    let own = r#","pairs":[{"between":["A","B"],"cutoff":0.8,"weight_exponent":1}]"#;
+    let mut plans = Vec::new();
+    for (space, axis) in spaces {
+        let components = if space.contains("[9,7]") { "[1,2]" } else { "[1,2,-3]" };
+        let others = format!(r#"{bonds},{{"type":"body-force","force":{components}}}"#);
+        let profiles = format!(
+            r#"output.profiles={{"axis":"{axis}","every":2,"quantities":["density","velocity","temperature"]}}"#
+        );
+        for (ranges, others) in [("", ""), (own, ""), ("", others.as_str())] {
+            let interactions =
+                format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5{ranges}}}{others}]"#);
+            for integrator in INTEGRATORS {
+                for traversal in [None, Some(Traversal::Rows)] {
+                    let changes = [&layer(axis), &interactions, space, integrator, "time.steps=100", &profiles];
+                    let options = Options { traversal, ..Options::default() };
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                 }
             }
         }

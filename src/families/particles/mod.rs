@@ -4,6 +4,7 @@ pub(crate) mod chains;
 pub(crate) mod checks;
 mod conservation;
 mod description;
+pub(crate) mod layers;
 mod layout;
 pub(crate) mod model;
 mod normal_modes;
@@ -201,7 +202,7 @@ impl Physics for Particles {
         let mut gaps = [0.0; 3];
         let cutoff = self.pair_force.as_ref().map(|force| force.cutoff);
         for walls in &self.walls {
-            gaps[walls.axis] = PlaneWalls::gap(cutoff, scene.space.lengths.get(walls.axis).copied().unwrap_or(1.0));
+            gaps[walls.axis] = walls.gap(cutoff, scene.space.lengths.get(walls.axis).copied().unwrap_or(1.0));
         }
         gaps
     }
@@ -300,6 +301,7 @@ impl Physics for Particles {
 
     fn unshared(&self, _: &Model) -> Vec<String> {
         let there = [
+            (self.walls.iter().any(|walls| walls.layer > 0.0), "layers behind walls"),
             (self.are_bonded(), "bonds and angles"),
             (self.tether.is_some(), "tethers"),
             (self.chains.is_some(), "harmonic chains"),
@@ -347,7 +349,15 @@ impl Physics for Particles {
         let momentum = super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum);
         let put_in = observables::put_in_place(model);
         let walls = observables::walls_place(model);
+        // What frozen particles have by the motion of their walls is no part of the momentum of a report.
+        let carried = |axis: usize| -> i64 {
+            let frozen = |(momentum, species): (&[i32; 3], &u32)| {
+                if model.species[*species as usize].frozen { i64::from(momentum[axis]) } else { 0 }
+            };
+            state.momenta.iter().zip(&state.species).map(frozen).sum()
+        };
         let of_axis = |(axis, sum): (usize, KeptSum)| {
+            let sum = KeptSum { total: sum.total - carried(axis), ..sum };
             let sum = put_in.map_or(sum, |first| sum.but_for(first + axis));
             let sum = walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number));
             if self.shear.is_some() { sum.with_shear() } else { sum }

@@ -26,7 +26,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         mobile: model.mobile_particles(),
         dimension: model.units.dimension,
         volume: model.units.volume(),
-        mass: model.species.iter().map(|species| species.mass * species.count as f64).sum(),
+        mass: model.mobile_mass(),
         kinetic_energy: sum(0) * quanta.energy,
         total_virial: (sum(1) + if staged { sum(9) } else { 0.0 }) * quanta.pair_energy,
         momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),

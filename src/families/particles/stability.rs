@@ -330,7 +330,7 @@ impl Members {
     fn of(scene: &Scene, model: &Model) -> Self {
         let mut end = 0_u64;
         let groups = scene.particles.iter().map(|group| {
-            end = end.saturating_add(group.resolved_count(scene.space.volume()));
+            end = end.saturating_add(group.resolved_count(&scene.space));
             (end, model.species.iter().position(|species| species.name == group.species).unwrap_or(0))
         });
         let mut ends: Vec<(u64, usize)> = groups.collect();

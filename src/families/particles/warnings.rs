@@ -18,6 +18,7 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
     warn_of_rounding(model, &mut warnings);
     if let Some(force) = &particles.pair_force {
         warn_of_lengths(&scene.space.lengths, force, &mut warnings);
+        warn_of_layers(scene, force, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
         if let Interaction::ColouredNoise(noise) = interaction {
@@ -86,6 +87,20 @@ fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
                 brief(resolution)
             );
             warn(warnings, path, message);
+        }
+    }
+}
+
+/// A layer behind walls that is thinner than the range of its particles leaves some of what a fluid at the wall reaches empty.
+fn warn_of_layers(scene: &Scene, force: &PairForce, warnings: &mut Vec<Warning>) {
+    for (index, group) in scene.particles.iter().enumerate() {
+        let Placement::BehindWalls { thickness, .. } = group.placement else { continue };
+        if thickness < force.cutoff {
+            let message = format!(
+                "the layer is {thickness} thick, less than the cutoff of {}: what is at the wall feels where it ends, and is drawn there",
+                force.cutoff
+            );
+            warn(warnings, format!("particles[{index}].placement.thickness"), message);
         }
     }
 }

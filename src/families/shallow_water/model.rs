@@ -60,7 +60,7 @@ impl ShallowWater {
     pub(crate) fn new(interaction: &ShallowWaterInteraction, scene: &Scene) -> Self {
         let count = |tracer: bool| {
             let groups = scene.particles.iter().filter(move |group| group.tracer == tracer);
-            groups.map(|group| group.resolved_count(scene.space.volume()))
+            groups.map(|group| group.resolved_count(&scene.space))
         };
         let carriers: u64 = count(false).sum();
         let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));

@@ -78,10 +78,9 @@ fn warn_of_mesh_noise(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Wa
 /// A loop whose points are further apart than nodes is no curve to the flow.
 fn warn_of_sparse_loops(scene: &Scene, water: &ShallowWater, model: &Model, warnings: &mut Vec<Warning>) {
     let spacing = water.spacing(model.units.lengths);
-    let volume = scene.space.volume();
     for (index, group) in scene.particles.iter().enumerate() {
         let Placement::Circle { radius, .. } = group.placement else { continue };
-        let points = group.resolved_count(volume);
+        let points = group.resolved_count(&scene.space);
         let gap = 2.0 * radius * (PI / points as f64).sin();
         if group.tracer && points > 0 && (points < 3 || gap >= spacing) {
             let message = format!(

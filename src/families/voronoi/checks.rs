@@ -76,7 +76,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
         }
     }
     let cells: u64 =
-        scene.particles.iter().fold(0, |sum, group| sum.saturating_add(group.resolved_count(scene.space.volume())));
+        scene.particles.iter().fold(0, |sum, group| sum.saturating_add(group.resolved_count(&scene.space)));
     // A cell between its own images, many of them within its length, takes the longer to cut out the more they are.
     let least = 1e-3 * (scene.space.volume() / cells.max(1) as f64).sqrt();
     for (axis, length) in scene.space.lengths.iter().enumerate() {

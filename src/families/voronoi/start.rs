@@ -23,7 +23,7 @@ pub(crate) fn fill(state: &mut State, scene: &Scene, model: &Model, cells: &Voro
     let mut moving = Vec::new();
     let mut first = 0;
     for group in &scene.particles {
-        let ids = first..first + group.resolved_count(scene.space.volume()) as usize;
+        let ids = first..first + group.resolved_count(&scene.space) as usize;
         first = ids.end;
         if matches!(group.velocities, Velocities::Thermal | Velocities::ShearWave { .. }) {
             moving.extend(ids.clone());
@@ -82,7 +82,7 @@ fn temperatures(state: &State, scene: &Scene, model: &Model) -> Vec<f64> {
 fn masses(state: &State, scene: &Scene, model: &Model, cells: &Voronoi) -> Vec<f64> {
     let units = |mass: f64| (mass / cells.mass_unit).round_ties_even();
     let groups = scene.particles.iter();
-    let counted = groups.map(|group| (group.resolved_count(scene.space.volume()) as usize, units(group.mass)));
+    let counted = groups.map(|group| (group.resolved_count(&scene.space) as usize, units(group.mass)));
     if cells.initial_masses == InitialMasses::Equal {
         return counted.flat_map(|(count, mass)| std::iter::repeat_n(mass, count)).collect();
     }

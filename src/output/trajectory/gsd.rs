@@ -182,7 +182,7 @@ fn write_masses(file: &mut GsdFile, description: &Description, state: &State) ->
 }
 
 fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
-    let mut lengths = description.units.edges().map(|length| length as f32);
+    let mut lengths = box_of(description).map(|length| length as f32);
     let dimension = description.units.dimension.max(2);
     if dimension == 2 {
         lengths[2] = 0.0;
@@ -205,6 +205,15 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_arrays("bonds/group", bonds.iter().map(|(ends, _)| *ends))
 }
 
+/// The box of the file: that between the walls, or where particles are frozen behind them the whole period, which no position is outside of.
+fn box_of(description: &Description) -> [f64; 3] {
+    if description.species.iter().any(|species| species.frozen) {
+        description.units.lengths
+    } else {
+        description.units.edges()
+    }
+}
+
 /// The position relative to the centre of the box. Where rounding to single precision would reach the upper face, the
 /// lower one is meant, the same place inside the box: one of the next image, which the second array says.
 fn centred(description: &Description, position: [u32; 3]) -> ([f32; 3], [i32; 3]) {
@@ -216,8 +225,8 @@ fn centred(description: &Description, position: [u32; 3]) -> ([f32; 3], [i32; 3]
         let length = description.units.lengths[axis];
         if description.units.gaps[axis] > 0.0 {
             let edge = length - description.units.gaps[axis];
-            let half = (edge as f32) / 2.0;
-            let value = f64::from(position[axis]) * length / 4_294_967_296.0 - 0.5 * edge;
+            let half = (box_of(description)[axis] as f32) / 2.0;
+            let value = description.units.position(position)[axis] - 0.5 * edge;
             return (value as f32).clamp(-half, half.next_down());
         }
         let half = (length as f32) / 2.0;

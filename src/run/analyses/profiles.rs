@@ -200,6 +200,8 @@ struct Layers {
     names: Vec<String>,
     /// Whether particles of a species move.
     moves: Vec<bool>,
+    /// Whether they are frozen behind walls, and in no layer.
+    frozen: Vec<bool>,
     length: f64,
     /// Volume of a layer.
     volume: f64,
@@ -219,6 +221,7 @@ impl Layers {
             sums,
             names: model.species.iter().map(|species| species.name.clone()).collect(),
             moves: model.species.iter().map(|species| !species.fixed).collect(),
+            frozen: model.species.iter().map(|species| species.frozen).collect(),
             length: model.units.edges()[asked.axis as usize],
             volume: model.units.volume() / f64::from(asked.bins),
             mass: mass_quantum(model),
@@ -233,6 +236,9 @@ impl Layers {
     fn kept(&self, sums: &[i64]) -> Vec<f64> {
         let Sums { species, dimension, motion, stress } = self.sums;
         let mut row: Vec<f64> = sums.iter().take(species).map(|count| *count as f64).collect();
+        for (count, _) in row.iter_mut().zip(&self.frozen).filter(|(_, frozen)| **frozen) {
+            *count = 0.0;
+        }
         if !motion {
             return row;
         }
@@ -287,7 +293,9 @@ impl Layers {
         if shows(&self.asked, ProfiledQuantity::Density) {
             let all = move |row: &[f64]| row[..species].iter().sum();
             columns.push((DENSITY.to_owned(), Box::new(move |layer| self.density(all, layer))));
-            for number in (0..species).filter(|_| species > 1) {
+            let is_free = |number: &usize| !self.frozen.get(*number).is_some_and(|frozen| *frozen);
+            let free = (0..species).filter(is_free).count();
+            for number in (0..species).filter(is_free).filter(|_| free > 1) {
                 let of = move |row: &[f64]| row[number];
                 columns.push((density_of(number), Box::new(move |layer| self.density(of, layer))));
             }

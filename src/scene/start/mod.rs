@@ -294,7 +294,6 @@ impl Reader<'_> {
                 counts[usize::from(*place)] += 1;
             }
         }
-        let volume = scene.space.volume();
         for (name, count) in names.iter().zip(counts) {
             let count = count.saturating_mul(copies);
             if count == 0 {
@@ -306,7 +305,8 @@ impl Reader<'_> {
             let given = |group: &usize| {
                 scene.particles[*group].count.is_some() || scene.particles[*group].number_density.is_some()
             };
-            let found: Vec<u64> = groups.iter().map(|group| scene.particles[*group].resolved_count(volume)).collect();
+            let found: Vec<u64> =
+                groups.iter().map(|group| scene.particles[*group].resolved_count(&scene.space)).collect();
             let sum = found.iter().fold(0, |sum: u64, count| sum.saturating_add(*count));
             let first = groups[0];
             if groups.len() > 1 && !groups.iter().all(given) {

@@ -348,6 +348,26 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "layers behind walls",
+            ground: |scene| {
+                no_analyses(scene);
+                moving_walls(scene, 1.0);
+            },
+            with: |scene| {
+                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() {
+                    let placement = json!({"type": "behind-walls", "axis": "y", "thickness": 1});
+                    let layer = json!({"species": "wall", "number_density": 3, "placement": placement});
+                    scene["particles"].as_array_mut().unwrap().push(layer);
+                }
+            },
+            without: nothing,
+            own: Some(&["layers", "FROZEN"]),
+            more: &["coefficients"],
+            // Beside a table of species the prefilter reads positions.
+            instead: &["probes"],
+            always: true,
+        },
+        Feature {
             name: "shear",
             // Most analyses take no shear, and neither do body forces.
             ground: |scene| {

@@ -1,6 +1,6 @@
 //! Shipped scenes as JSON, and ways to change them.
 
-use mesoscope::scene::{self, ParticleGroup};
+use mesoscope::scene::{self, ParticleGroup, Space};
 use serde_json::{Value, json};
 
 pub type Change = fn(&mut Value);
@@ -102,14 +102,13 @@ fn without_repulsion(scene: &mut Value) {
 
 /// Ten particles of the only group become one of their own; of molecules, which say their numbers themselves, none.
 pub fn split_group(scene: &mut Value) {
-    let edges = scene["space"]["box"].as_array().unwrap().iter();
-    let volume: f64 = edges.map(|edge| edge.as_f64().unwrap()).product();
+    let space: Space = serde_json::from_value(scene["space"].clone()).unwrap();
     if scene.get("molecules").is_some() {
         return;
     }
     let groups = scene["particles"].as_array_mut().unwrap();
     let [group] = groups.as_mut_slice() else { return };
-    let count = serde_json::from_value::<ParticleGroup>(group.clone()).unwrap().resolved_count(volume);
+    let count = serde_json::from_value::<ParticleGroup>(group.clone()).unwrap().resolved_count(&space);
     set_key(group, "number_density", Value::Null);
     set_key(group, "count", json!(count - 10));
     let mut other = group.clone();

@@ -53,7 +53,7 @@ pub(super) fn check(
     for (index, name) in force.species.iter().flatten().enumerate() {
         let path = format!("{path}.species[{index}]");
         names.check(name, &path, problems);
-        if scene.particles.iter().any(|group| group.species == *name && group.fixed) {
+        if scene.particles.iter().any(|group| group.species == *name && group.is_held()) {
             let found = format!("found `{name}`, whose particles are fixed");
             problems.push(Problem::new(path, found, "species that can move: what is held takes up no momentum"));
         }

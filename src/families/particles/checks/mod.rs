@@ -3,6 +3,7 @@
 pub(super) mod body_force;
 pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
+mod layers;
 mod many_body;
 pub(super) mod shear;
 pub(super) mod walls;
@@ -45,6 +46,7 @@ pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
     body_force::check_together(scene, problems);
     many_body::check_together(scene, problems);
     walls::check(scene, problems);
+    layers::check(scene, problems);
     shear::check(scene, problems);
     check_groups(scene, problems);
     check_integrator(scene, problems);
@@ -150,8 +152,13 @@ fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
         && (scene.space.lengths.len() == 1
-            || scene.particles.iter().any(|group| group.fixed)
+            || scene.particles.iter().any(is_fixed_in_space)
             || scene.interactions.iter().any(coupled))
+}
+
+/// Whether particles are held where they start, not behind walls.
+fn is_fixed_in_space(group: &ParticleGroup) -> bool {
+    group.fixed && !group.is_frozen()
 }
 
 /// Whether an interaction does anything: one of a strength of zero is as good as none, and is not computed. Pairs decide by themselves
@@ -210,6 +217,7 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
 
 fn check_groups(scene: &Scene, problems: &mut Problems) {
     let mut fixed: HashMap<&str, (usize, bool)> = HashMap::new();
+    let mut layers: HashMap<&str, (usize, bool)> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
         let (known, held) = *fixed.entry(&group.species).or_insert((index, group.fixed));
@@ -219,6 +227,14 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
                 group.species
             );
             problems.push(Problem::new(format!("{path}.fixed"), format!("found {}", group.fixed), accepted));
+        }
+        let (known, frozen) = *layers.entry(&group.species).or_insert((index, group.is_frozen()));
+        if frozen != group.is_frozen() {
+            let accepted = format!(
+                "another name than `{}` in particles[{known}]: species are frozen behind walls or between them",
+                group.species
+            );
+            problems.push(Problem::new(format!("{path}.species"), format!("found `{}`", group.species), accepted));
         }
         if let Some(chain) = &group.chain {
             check_chain(scene, group, chain, &path, problems);
@@ -313,7 +329,7 @@ fn first_of_more(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> String 
         };
         return format!("{what} in interactions[{index}]");
     }
-    match scene.particles.iter().position(|group| group.fixed) {
+    match scene.particles.iter().position(is_fixed_in_space) {
         Some(group) => format!("particles[{group}], which are fixed"),
         None => "a box of one dimension".to_owned(),
     }
@@ -467,7 +483,7 @@ fn check_members<const LENGTH: usize>(
     for (index, name) in species.unwrap_or_default().iter().enumerate() {
         names.check(name, &format!("{path}.species[{index}]"), problems);
     }
-    let counts = scene.particles.iter().map(|group| group.resolved_count(scene.space.volume()));
+    let counts = scene.particles.iter().map(|group| group.resolved_count(&scene.space));
     let total = counts.fold(0, u64::saturating_add);
     let mut known: HashMap<[u32; LENGTH], usize> = HashMap::with_capacity(members.len());
     let mut mistakes = 0;

@@ -1,6 +1,6 @@
 //! Checks of walls that a schema cannot express.
 
-use super::{acts, is_coupled, reason};
+use super::{acts, is_coupled, layers, reason};
 use crate::document::{
     BodyForceInteraction, ForceProfile, Interaction, Placement, Problem, Problems, Reflection, Scene, WallPair,
 };
@@ -90,8 +90,11 @@ fn check_pair(scene: &Scene, walls: &WallPair, axis: usize, path: &str, problems
                 format!("found a wall that moves beside walls across {} that reverse velocities too", AXES[other]);
             let accepted = format!("walls at rest, or `specular` reflection across {}", AXES[other]);
             problems.push(Problem::new(path, found, accepted));
-        } else if walls.reflection == Reflection::Specular && velocity.iter().any(|component| *component != 0.0) {
-            let accepted = "no velocity: specular walls drag nothing along; or the reflection `bounce-back`";
+        } else if walls.reflection == Reflection::Specular
+            && velocity.iter().any(|component| *component != 0.0)
+            && !scene.particles.iter().any(|group| layers::is_behind(group, axis))
+        {
+            let accepted = "no velocity: specular walls drag nothing along; or the reflection `bounce-back`, or frozen particles behind the walls";
             problems.push(Problem::new(path, "found a velocity of a wall with specular reflection", accepted));
         }
     }
@@ -143,7 +146,7 @@ fn check_places(scene: &Scene, problems: &mut Problems) {
                     }
                 }
             }
-            Placement::Random | Placement::Lattice { .. } => {}
+            Placement::Random | Placement::Lattice { .. } | Placement::BehindWalls { .. } => {}
         }
     }
 }

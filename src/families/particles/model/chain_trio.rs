@@ -146,6 +146,7 @@ impl ChainTrios {
             mass,
             count,
             fixed: kind == END,
+            frozen: false,
         };
         let mass = self.pulse.mass;
         [species(0, mass, beads), species(1, self.pulse.frictionless().mass, clusters), species(2, mass, 12)]

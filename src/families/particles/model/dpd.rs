@@ -59,6 +59,12 @@ impl PairForce {
                 }
             }
         }
+        // Frozen particles do not move each other.
+        for pair in 0..count * count {
+            if species[pair / count].frozen && species[pair % count].frozen {
+                (force.repulsion[pair], force.friction[pair]) = (0.0, 0.0);
+            }
+        }
         force.unite_what_does_not_act();
         force
     }

@@ -85,20 +85,20 @@ impl<'a> Particles<'a> {
         let mut first = 0_u64;
         let mut groups = Vec::with_capacity(scene.particles.len());
         for group in &scene.particles {
-            let count = group.resolved_count(scene.space.volume());
+            let count = group.resolved_count(&scene.space);
             groups.push((first, count, group));
             first = first.saturating_add(count);
         }
         let mass = |name: &&str| {
             let group = scene.particles.iter().find(|group| group.species == **name)?;
-            mobile_mass(group.mass, group.fixed, heaviest)
+            mobile_mass(group.mass, group.is_held(), heaviest)
         };
         let masses = SpeciesNames::of(scene).names().iter().map(mass).collect();
         Self { scene, groups, masses, heaviest }
     }
 
     fn mass(&self, group: &ParticleGroup) -> Option<f64> {
-        mobile_mass(group.mass, group.fixed, self.heaviest)
+        mobile_mass(group.mass, group.is_held(), self.heaviest)
     }
 
     fn heaviest_mobile(&self) -> f64 {
@@ -200,7 +200,7 @@ impl<'a> Particles<'a> {
             Placement::Random | Placement::Lattice { .. } if closed && self.scene.space.lengths.len() == 1 => {
                 vec![Some(chain.spacing), Some(0.5 * chain.spacing)]
             }
-            Placement::Random | Placement::Lattice { .. } => vec![Some(chain.spacing)],
+            Placement::Random | Placement::Lattice { .. } | Placement::BehindWalls { .. } => vec![Some(chain.spacing)],
             Placement::Circle { radius, .. } => {
                 let chord = |steps: usize| 2.0 * radius * (PI * steps as f64 / count as f64).sin().abs();
                 // A longer one may be met the other way round the box.
@@ -223,7 +223,7 @@ impl<'a> Particles<'a> {
     fn position(&self, particle: u32) -> Option<[f64; 3]> {
         let (number, count, group) = self.group_of(particle)?;
         match &group.placement {
-            Placement::Random | Placement::Lattice { .. } => None,
+            Placement::Random | Placement::Lattice { .. } | Placement::BehindWalls { .. } => None,
             Placement::Listed { positions } => {
                 let position = positions.get(number as usize)?;
                 Some(std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0)))

@@ -105,14 +105,16 @@ impl Model {
             * unit
     }
 
+    /// Number densities of the species in the box, in which no frozen ones are.
     fn densities(&self) -> impl Iterator<Item = (usize, f64)> {
         let volume = self.units.volume();
-        self.species.iter().map(move |species| species.count as f64 / volume).enumerate()
+        let density = move |species: &Species| if species.frozen { 0.0 } else { species.count as f64 / volume };
+        self.species.iter().map(density).enumerate()
     }
 
-    /// The largest value of a property among the species that have particles, and the first species that has it.
+    /// The largest value of a property among the species that have particles which are not frozen, and the first species that has it.
     fn largest(&self, property: impl Fn(usize) -> f64) -> (f64, usize) {
-        let present = |(_, species): &(usize, &Species)| species.count > 0;
+        let present = |(_, species): &(usize, &Species)| species.count > 0 && !species.frozen;
         self.species.iter().enumerate().filter(present).fold((0.0, 0), |most, (index, _)| {
             let value = property(index);
             if value > most.0 { (value, index) } else { most }

@@ -52,7 +52,7 @@ impl<const LENGTH: usize> Runs<LENGTH> {
     ) {
         let mut first = 0_u64;
         for group in &scene.particles {
-            let count = group.resolved_count(scene.space.volume());
+            let count = group.resolved_count(&scene.space);
             let asked = named.is_none_or(|names| names.contains(&group.species));
             if let (Some(chain), true) = (&group.chain, asked) {
                 let beads = u64::from(chain.beads.max(1));
@@ -208,7 +208,7 @@ pub(crate) fn chain_groups(scene: &Scene, species: impl Fn(&str) -> Option<usize
     let mut groups = Vec::new();
     let mut first = 0_u64;
     for group in &scene.particles {
-        let count = group.resolved_count(scene.space.volume());
+        let count = group.resolved_count(&scene.space);
         if let Some(chain) = &group.chain {
             let beads = chain.beads.max(1);
             groups.push(ChainGroup {

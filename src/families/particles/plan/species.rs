@@ -15,6 +15,8 @@ pub(crate) struct Species {
     ranges: bool,
     /// Whether particles may be copies that shear gives another velocity.
     sheared: bool,
+    /// Whether some are frozen behind walls.
+    frozen: bool,
 }
 
 impl Species {
@@ -23,7 +25,8 @@ impl Species {
         let first = masses.next().unwrap_or(Some(1.0));
         let mass = first.filter(|mass| masses.all(|other| other == Some(*mass)));
         let ranges = model.particles().pair_force.as_ref().is_some_and(have_ranges);
-        Self { count: model.species.len(), mass, ranges, sheared: model.particles().shear.is_some() }
+        let (sheared, frozen) = (model.particles().shear.is_some(), model.has_frozen_particles());
+        Self { count: model.species.len(), mass, ranges, sheared, frozen }
     }
 
     /// Whether there is a table: all coefficients of a single species that can move are constants.
@@ -54,10 +57,11 @@ impl Species {
             (false, false) => RelativeMotion::Velocities,
             (false, true) => RelativeMotion::ShearedVelocities,
         };
-        Choices::new()
-            .with(motion)
-            .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
-            .with(MassOfParticle::OfSpecies)
-            .with(coefficients)
+        let (mass, mass_of_particle) = match (self.have_one_mass(), self.frozen) {
+            (_, true) => (Mass::BesideLayers, MassOfParticle::BesideLayers),
+            (true, false) => (Mass::One, MassOfParticle::OfSpecies),
+            (false, false) => (Mass::BySpecies, MassOfParticle::OfSpecies),
+        };
+        Choices::new().with(motion).with(mass).with(mass_of_particle).with(coefficients)
     }
 }

@@ -20,7 +20,8 @@ pub(crate) fn sums(model: &Model) -> u64 {
 pub(super) fn choices(model: &Model) -> Choices {
     let walls = !model.particles().walls.is_empty();
     Choices::new()
-        .with_if(walls, pairs::Advance::BetweenWalls)
+        .with_if(walls && !model.has_frozen_particles(), pairs::Advance::BetweenWalls)
+        .with_if(model.has_frozen_particles(), pairs::Advance::BesideLayers)
         .with_if(walls, external::Drifted::BetweenWalls)
         .with_if(walls, core::Reported::WithWalls)
         .with_if(model.particles().walls_move(), external::WallMotion::Moving)
@@ -45,7 +46,7 @@ pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
     // Momentum of a unit of mass that moves twice as fast as a wall.
     let push = |axis: usize, upper: usize, along: usize| {
         let velocity =
-            walls.iter().find(|walls| walls.axis == axis).map_or(0.0, |walls| walls.velocities[upper][along]);
+            walls.iter().find(|walls| walls.axis == axis).map_or(0.0, |walls| walls.pushing(upper == 1)[along]);
         2.0 * velocity / model.units.momentum
     };
     plan.constants.extend([
@@ -72,6 +73,12 @@ pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
             (Constant::UpperZY, push(2, 1, 1)),
         ]);
     }
+}
+
+/// The place of the sums of the walls that have layers among the sums of a report, of which those of walls begin at a place.
+pub(super) fn frozen_sums(model: &Model, first_sum: u64) -> Option<(Constant, f64)> {
+    let pair = model.particles().walls.iter().position(|walls| walls.layer > 0.0)?;
+    model.has_frozen_particles().then_some((Constant::FrozenSums, (first_sum + 6 * pair as u64) as f64))
 }
 
 /// Adds the kernel that tells a report what walls have taken up, before anything moves on from there: into a row after the given number of

@@ -1,5 +1,6 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
+use super::layers;
 use super::shear;
 use super::walls::{self, Flight, Way};
 use crate::document::Integrator;
@@ -22,8 +23,19 @@ pub(super) fn end(
     parts: i64,
 ) -> Result<(), Unstable> {
     add(&mut momenta, opening);
+    let taken = layers::taken_up(model, state, &momenta);
+    layers::hold(model, state, &mut momenta);
     let advanced = narrow(&momenta, state.step)?;
-    let turned = move_on(model, masses, state, &advanced, parts, parts)?;
+    let mut turned = move_on(model, masses, state, &advanced, parts, parts)?;
+    if !taken.is_empty() {
+        state.walls = walls::add(&state.walls, &taken);
+    }
+    // What frozen particles are given, friction sees nothing of.
+    for (particle, turned) in turned.iter_mut().enumerate() {
+        if layers::is_frozen(model, state, particle) {
+            *turned = [0; 3];
+        }
+    }
     state.predicted = match model.integrator {
         Integrator::GrootWarren { lambda } if lambda != 0.5 => {
             let turn = |(kick, turned): (&[i64; 3], &[i64; 3])| std::array::from_fn(|axis| kick[axis] * turned[axis]);

@@ -39,7 +39,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     let (model, state) = (&reference.model, &reference.state);
     let motion = Motion::of(model, state, &reference.masses);
     let mut kick = vec![[0; 3]; state.len()];
-    let mut virials = Virials::new(state.len());
+    let mut virials = Virials::new(model, state);
     if let Some(force) = model.particles().pair_force.as_ref() {
         half_kicks((model, force), state, &motion, found, &[], &mut kick, &mut virials);
     }

@@ -2,6 +2,7 @@
 
 use super::body_force;
 use super::couplings::observables::of_configuration;
+use super::layers;
 use super::pairs::find_pairs;
 use super::shear::{self, Images};
 use super::walls;
@@ -14,6 +15,9 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
     let mut total = [0_i64; 3];
     let mut kinetic_energy = 0.0;
     for (particle, (momentum, mass)) in momenta.iter().zip(masses).enumerate() {
+        if layers::is_frozen(model, state, particle) {
+            continue;
+        }
         let flow = [shear::flow(model, state, particle), 0.0, 0.0];
         for axis in 0..3 {
             total[axis] += momentum[axis];
@@ -22,11 +26,11 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         }
     }
     Observables {
-        mass: masses.iter().sum(),
+        mass: (0..state.len()).filter(|id| !layers::is_frozen(model, state, *id)).map(|id| masses[id]).sum(),
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
         put_in: body_force::put_in(model, state, masses),
-        on_walls: walls::on_walls(model, state),
+        on_walls: walls::on_walls(model, state, momenta),
         ..Observables::zero(model, state)
     }
 }

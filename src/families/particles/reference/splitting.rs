@@ -18,6 +18,7 @@ use super::body_force;
 use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
 use super::densities::Densities;
+use super::layers;
 use super::pairs::{self, Forces, Pair, dot};
 use super::relaxation;
 use super::stress::Virials;
@@ -62,7 +63,7 @@ pub enum Relaxation {
 pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Unstable> {
     let (model, state) = (&reference.model, &reference.state);
     let mut kick = vec![[0; 3]; state.len()];
-    let mut virials = Virials::new(state.len());
+    let mut virials = Virials::new(model, state);
     bonded_kicks(model, state, &reference.masses, &mut kick, &mut virials)?;
     let excluded = excluded_pairs(model);
     let densities = Densities::of(model, state.len(), found);
@@ -81,7 +82,10 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
         add(&mut momenta, &kick);
         relaxation::of_particles(model, state, &reference.masses, &mut momenta);
         relaxation::of_bonds(model, state, &reference.masses, &mut momenta, &mut virials);
-        let impulses = relax(reference, found, &momenta, &mut virials);
+        // Friction sees frozen particles with the velocity of their wall, whatever the wall is to take up.
+        let mut seen = momenta.clone();
+        layers::hold(model, state, &mut seen);
+        let impulses = relax(reference, found, &seen, &mut virials);
         add(&mut momenta, &impulses);
     }
     Ok(Report { momenta, kick, virials })
@@ -147,6 +151,7 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &
                 seen[axis] = momentum[axis] + (sum[axis] as f64 / 2.0).round_ties_even() as i64;
             }
         }
+        layers::hold(model, state, &mut seen);
     }
 }
 
@@ -169,6 +174,7 @@ fn two_stages(
     for [friction, noise] in [[first, first_noise], [second, SQRT_2 - first_noise]] {
         let mut seen = momenta.to_vec();
         add(&mut seen, &sums);
+        layers::hold(model, &reference.state, &mut seen);
         for (pair, &(rate, random)) in found.iter().zip(couplings) {
             let own = rate * model.time_step;
             let among = rate_among_others(reference, fields, pair, own);
@@ -188,15 +194,23 @@ fn two_stages(
     sums
 }
 
+/// 1/mᵢ, which is none of what no impulse moves.
+fn inverse_mass(reference: &Reference, particle: usize) -> f64 {
+    if layers::is_frozen(&reference.model, &reference.state, particle) { 0.0 } else { 1.0 / reference.masses[particle] }
+}
+
 /// 1 / (1/mᵢ + 1/mⱼ).
 fn reduced_mass(reference: &Reference, pair: &Pair) -> f64 {
-    1.0 / (1.0 / reference.masses[pair.first] + 1.0 / reference.masses[pair.second])
+    1.0 / (inverse_mass(reference, pair.first) + inverse_mass(reference, pair.second))
 }
 
 /// The rate s in a step at which the relative velocity of a pair with g = `own` relaxes among all pairs, from the sums of g of
 /// each particle.
 fn rate_among_others(reference: &Reference, fields: &[f64], pair: &Pair, own: f64) -> f64 {
-    let inverse = [1.0 / reference.masses[pair.first], 1.0 / reference.masses[pair.second]];
+    let inverse = [pair.first, pair.second].map(|end| inverse_mass(reference, end));
+    if inverse == [0.0; 2] {
+        return 0.0;
+    }
     let reduced_mass = reduced_mass(reference, pair);
     let others = (fields[pair.first] - own) * inverse[0].powi(2) + (fields[pair.second] - own) * inverse[1].powi(2);
     reduced_mass * (own / reduced_mass.powi(2) + others / reference.model.units.dimension as f64)
@@ -216,6 +230,7 @@ fn mean_field_relaxation(temperature: f64, own: f64, among: f64, approach: f64, 
 /// its noise ζ.
 fn pair_relaxation(rule: Relaxation, model: &Model, rate: f64, reduced_mass: f64, approach: f64, noise: f64) -> f64 {
     match rule {
+        _ if rate == 0.0 => 0.0,
         Relaxation::Exponential => {
             // u relaxes to the Maxwell distribution of width √(kT/μ) at the rate γω/μ.
             let exponent = rate * model.time_step / reduced_mass;

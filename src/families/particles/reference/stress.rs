@@ -1,6 +1,9 @@
 //! The virials r f of what acts between particles, as tensors, at the report point.
 
+use super::layers;
 use super::pairs::Pair;
+use crate::families::Model;
+use crate::state::State;
 
 /// The share of a particle of the virials at a report, as symmetric tensors xx, yy, zz, xy, xz, yz: half of every pair and bond, and all
 /// of the angles whose vertex it is. Forces of a split step are those of the whole step, two half kicks and the relaxation between them.
@@ -22,16 +25,20 @@ pub(super) struct Virials {
     pub total: f64,
     /// Of each particle.
     pub each: Vec<Virial>,
+    /// The part of its share of every pair by which each particle counts in the total: none of what is frozen behind walls.
+    counts: Vec<f64>,
 }
 
 impl Virials {
-    pub fn new(particles: usize) -> Self {
-        Self { total: 0.0, each: vec![Virial::default(); particles] }
+    pub fn new(model: &Model, state: &State) -> Self {
+        let counts = |particle: usize| if layers::is_frozen(model, state, particle) { 0.0 } else { 1.0 };
+        Self { total: 0.0, each: vec![Virial::default(); state.len()], counts: (0..state.len()).map(counts).collect() }
     }
 
     /// Adds the forces of a pair or a bond along the line of centres, positive apart.
     pub fn add(&mut self, pair: &Pair, conservative: f64, frictional: f64) {
-        self.total += pair.distance * (conservative + frictional);
+        let counts = 0.5 * (self.counts[pair.first] + self.counts[pair.second]);
+        self.total += counts * pair.distance * (conservative + frictional);
         let direction = pair.direction();
         for end in [pair.first, pair.second] {
             let virial = &mut self.each[end];

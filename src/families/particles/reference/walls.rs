@@ -1,6 +1,7 @@
 //! Reflection at plane walls, in the same integer places as on the device: particles are at the places 0 to end - 1 of a walled axis, and
 //! the walls half a place beyond them, so that k places behind the lower wall is the place k - 1.
 
+use super::layers;
 use crate::families::reference::whole_fractions;
 use crate::families::{Model, OnWalls, PlaneWalls};
 use crate::state::{State, WallImpulse};
@@ -81,6 +82,11 @@ pub(super) fn fly(model: &Model, start: Flight, way: Way, taken: &mut [[i64; 3]]
     let ends = model.units.ends();
     let mut flight = start;
     let mut ahead = drift(model, start.momentum, way);
+    if PlaneWalls::behind(&model.particles().walls, ends, start.place).is_some() {
+        // What is frozen goes with its wall.
+        flight.place = std::array::from_fn(|axis| start.place[axis].wrapping_add(ahead[axis] as u32));
+        return flight;
+    }
     let mut time_left = 1.0;
     for _ in 0..MOST_REFLECTIONS {
         let Some(met) = first_met(model, flight.place, ahead) else { break };
@@ -133,7 +139,9 @@ pub(super) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse>
     taken.iter().enumerate().map(sum).collect()
 }
 
-/// What walls have taken up until a state.
-pub(super) fn on_walls(model: &Model, state: &State) -> OnWalls {
-    OnWalls::new(model, state.walls.iter().map(|wall| wall.momentum().map(|units| units as f64)))
+/// What walls have taken up until a report point, with what they are to take up of the momenta of frozen particles there.
+pub(super) fn on_walls(model: &Model, state: &State, momenta: &[[i64; 3]]) -> OnWalls {
+    let all = add(&state.walls, &layers::taken_up(model, state, momenta));
+    let walls = if all.is_empty() { &state.walls } else { &all };
+    OnWalls::new(model, walls.iter().map(|wall| wall.momentum().map(|units| units as f64)))
 }

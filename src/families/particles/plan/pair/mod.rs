@@ -440,12 +440,24 @@ impl Builder<'_> {
         self.plan.sample_observables(self.measured.every, observables, rows + of_walls);
     }
 
+    /// A pass, or that which stands for it beside frozen particles.
+    fn either(&self, pass: pairs::Pass, beside_layers: pairs::Pass) -> pairs::Pass {
+        if self.model.has_frozen_particles() { beside_layers } else { pass }
+    }
+
+    /// What passes choose that give frozen particles impulses before the end of a step.
+    fn booking_of_layers(&self) -> Choices {
+        if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() }
+    }
+
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
     fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
         let observables = self.observables();
         self.plan.kernels[kernel].constants.push((Constant::Quantities, observables as f64));
+        let first = observables - external::sums(self.model) - walls::sums(self.model);
+        self.plan.kernels[kernel].constants.extend(walls::frozen_sums(self.model, first));
         kernel
     }
 
@@ -458,7 +470,8 @@ impl Builder<'_> {
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
-        let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
+        let observe = self.either(pairs::Pass::ObserveLeapfrog, pairs::Pass::ObserveLeapfrogBesideLayers);
+        let report = self.observation("report", forces.clone().with(observe));
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
@@ -476,10 +489,11 @@ impl Builder<'_> {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let once = self.visits_once();
         let dense = self.model.particles().have_local_densities();
+        let found = with(self.either(pairs::Pass::Find, pairs::Pass::FindBesideLayers)).and(&self.booking_of_layers());
         let find = match (once, dense) {
             (true, _) => self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick)),
-            (false, true) => self.traversal("find", self.traversal, Masks::Kept, &with(pairs::Pass::Find)),
-            (false, false) => self.traversal("find", self.traversal, Masks::Keep, &with(pairs::Pass::Find)),
+            (false, true) => self.traversal("find", self.traversal, Masks::Kept, &found),
+            (false, false) => self.traversal("find", self.traversal, Masks::Keep, &found),
         };
         if !once && !dense {
             self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
@@ -494,8 +508,10 @@ impl Builder<'_> {
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let earlier = self.relaxes_in_two_stages() || bathed;
         let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
-        let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
-        let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
+        let observe = self.either(pairs::Pass::ObserveMotion, pairs::Pass::ObserveMotionBesideLayers);
+        let motion = self.observation("report_motion", kept.clone().with_any(added).with(observe));
+        let observe = self.either(pairs::Pass::ObserveConfiguration, pairs::Pass::ObserveConfigurationBesideLayers);
+        let configuration = self.observation("report_configuration", with(observe));
         let entry = match (self.is_sheared(), walls::count(self.model)) {
             (true, _) => Entry::DriftRestSheared,
             (false, 0) => Entry::DriftRest,
@@ -536,15 +552,17 @@ impl Builder<'_> {
 
     /// Adds the first of two stages of friction, which leaves momenta for these kernels, those of the second.
     fn first_stage(&mut self, second: [usize; 3], kept: &Choices) {
-        let pass = Choices::new()
-            .with(pairs::Pass::RelaxFirst)
+        let pass = self
+            .booking_of_layers()
+            .with(self.either(pairs::Pass::RelaxFirst, pairs::Pass::RelaxFirstBesideLayers))
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let later = bathed && kept.has(pairs::ReportedForce::Kept);
         let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
-        let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
+        let observe = self.either(pairs::Pass::ObserveFirstStage, pairs::Pass::ObserveFirstStageBesideLayers);
+        let report = self.observation("report_first_stage", kept.with(observe));
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);
@@ -666,7 +684,8 @@ impl Builder<'_> {
             for a in 0..count {
                 for b in 0..count {
                     table.extend(self.impulses(a, b).map(|value| value as f32));
-                    table.push((1.0 / self.model.species[b].mass) as f32);
+                    let inverse_mass = (1.0 / self.model.species[b].mass) as f32;
+                    table.push(if self.model.species[b].frozen { -inverse_mass } else { inverse_mass });
                 }
             }
             let ranges = ranges(self.force, count);

@@ -28,7 +28,7 @@ use crate::families::Model;
 use crate::families::Observables;
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::stress::{Virial, Virials};
-use crate::families::particles::reference::{body_force, end_of_step};
+use crate::families::particles::reference::{body_force, end_of_step, layers};
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::State;
@@ -121,7 +121,9 @@ impl CouplingsReference {
     /// # Errors
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
     pub fn reported_state(&self) -> Result<State, Unstable> {
-        let momenta = narrow(&self.evaluate()?.momenta, self.state.step)?;
+        let mut momenta = self.evaluate()?.momenta;
+        layers::hold(&self.model, &self.state, &mut momenta);
+        let momenta = narrow(&momenta, self.state.step)?;
         Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
     }
 
@@ -140,7 +142,7 @@ impl CouplingsReference {
         let mut kick = vec![[0; 3]; state.len()];
         let mut bath_sums = BathSums::default();
         let mut baths = State::default();
-        let mut virials = Virials::new(state.len());
+        let mut virials = Virials::new(model, state);
 
         if let Some(force) = model.particles().pair_force.as_ref() {
             if force.remembers() {
@@ -208,7 +210,8 @@ pub(super) fn bonded_kicks(
 
 /// Whether a particle is held where it is.
 fn is_fixed(model: &Model, state: &State, particle: usize) -> bool {
-    model.species[state.species[particle] as usize].fixed
+    let species = &model.species[state.species[particle] as usize];
+    species.fixed && !species.frozen
 }
 
 /// Adds an impulse to that of one particle, rounded half to even to whole units.

@@ -7,6 +7,7 @@
 use super::angles::Corner;
 use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
 use crate::families::particles::reference::densities::Densities;
+use crate::families::particles::reference::layers;
 use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
@@ -21,13 +22,16 @@ struct Configuration {
     gradients: Vec<[f64; 3]>,
     laplacians: Vec<f64>,
     dimension: usize,
+    /// Whether each particle is frozen behind a wall, and has no part of virials.
+    frozen: Vec<bool>,
 }
 
 impl Configuration {
     /// Adds the potential of a pair or a bond.
     fn add(&mut self, pair: &Pair, potential: &Potential) {
         self.potential += potential.energy;
-        self.virial += potential.virial(pair.distance);
+        let within = [pair.first, pair.second].into_iter().filter(|end| !self.frozen[*end]).count();
+        self.virial += 0.5 * within as f64 * potential.virial(pair.distance);
         let gradient = potential.gradient(pair);
         let laplacian = potential.laplacian(pair.distance, self.dimension);
         for (end, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
@@ -78,7 +82,7 @@ pub(in crate::families::particles::reference) fn of_configuration(
     motion: &Observables,
 ) -> Observables {
     let configuration = configuration(model, state, images);
-    let mobile = |particle: &usize| !is_fixed(model, state, *particle);
+    let mobile = |particle: &usize| !is_fixed(model, state, *particle) && !configuration.frozen[*particle];
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     Observables {
         potential_energy: configuration.potential,
@@ -98,6 +102,7 @@ fn configuration(model: &Model, state: &State, images: &Images<'_>) -> Configura
         gradients: vec![[0.0; 3]; count],
         laplacians: vec![0.0; count],
         dimension,
+        frozen: (0..count).map(|particle| layers::is_frozen(model, state, particle)).collect(),
     };
     if let Some(force) = model.particles().pair_force.as_ref() {
         let excluded = pairs::excluded_pairs(model);

@@ -1,0 +1,25 @@
+// The first pass of a split step as `find`; of the closing half kick on what is frozen the wall takes up everything.
+struct Sums { kick: Steps, rate: u32 }
+
+fn pass_begin(me: Particle) -> Sums { return Sums(Steps(0), 0u); }
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let contact = contact_of(separation(me.position, position_at(other_index)));
+    // Of the other particle's words only the species is read here, and that never changes, though the word is written.
+    let c = coefficients_of(species_of(me), other_species(other_index));
+    let root = root_weight(contact.w);
+    let kick = Steps(round(repulsion_impulse(c, contact.w) * contact.direction));
+    (*sums).kick += select(Steps(0), kick, contact.inside);
+    (*sums).rate += select(0u, rate_units(friction_rate(c, root) * rate_scale_of(species_of(me))), contact.inside);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    let kick = sums.kick + gathered_kick(index) + external_kick(me);
+    let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * kick);
+    let word = momentum_word(momentum, species_of(me) | (min(i32(sums.rate), RATE_LIMIT) << 8u));
+    keep_momentum(index, word);
+    let column = column_of(fraction_of(me.position));
+    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
+        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
+        keep_momentum(copies + index - cell_at(cell_index(row, column)), word);
+    }
+}
+fn pass_finish(group: u32, lane: u32) {}

@@ -1,0 +1,17 @@
+// The configuration at the report of a split step as `observe_configuration`, beside frozen particles.
+var<storage, read_write> particles: array<Particle>;
+
+fn pass_begin(me: Particle) -> PairSums { return no_pairs(); }
+fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
+    let other = particle_at(other_index);
+    let contact = contact_of(separation(me.position, other.position));
+    if (!contact.inside) { return; }
+    let c = coefficients_of(species_of(me), species_of(other));
+    observe_conservative(sums, repulsion_of(c, contact), contact);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
+    observe_configuration_or_wall(me, sums, take_gathered_kick(index));
+    // By id, for analyses and trajectories.
+    particles[me.position.w] = me;
+}
+fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 5u, PAIR_QUANTITIES); }

@@ -1,0 +1,38 @@
+// The report of a leapfrog step as `observe_leapfrog`, beside frozen particles.
+struct Sums { kick: Steps, pairs: PairSums }
+
+fn pass_begin(me: Particle) -> Sums {
+    prepare_noise();
+    begin_force();
+    return Sums(Steps(0), no_pairs());
+}
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let other = particle_at(other_index);
+    let contact = contact_of(separation(me.position, other.position));
+    if (!contact.inside) { return; }
+    let c = coefficients_of(species_of(me), species_of(other));
+    let root = root_weight(contact.w);
+    let repulsion = repulsion_of(c, contact);
+    let magnitude = impulse_without_memory(repulsion.impulse, c, contact, root, me, other);
+    (*sums).kick += Steps(round(magnitude * contact.direction));
+    var pairs = (*sums).pairs;
+    observe_conservative(&pairs, repulsion, contact);
+    observe_virial(&pairs, magnitude, PAIR_VIRIAL, contact);
+    (*sums).pairs = pairs;
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    let bonded = gathered_kick(index);
+    let kick = sums.kick + bonded + external_kick(me);
+    let momentum = steps_of(me.momentum) + clock_closing() * kick;
+    observe_motion_or_wall(me, momentum, sums.pairs.virial);
+    observe_configuration_or_wall(me, sums.pairs, bonded);
+    add_reported_force(momentum_word(kick, 0));
+    store_force(me.position.w);
+    // By id, for analyses and trajectories.
+    let word = momentum_word(reported_momentum_of(me, momentum), species_of(me));
+    store_particle(me.position.w, advanced_particle(me.position, word, Steps(0)));
+}
+fn pass_finish(group: u32, lane: u32) {
+    reduce_quantities(group, lane, 0u, PAIR_QUANTITIES);
+    reduce_walls(group, lane);
+}

@@ -1,0 +1,28 @@
+// The first stage of a relaxation in two as `relax_first`; what frozen particles get of it their wall takes up.
+struct Sums { impulse: Steps, strain: f32 }
+
+fn pass_begin(me: Particle) -> Sums {
+    prepare_noise();
+    return Sums(Steps(0), 0.0);
+}
+fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
+    let other = particle_at(other_index);
+    let contact = contact_of(separation(me.position, other.position));
+    let c = coefficients_of(species_of(me), species_of(other));
+    let root = root_weight(contact.w);
+    let pull = select(0.0, relaxation_impulse(c, contact, root, me, other), contact.inside);
+    (*sums).impulse += Steps(round(pull * contact.direction));
+    (*sums).strain += abs(pull);
+}
+fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
+    let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * sums.impulse);
+    let after = Particle(me.position, momentum_word(momentum, me.momentum.w));
+    stage(index, after);
+    let column = column_of(fraction_of(me.position));
+    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
+        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
+        stage(copies + index - cell_at(cell_index(row, column)), after);
+    }
+}
+fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }

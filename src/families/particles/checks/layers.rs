@@ -1,0 +1,137 @@
+//! Checks of layers of frozen particles behind walls.
+
+use super::acts;
+use crate::document::{Interaction, ParticleGroup, Placement, Problem, Problems, Scene, Velocities};
+
+/// Whether a group makes up a layer behind the walls across an axis.
+pub(super) fn is_behind(group: &ParticleGroup, axis: usize) -> bool {
+    matches!(group.placement, Placement::BehindWalls { axis: across, .. } if across as usize == axis)
+}
+
+/// Checks the layers of a scene, with what else is in it.
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    let layers = || scene.particles.iter().enumerate().filter(|(_, group)| group.is_frozen());
+    let Some((first, _)) = layers().next() else { return };
+    for (index, group) in layers() {
+        check_group(scene, group, &format!("particles[{index}]"), problems);
+    }
+    let mut axes = layers().filter_map(|(index, group)| match group.placement {
+        Placement::BehindWalls { axis, .. } => Some((index, axis)),
+        _ => None,
+    });
+    if let Some((known, across)) = axes.next()
+        && let Some((index, other)) = axes.find(|(_, axis)| *axis != across)
+    {
+        let found = format!("found \"{}\" beside \"{}\" in particles[{known}]", other.name(), across.name());
+        let accepted =
+            "layers behind the walls across one axis: where two meet, the corner between them would be empty";
+        problems.push(Problem::new(format!("particles[{index}].placement.axis"), found, accepted));
+    }
+    check_interactions(scene, first, problems);
+    check_analyses(scene, first, problems);
+}
+
+/// The walls are there, and nothing is said of the particles that they do not have.
+fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut Problems) {
+    let Placement::BehindWalls { axis, thickness, .. } = group.placement else { return };
+    let name = axis.name();
+    let walled = scene.space.walls.of_axes()[axis as usize].is_some();
+    match scene.space.lengths.get(axis as usize) {
+        Some(edge) if walled && !(thickness > 0.0 && thickness <= *edge) => {
+            let accepted = format!("above 0 and at most {edge}, the distance of the walls");
+            problems.push(Problem::new(format!("{path}.placement.thickness"), format!("found {thickness}"), accepted));
+        }
+        Some(_) if walled => {}
+        Some(_) => {
+            let accepted = format!("an axis with walls: put them into `space.walls.{name}`");
+            let found = format!("found \"{name}\", across which there are no walls");
+            problems.push(Problem::new(format!("{path}.placement.axis"), found, accepted));
+        }
+        None => {
+            let accepted = format!("one of the {} axes of the box", scene.space.lengths.len());
+            problems.push(Problem::new(format!("{path}.placement.axis"), format!("found \"{name}\""), accepted));
+        }
+    }
+    if group.fixed {
+        let accepted = "no `fixed`: particles behind walls are frozen, and move with their wall";
+        problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+    }
+    if group.chain.is_some() {
+        problems.push(Problem::new(format!("{path}.chain"), "found a chain", "no chains behind walls"));
+    }
+    if group.velocities != Velocities::Thermal {
+        let accepted = "no `velocities`: frozen particles have that of their wall";
+        problems.push(Problem::new(format!("{path}.velocities"), "found velocities", accepted));
+    }
+}
+
+/// Frozen particles take part in pairs without memory, and in nothing else.
+fn check_interactions(scene: &Scene, layer: usize, problems: &mut Problems) {
+    let where_from = format!("together with frozen particles in particles[{layer}]");
+    for (index, interaction) in scene.interactions.iter().enumerate().filter(|(_, interaction)| acts(interaction)) {
+        let path = format!("interactions[{index}]");
+        let (what, accepted) = match interaction {
+            Interaction::Dpd(dpd) if dpd.remembers() => ("a bath with memory", "pairs without memory beside layers"),
+            Interaction::Dpd(dpd) if dpd.acting_many_body().is_some() => (
+                "a many-body repulsion",
+                "repulsions of pairs alone beside layers, whose local densities end behind the wall",
+            ),
+            Interaction::Langevin(_) => ("a bath on every particle", "friction between pairs beside layers"),
+            Interaction::Bonds(bonds) if bonds.has_bath() => {
+                ("a bath on every bond", "bonds without a bath, and friction between pairs, beside layers")
+            }
+            Interaction::Bonds(bonds) => {
+                check_members(scene, &bonds.pairs, &format!("{path}.pairs"), problems);
+                continue;
+            }
+            Interaction::Angles(angles) => {
+                check_members(scene, &angles.triples, &format!("{path}.triples"), problems);
+                continue;
+            }
+            _ => continue,
+        };
+        problems.push(Problem::new(path, format!("found {what} {where_from}"), accepted));
+    }
+}
+
+/// Nothing is bonded to what is frozen.
+fn check_members<const LENGTH: usize>(scene: &Scene, members: &[[u32; LENGTH]], path: &str, problems: &mut Problems) {
+    let mut first = 0_u64;
+    let mut frozen = Vec::new();
+    for group in &scene.particles {
+        let end = first.saturating_add(group.resolved_count(&scene.space));
+        if group.is_frozen() {
+            frozen.push(first..end);
+        }
+        first = end;
+    }
+    let held = |number: &u32| frozen.iter().any(|range| range.contains(&u64::from(*number)));
+    let caught = members.iter().enumerate().find_map(|(index, ends)| Some((index, ends.iter().find(|end| held(end))?)));
+    if let Some((index, number)) = caught {
+        let accepted = "particles between the walls: what is frozen takes part in pairs only";
+        problems.push(Problem::new(
+            format!("{path}[{index}]"),
+            format!("found particle {number}, which is frozen"),
+            accepted,
+        ));
+    }
+}
+
+/// Analyses that would count what is frozen.
+fn check_analyses(scene: &Scene, layer: usize, problems: &mut Problems) {
+    let output = &scene.output;
+    let asked = [
+        ("diffusion", output.diffusion.is_some()),
+        ("autocorrelations", !output.autocorrelations.is_empty()),
+        ("histograms", !output.histograms.is_empty()),
+        ("stress", output.stress.is_some()),
+    ];
+    for (name, _) in asked.into_iter().filter(|(_, asked)| *asked) {
+        let found = format!("found in a scene with frozen particles in particles[{layer}], which it would count");
+        problems.push(Problem::new(format!("output.{name}"), found, "none beside layers; `profiles` leave them out"));
+    }
+    for path in output.asks_for_stress().filter(|path| *path != "output.stress") {
+        let found = format!("found in a scene with frozen particles in particles[{layer}]");
+        problems.push(Problem::new(path, found, "other quantities beside layers, which carry stress too"));
+    }
+}
