@@ -140,7 +140,7 @@ fn processes_leave_the_bytes_of_one() {
 fn what_cannot_be_shared_is_told_once() {
     for (more, ranks, code, expected) in [
         (&["--ranks", "1,2,2"][..], 3, 2, "`--ranks` asks for 4 ranks, and the launcher has started 3 copies"),
-        (&["--set", "space.walls.z={}"], 2, 2, "`space.walls`: on one rank only"),
+        (&["--set", r#"output.stress={"every":10}"#], 2, 2, "`output.stress` is measured on one device"),
         (&["--set", "time.stop=1"], 2, 2, "unknown key"),
         (&[], 7, 2, "6 ranks fit"),
         (&["--adapter", "nothing of this name"], 2, 3, "nothing of this name"),
