@@ -142,7 +142,7 @@ fn what_cannot_be_shared_is_told_once() {
         (&["--ranks", "1,2,2"][..], 3, 2, "`--ranks` asks for 4 ranks, and the launcher has started 3 copies"),
         (&["--set", r#"output.stress={"every":10}"#], 2, 2, "`output.stress` is measured on one device"),
         (&["--set", "time.stop=1"], 2, 2, "unknown key"),
-        (&[], 7, 2, "6 ranks fit"),
+        (&[], 7, 2, "4 ranks fit"),
         (&["--adapter", "nothing of this name"], 2, 3, "nothing of this name"),
         (&["--set", "time.step=0.4"], 4, 4, "unstable"),
     ] {
