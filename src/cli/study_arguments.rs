@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
-use mesoscope::study::{Kind, Observer, Record, StudyError, StudyRun};
+use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
 use mesoscope::tradeoff::References;
 
 use super::study_report::Reporter;
@@ -85,7 +85,10 @@ impl StudyArguments {
             let default = || format!("{}-{}", report::stem(scene), R::KIND.command).into();
             StudyRun::start(request(scene)?, self.out.clone().unwrap_or_else(default), self.how.force)
         };
-        Ok(study.with_jobs(self.jobs.map(usize::from)).unless_long(self.yes).until(&interruption::interrupt()))
+        Ok(study
+            .with_jobs(self.jobs.map(usize::from))
+            .up_to((!self.yes).then_some(LONG))
+            .until(&interruption::interrupt()))
     }
 
     /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.

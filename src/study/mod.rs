@@ -31,7 +31,7 @@ pub(crate) use members::{Member, finished};
 pub(crate) use naming::{ShortKeys, readable};
 pub use record::Record;
 pub(crate) use record::{ASKS_ELSE, check_version, load, reopen};
-pub use run::{Observer, StudyEvent, StudyRun};
+pub use run::{LONG, Observer, StudyEvent, StudyRun};
 pub(crate) use run::{draw, in_hours, largest};
 pub use shard::Shard;
 pub(crate) use shard_places::{RECORD as SHARD_RECORD, claim as claim_shard, claim_study, name_in_study};

@@ -12,9 +12,10 @@ use crate::plot::{Chart, Plotter};
 use crate::run::{self, Interrupt, Progress, RunError};
 use crate::scene::{PlotStyle, Scene};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-/// Seconds from which on a user has to say that all runs may take so long.
-const LONG: f64 = 8.0 * 3600.0;
+/// Time from which on a user has to say that all runs may take so long.
+pub const LONG: Duration = Duration::from_hours(8);
 
 /// A study to be executed, from the beginning or from where it was interrupted.
 #[derive(Debug, Clone)]
@@ -25,7 +26,7 @@ pub struct StudyRun<R: Record> {
     beginning: Beginning,
     interrupt: Interrupt,
     jobs: Option<usize>,
-    may_be_long: bool,
+    longest: Option<Duration>,
 }
 
 #[derive(Debug, Clone)]
@@ -107,7 +108,7 @@ impl<R: Record> StudyRun<R> {
 
     fn of(request: R::Request, summary: R, path: PathBuf, beginning: Beginning) -> Self {
         let interrupt = Interrupt::default();
-        Self { request, summary, path, beginning, interrupt, jobs: None, may_be_long: true }
+        Self { request, summary, path, beginning, interrupt, jobs: None, longest: None }
     }
 
     /// The same study, which stops when it is asked to: what is known by then is kept, and runs save checkpoints.
@@ -122,10 +123,10 @@ impl<R: Record> StudyRun<R> {
         Self { jobs, ..self }
     }
 
-    /// The same study, which may take many hours or else is refused before it starts, where its time is estimated.
+    /// The same study, which does not begin what is expected to take longer than this; without a time it may take as long as it likes.
     #[must_use]
-    pub fn unless_long(self, may_be_long: bool) -> Self {
-        Self { may_be_long, ..self }
+    pub fn up_to(self, longest: Option<Duration>) -> Self {
+        Self { longest, ..self }
     }
 
     /// What it was asked for.
@@ -183,7 +184,7 @@ impl<R: Record> StudyRun<R> {
 
     /// Refuses what takes so many seconds, unless it may.
     pub(crate) fn refuse_long(&self, seconds: f64) -> Result<(), StudyError> {
-        if self.may_be_long || seconds <= LONG {
+        if self.longest.is_none_or(|longest| seconds <= longest.as_secs_f64()) {
             return Ok(());
         }
         Err(StudyError::Long { kind: R::KIND, expected: in_hours(seconds) })
