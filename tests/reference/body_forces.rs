@@ -7,7 +7,7 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, engine, largest_difference, observables, predictions_agree,
+    Device, INTEGRATORS, Implementation, before_and_after, engine, largest_difference, observables, predictions_agree,
     reference_of_particles, same_energies, start, units_of_a_step,
 };
 
@@ -174,21 +174,11 @@ fn energy_is_the_work_that_was_done() {
             document["time"]["step"] = json!(0.002);
             document["output"]["energies"]["every"] = json!(100);
             let scene = read(&document);
-            let (model, state) = start(&scene);
-            let implementations: [Box<dyn Implementation>; 2] =
-                [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
-            for mut implementation in implementations {
-                let first = implementation.observe();
-                implementation.step(500);
-                let last = implementation.observe();
+            for (name, [first, last]) in before_and_after(&scene, 500) {
                 let (gained, work) = (last.total_energy() - first.total_energy(), last.put_in.work);
                 assert_eq!(first.put_in.work, 0.0);
                 assert!(work.abs() > 20.0, "{work}: too little to say something");
-                assert!(
-                    (gained - work).abs() < 1e-3 * last.total_energy(),
-                    "{}: {gained} {work}",
-                    implementation.name()
-                );
+                assert!((gained - work).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {work}");
             }
         }
     }

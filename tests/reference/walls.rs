@@ -6,7 +6,7 @@ use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, engine, largest_difference, observables, predictions_agree,
+    Device, INTEGRATORS, Implementation, before_and_after, engine, largest_difference, observables, predictions_agree,
     reference_of_particles, same_energies, start, units_of_a_step,
 };
 
@@ -343,15 +343,9 @@ fn energy_is_the_work_that_layers_do() {
         document["time"]["step"] = json!(0.002);
         document["output"]["energies"]["every"] = json!(100);
         let scene = read(&document);
-        let (model, state) = start(&scene);
-        let implementations: [Box<dyn Implementation>; 2] =
-            [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
-        for mut implementation in implementations {
-            let first = implementation.observe();
-            implementation.step(500);
-            let last = implementation.observe();
+        for (name, [first, last]) in before_and_after(&scene, 500) {
             let gained = last.total_energy() - first.total_energy();
-            let (work, name) = (last.on_walls.work, implementation.name());
+            let work = last.on_walls.work;
             assert!(work.abs() > 20.0, "{name}: {work}: too little to say something");
             assert!((gained - work).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {work}");
         }
@@ -371,16 +365,9 @@ fn energy_is_the_work_that_was_done() {
         document["time"]["step"] = json!(0.002);
         document["output"]["energies"]["every"] = json!(100);
         let scene = read(&document);
-        let (model, state) = start(&scene);
-        let implementations: [Box<dyn Implementation>; 2] =
-            [Box::new(Device::new(&scene)), reference_of_particles(model, state)];
-        for mut implementation in implementations {
-            let first = implementation.observe();
-            implementation.step(500);
-            let last = implementation.observe();
+        for (name, [first, last]) in before_and_after(&scene, 500) {
             let gained = last.total_energy() - first.total_energy();
             let [walls, forces] = [last.on_walls.work, last.put_in.work];
-            let name = implementation.name();
             assert!(walls.abs() > 20.0 && forces.abs() > 5.0, "{walls}, {forces}: too little to say something");
             assert!((gained - walls - forces).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {walls} {forces}");
         }

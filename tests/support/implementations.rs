@@ -78,6 +78,19 @@ pub fn reference_of_particles(model: Model, state: State) -> Box<dyn Implementat
     }
 }
 
+/// What the device and the reference observe of a scene of particles at the start and after some steps, by their names.
+pub fn before_and_after(scene: &Scene, steps: u64) -> Vec<(&'static str, [Observables; 2])> {
+    let (model, state) = start(scene);
+    let implementations: [Box<dyn Implementation>; 2] =
+        [Box::new(Device::new(scene)), reference_of_particles(model, state)];
+    let observed = implementations.into_iter().map(|mut implementation| {
+        let first = implementation.observe();
+        implementation.step(steps);
+        (implementation.name(), [first, implementation.observe()])
+    });
+    observed.collect()
+}
+
 /// An engine with what is needed to read its samples.
 pub struct Device {
     engine: Engine<'static>,

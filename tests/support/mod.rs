@@ -29,7 +29,7 @@ use mesoscope::state::State;
 pub use comparison::{
     largest_difference, predictions_agree, same_energies, same_observables, step_in_words, totals, units_of_a_step,
 };
-pub use implementations::{Device, Implementation, reference_of_particles};
+pub use implementations::{Device, Implementation, before_and_after, reference_of_particles};
 pub use scenes::{
     COTTER_REICH, ENERGY, EVERY_STEP, GROOT_WARREN, GYRO, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, ROTATE,
     SPLITTING, STAGED, WHITE, built_in, cells, changed, fluid, oscillators, scene, shear_flow, still_water, water,
