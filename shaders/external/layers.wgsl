@@ -15,14 +15,3 @@ fn is_behind_upper(place: Fraction, axis: u32) -> bool {
     let end = wall_ends()[axis];
     return place[axis] - end < ((0u - end) >> 1u);
 }
-
-// The momentum that a particle keeps of a new one: all of it, or where it is frozen what it had, and its wall takes up the rest.
-fn held_momentum(me: Particle, momentum: Steps) -> Steps {
-    is_booked = is_own(me.position);
-    let place = fraction_of(me.position);
-    let axis = wall_behind(place);
-    if (axis == DIMENSION) { return momentum; }
-    let held = steps_of(me.momentum);
-    if (any(momentum != held)) { note_reflection(axis, is_behind_upper(place, axis), momentum - held); }
-    return held;
-}

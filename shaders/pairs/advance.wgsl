@@ -11,6 +11,12 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
+// Slot pairs/frozen: what a particle keeps of a new momentum, and of its kick; and what is told of it in a report. The plan chooses `behind_walls`
+// if the scene has frozen particles there.
+// Default: everything, and all of it: nothing is frozen.
+fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
+fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
+
 // Slot pairs/advance: how a particle drifts. The plan chooses `between_walls` if the scene has walls, `sheared` if it has shear.
 // Default: across the periodic box.
 //

@@ -51,6 +51,15 @@ fn reduce_quantities(group: u32, lane: u32, first: u32, end: u32) {
     for (var quantity = first; quantity < end; quantity++) { reduce_quantity(group, lane, quantity, pair_totals[quantity]); }
 }
 
+// Slot pairs/frozen, in reports: see pairs/advance. Default: nothing is frozen.
+fn report_motion(me: Particle, momentum: Steps, virial: Sum64) { observe_motion(species_of(me), momentum, virial); }
+fn report_configuration(me: Particle, sums: PairSums, bonded: Steps) { observe_configuration(sums, bonded); }
+// The momentum, and the virial, of a particle in a report.
+fn reported_motion(me: Particle, momentum: Steps) -> Steps { return momentum; }
+fn reported_virial(me: Particle, virial: Sum64) -> Sum64 { return virial; }
+// Adds up over the workgroup what walls are to take up.
+fn reduce_taken_up(group: u32, lane: u32) {}
+
 // Slot pairs/reporting: where a report leaves a particle.
 // Default: by id, for analyses and trajectories. The plan chooses `in_order` for one of several ranks.
 fn reported_place(row: u32, index: u32, id: u32) -> u32 { return id; }

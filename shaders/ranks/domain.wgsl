@@ -21,23 +21,6 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
     return all(((position - domains[domain].low) < width) | (width == vec4<u32>(0u)));
 }
 
-// Notes after a sort which particles are this rank's own in the step, by slot, and how many are stored. One invocation a particle at a
-// time; SEGMENTS workgroups share a row of cells. Reads the sorted particles, `cells` and `domains`; writes `owned_slots` and the last of
-// `outgoing_counts`.
-@compute @workgroup_size(WORKGROUP)
-fn mark_owned(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let row = group / SEGMENTS;
-    if (row < rows()) {
-        let end = row_end(row);
-        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
-        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            owned_slots[unframed_index(row, index)] = select(0u, 1u, lies_in(OWN, position_at(index)));
-        }
-    }
-    if (group == 0u && lane == 0u) { atomicStore(&outgoing_counts[PEERS], unframed_index(rows() - 1u, row_end(rows() - 1u))); }
-}
-
 // Ends a step or half of a drift: sends on what other ranks need, forgets what this one does not need, and empties the cells, in which
 // particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned_slots` and
 // `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`.

@@ -300,7 +300,7 @@ fn crowding_at_the_ends_of_the_box_is_survived() {
     let output = mesoscope(&["run", &scene, "--out", &out]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        text(&output.stderr).contains("too many particles are at the ends of the box; continuing"),
+        text(&output.stderr).contains("too many particles crowd in one part of the box; continuing"),
         "{}",
         text(&output.stderr)
     );

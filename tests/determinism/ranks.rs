@@ -20,6 +20,8 @@ const FOLLOWED: &str = r#"output.trajectory={"every":10}"#;
 const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
 const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
+const LAYERED: &str = r#"particles=[{"species":"A","number_density":3},
+    {"species":"wall","number_density":3,"placement":{"type":"behind-walls","axis":"y","thickness":1}}]"#;
 const SHEARED: &str = r#"space.shear={"rate":1.2,"gradient":"z"}"#;
 const MANY_BODY: &str = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
 
@@ -37,6 +39,8 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![SPLITTING, "space.box=[4,4,13]", OPPOSED], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[4,7,9]", OPPOSED, COUETTE], vec![[1, 2, 1], [1, 2, 3]]),
         (vec![SPLITTING, "space.box=[6,5,9]", COUETTE], vec![[1, 1, 2]]),
+        (vec![STAGED, "space.box=[4,4,13]", COUETTE, LAYERED], vec![[1, 1, 2]]),
+        (vec![PREDICTED, "space.box=[4,5,9]", COUETTE, LAYERED], vec![[1, 2, 1], [1, 3, 2]]),
         (vec![SPLITTING, "space.box=[4,9,10]", SHEARED], vec![[1, 2, 1], [1, 1, 3]]),
         (vec![PREDICTED, "space.box=[5,6,6]", SHEARED, MIXTURE, MIXTURE_FORCE], vec![[1, 2, 2]]),
         (vec![GROOT_WARREN, "space.box=[4,4,9]", MANY_BODY], vec![[1, 1, 2]]),

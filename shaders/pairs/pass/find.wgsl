@@ -13,7 +13,8 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).rate += select(0u, rate_units(friction_rate(c, root) * rate_scale_of(species_of(me))), contact.inside);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let momentum = steps_of(me.momentum) + clock_closing() * (sums.kick + gathered_kick(index) + external_kick(me));
+    let kick = sums.kick + gathered_kick(index) + external_kick(me);
+    let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * kick);
     let word = momentum_word(momentum, species_of(me) | (min(i32(sums.rate), RATE_LIMIT) << 8u));
     keep_momentum(index, word);
     let column = column_of(fraction_of(me.position));

@@ -14,6 +14,6 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
     // All are stored: they go on from here.
     particles[reported_place(row, index, me.position.w)] = me;
     let bonded = take_gathered_kick(index);
-    if (is_own(me.position)) { observe_configuration(sums, bonded); }
+    if (is_own(me.position)) { report_configuration(me, sums, bonded); }
 }
 fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 5u, PAIR_QUANTITIES); }

@@ -19,7 +19,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     if (!is_own(me.position)) { return; }
-    first_virial = sum64_add(first_virial, sums.virial);
+    first_virial = sum64_add(first_virial, reported_virial(me, sums.virial));
     begin_force();
     add_reported_force(momentum_word(sums.impulse, 0));
     store_force(me.position.w);

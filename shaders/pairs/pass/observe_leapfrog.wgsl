@@ -25,11 +25,15 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let bonded = gathered_kick(index);
     let kick = sums.kick + bonded + external_kick(me);
     let momentum = steps_of(me.momentum) + clock_closing() * kick;
-    observe_motion(species_of(me), momentum, sums.pairs.virial);
-    observe_configuration(sums.pairs, bonded);
+    report_motion(me, momentum, sums.pairs.virial);
+    report_configuration(me, sums.pairs, bonded);
     add_reported_force(momentum_word(kick, 0));
     store_force(me.position.w);
     let place = reported_place(row, index, me.position.w);
-    store_particle(place, advanced_particle(me.position, momentum_word(momentum, species_of(me)), Steps(0)));
+    let word = momentum_word(reported_motion(me, momentum), species_of(me));
+    store_particle(place, advanced_particle(me.position, word, Steps(0)));
 }
-fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, PAIR_QUANTITIES); }
+fn pass_finish(group: u32, lane: u32) {
+    reduce_quantities(group, lane, 0u, PAIR_QUANTITIES);
+    reduce_taken_up(group, lane);
+}

@@ -26,9 +26,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     if (!is_own(me.position)) { return; }
     let momentum = steps_of(me.momentum) + sums.impulse;
-    observe_motion(species_of(me), momentum, sums.virial);
-    store_momentum(me.position.w, momentum_word(momentum, species_of(me)));
+    report_motion(me, momentum, sums.virial);
+    store_momentum(me.position.w, momentum_word(reported_motion(me, momentum), species_of(me)));
     add_reported_force(momentum_word(2 * (gathered_kick(index) + external_kick(me)), 0));
     store_force(me.position.w);
 }
-fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 0u, 5u); }
+fn pass_finish(group: u32, lane: u32) {
+    reduce_quantities(group, lane, 0u, 5u);
+    reduce_taken_up(group, lane);
+}

@@ -17,7 +17,7 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
-    let momentum = steps_of(me.momentum) + clock_closing() * sums.impulse;
+    let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * sums.impulse);
     let after = Particle(me.position, momentum_word(momentum, me.momentum.w));
     stage(index, after);
     let column = column_of(fraction_of(me.position));

@@ -301,7 +301,6 @@ impl Physics for Particles {
 
     fn unshared(&self, _: &Model) -> Vec<String> {
         let there = [
-            (self.walls.iter().any(|walls| walls.layer > 0.0), "layers behind walls"),
             (self.are_bonded(), "bonds and angles"),
             (self.tether.is_some(), "tethers"),
             (self.chains.is_some(), "harmonic chains"),
@@ -384,7 +383,11 @@ impl Physics for Particles {
     }
 
     fn crowd(&self) -> &'static str {
-        if self.are_coupled { "the neighbour list overflowed" } else { "too many particles are at the ends of the box" }
+        if self.are_coupled {
+            "the neighbour list overflowed"
+        } else {
+            "too many particles crowd in one part of the box"
+        }
     }
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {

@@ -20,8 +20,8 @@ pub(crate) fn sums(model: &Model) -> u64 {
 pub(super) fn choices(model: &Model) -> Choices {
     let walls = !model.particles().walls.is_empty();
     Choices::new()
-        .with_if(walls && !model.has_frozen_particles(), pairs::Advance::BetweenWalls)
-        .with_if(model.has_frozen_particles(), pairs::Advance::BesideLayers)
+        .with_if(walls, pairs::Advance::BetweenWalls)
+        .with_if(model.has_frozen_particles(), pairs::Frozen::BehindWalls)
         .with_if(walls, external::Drifted::BetweenWalls)
         .with_if(walls, core::Reported::WithWalls)
         .with_if(model.particles().walls_move(), external::WallMotion::Moving)

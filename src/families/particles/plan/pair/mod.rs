@@ -440,11 +440,6 @@ impl Builder<'_> {
         self.plan.sample_observables(self.measured.every, observables, rows + of_walls);
     }
 
-    /// A pass, or that which stands for it beside frozen particles.
-    fn either(&self, pass: pairs::Pass, beside_layers: pairs::Pass) -> pairs::Pass {
-        if self.model.has_frozen_particles() { beside_layers } else { pass }
-    }
-
     /// What passes choose that give frozen particles impulses before the end of a step.
     fn booking_of_layers(&self) -> Choices {
         if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() }
@@ -470,8 +465,7 @@ impl Builder<'_> {
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
-        let observe = self.either(pairs::Pass::ObserveLeapfrog, pairs::Pass::ObserveLeapfrogBesideLayers);
-        let report = self.observation("report", forces.clone().with(observe));
+        let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
@@ -489,7 +483,7 @@ impl Builder<'_> {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let once = self.visits_once();
         let dense = self.model.particles().have_local_densities();
-        let found = with(self.either(pairs::Pass::Find, pairs::Pass::FindBesideLayers)).and(&self.booking_of_layers());
+        let found = with(pairs::Pass::Find).and(&self.booking_of_layers());
         let find = match (once, dense) {
             (true, _) => self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick)),
             (false, true) => self.traversal("find", self.traversal, Masks::Kept, &found),
@@ -508,10 +502,8 @@ impl Builder<'_> {
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let earlier = self.relaxes_in_two_stages() || bathed;
         let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
-        let observe = self.either(pairs::Pass::ObserveMotion, pairs::Pass::ObserveMotionBesideLayers);
-        let motion = self.observation("report_motion", kept.clone().with_any(added).with(observe));
-        let observe = self.either(pairs::Pass::ObserveConfiguration, pairs::Pass::ObserveConfigurationBesideLayers);
-        let configuration = self.observation("report_configuration", with(observe));
+        let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
+        let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
         let entry = match (self.is_sheared(), walls::count(self.model)) {
             (true, _) => Entry::DriftRestSheared,
             (false, 0) => Entry::DriftRest,
@@ -554,15 +546,14 @@ impl Builder<'_> {
     fn first_stage(&mut self, second: [usize; 3], kept: &Choices) {
         let pass = self
             .booking_of_layers()
-            .with(self.either(pairs::Pass::RelaxFirst, pairs::Pass::RelaxFirstBesideLayers))
+            .with(pairs::Pass::RelaxFirst)
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let later = bathed && kept.has(pairs::ReportedForce::Kept);
         let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
-        let observe = self.either(pairs::Pass::ObserveFirstStage, pairs::Pass::ObserveFirstStageBesideLayers);
-        let report = self.observation("report_first_stage", kept.with(observe));
+        let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);

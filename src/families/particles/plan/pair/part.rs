@@ -2,7 +2,7 @@
 //! the part, and an exchange of particles at the end of a step and at the report in the middle of a split one.
 
 use super::super::PARTICLE;
-use super::Builder;
+use super::{Builder, Masks};
 use crate::plan::{Domain, PlannedPart, Traversal};
 use crate::shaders::{Array, Choices, Constant, Entry, grid, pairs, space};
 
@@ -57,12 +57,7 @@ impl Builder<'_> {
     /// The kernel that notes after a sort which particles are the rank's own, if there are several ranks.
     pub(super) fn mark_owned(&mut self) -> Option<usize> {
         self.plan.part.as_ref()?;
-        let rows = self.grid.rows();
-        let in_row = (self.particles / rows).div_ceil(self.workgroup_size()).max(1);
-        let segments = in_row.min((8192 / rows).max(1));
-        let kernel =
-            self.kernel("mark_owned", Entry::MarkOwned, self.choices(), rows * segments * self.workgroup_size());
-        self.plan.kernels[kernel].constants.push((Constant::Segments, segments as f64));
-        Some(kernel)
+        let pass = Choices::new().with(pairs::Pass::MarkOwned);
+        Some(self.traversal("mark_owned", Traversal::Alone, Masks::Unkept, &pass))
     }
 }
