@@ -3,11 +3,16 @@
 # Installs Open MPI on Debian and Ubuntu; elsewhere says what to install.
 set -u
 
-ready() {
-    command -v mpicc >/dev/null 2>&1 && command -v mpirun >/dev/null 2>&1 &&
-        { [ -n "${LIBCLANG_PATH:-}" ] || ls /usr/lib/llvm-*/lib/libclang*.so* /usr/lib64/libclang*.so* /usr/lib/libclang*.so* \
-            >/dev/null 2>&1; }
+find_libclang() {
+    [ -n "${LIBCLANG_PATH:-}" ] && return
+    for library in /usr/lib/llvm-*/lib/libclang*.so* /usr/lib64/libclang*.so* /usr/lib/libclang*.so* \
+        /usr/lib/*-linux-*/libclang*.so*; do
+        [ -e "$library" ] && return
+    done
+    return 1
 }
+
+ready() { command -v mpicc >/dev/null 2>&1 && command -v mpirun >/dev/null 2>&1 && find_libclang; }
 
 refuse() {
     printf 'error: no MPI to build with. %s\n' "$1" >&2
