@@ -119,7 +119,7 @@ fn pairs_are_counted_once() {
 /// A run that fails does so at the same step with the same words, however many ranks it has; the ranks can begin again.
 #[test]
 fn failures_are_those_of_one_rank() {
-    let scene = scene(&[GROOT_WARREN, "space.box=[5,5,9]", "time.step=0.3"]);
+    let scene = scene(&[GROOT_WARREN, "space.box=[5,5,9]", "time.step=0.16"]);
     let (_, state) = start(&scene);
     let mut alone = crate::support::engine(&scene, &state, Options::default());
     let expected = alone.advance(200, 8).and_then(|()| alone.finish()).unwrap_err().to_string();

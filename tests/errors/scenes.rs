@@ -231,10 +231,10 @@ fn laws_of_the_time_step_see_the_coefficients_of_each_pair() {
     // Γ of water is Σ γρ[ω]/3 with [ω] = 8πrc³/((s+1)(s+2)(s+3)): (7500·.3·8π/60 + 3000·.3·8π·3.375/24)/3.
     let found = FLUID.warnings(&[&pairs(r#""friction":7500"#, r#""friction":3000"#)]);
     assert!(found.len() == 1 && found[0].contains("`water` at a mean rate of 1374"), "{found:?}");
-    // ω² of evenly spread neighbours is Σ aρV/rc / 3 = (250000·.3·4.19 + 100000·.3·14.14/1.5)/3; 5.50 neighbours make it 1.784 times
+    // ω² of evenly spread neighbours is Σ aρV/rc / 3 = (15625·.3·4.19 + 6250·.3·14.14/1.5)/3; 5.50 neighbours make it 1.784 times
     // as large.
-    let found = FLUID.warnings(&[&pairs(r#""repulsion":250000"#, r#""repulsion":100000"#)]);
-    assert!(found.len() == 1 && found[0].contains("`water` at a frequency of about 795"), "{found:?}");
+    let found = FLUID.warnings(&[&pairs(r#""repulsion":15625"#, r#""repulsion":6250"#)]);
+    assert!(found.len() == 1 && found[0].contains("`water` at a frequency of about 198"), "{found:?}");
     let narrow = pairs(r#""cutoff":0.5"#, r#""repulsion":1"#);
     let found = FLUID.warnings(&[&narrow, "space.box=[10,10,4]"]);
     assert!(
@@ -374,6 +374,22 @@ fn friction_far_beyond_the_step_is_refused() {
     // Pairs relax exactly, at any friction, and where neighbours are few nothing else happens.
     FLUID.parse(&[strong]).unwrap();
     FLUID.refused_with(&[strong, "particles.0.count=3000"], &["times over; accepted: at most "]);
+}
+
+/// ω² is aρV/(3rc m) (1 + .75 √(6/ρV))² of particles of mass m that have ρV others within rc.
+#[test]
+fn repulsion_far_beyond_the_step_is_refused() {
+    let (dense, alone) = ("particles.0.count=100000", "particles.1.count=0");
+    let neighbours = 100.0 * 4.0 / 3.0 * std::f64::consts::PI;
+    let frequency = (25.0 * neighbours / 3.0).sqrt() * (1.0 + 0.75 * (6.0 / neighbours).sqrt());
+    let step = |radians: f64| format!("time.step={}", radians / frequency);
+    FLUID.refused_with(
+        &[dense, alone, &step(2.501)],
+        &["crowds of `water` oscillate by 2.501 radians", "accepted: at most 0.03"],
+    );
+    FLUID.parse(&[dense, alone, &step(2.499)]).unwrap();
+    // Of a gas only pairs meet.
+    FLUID.parse(&["time.step=0.3"]).unwrap();
 }
 
 #[test]

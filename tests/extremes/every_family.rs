@@ -496,6 +496,10 @@ fn densities_of_a_hundredth_and_of_a_hundred() {
         };
         expect(&mut problems, kind, &[dilute], Right);
         expect(&mut problems, kind, &dense, Right);
+        if matches!(kind, Splitting | GrootWarren) {
+            let usual = [&dense[..], &["time.step=0.04".to_owned()]].concat();
+            expect(&mut problems, kind, &usual, Refused("oscillate"));
+        }
     }
     settle(&problems);
 }

@@ -288,6 +288,7 @@ impl Physics for Particles {
         if !self.are_coupled {
             stability::check_friction(scene, model, problems);
         }
+        stability::check_repulsion(scene, model, problems);
         if let Some(shear) = &self.shear {
             checks::shear::check_step(scene, model, shear, problems);
         }
