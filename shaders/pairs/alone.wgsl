@@ -11,24 +11,7 @@ fn visit_alone(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
             let me = particle_at(index);
-            pass_end(row, index, me, pass_begin(me));
-        }
-    }
-    pass_finish(group, lane);
-}
-
-// Visits every particle, and notes for reports where it is in the flow of shear. One invocation a particle at a time; SEGMENTS
-// workgroups share a row of cells. The pass decides what is read and written: slot pairs/pass, see pairs/rows.
-@compute @workgroup_size(WORKGROUP)
-fn visit_alone_in_shear(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let row = group / SEGMENTS;
-    if (row < rows()) {
-        let end = row_end(row);
-        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
-        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            let me = particle_at(index);
-            visited_place = fraction_of(me.position);
+            begin_visit(row, me);
             pass_end(row, index, me, pass_begin(me));
         }
     }

@@ -9,13 +9,12 @@
 // and those of particles without their pairs: relax_particles, pull_tethers, forget_forces; sum_densities and observe_densities
 // before the others, if forces depend on local densities. The plan of pairs chooses; no default.
 
-// Slot pairs/row_visits: visits one particle and its pairs. The plan chooses `sheared` if the scene has shear.
-// Default: the cells around that of the particle.
+// Visits one particle and its pairs.
 fn visit_particle_of_row(row: u32, index: u32) {
     let me = particle_at(index);
-    let column = column_of(fraction_of(me.position));
+    begin_visit(row, me);
     prepare_row_hits(row, me);
-    let last_column = column + 2u * frame();
+    let columns = columns_of(me);
     var sums = pass_begin(me);
     var masks: array<u32, WORDS>;
     var bases: array<u32, WORDS>;
@@ -28,9 +27,10 @@ fn visit_particle_of_row(row: u32, index: u32) {
         while (filled < WORDS) {
             if (base >= end) {
                 if (neighbour == neighbour_rows()) { break; }
-                let start = neighbour_row(row, neighbour) * row_width();
-                base = cell_at(start + column);
-                end = cell_at(start + last_column + 1u);
+                let other_row = neighbour_row(row, neighbour);
+                let start = other_row * row_width() + column_towards(row, other_row, columns);
+                base = cell_at(start);
+                end = cell_at(start + 2u * frame() + 1u);
                 neighbour += 1u;
                 continue;
             }

@@ -1,11 +1,11 @@
 //! Boundaries that shear: the same bytes whatever changes that is not physics.
 
-use mesoscope::plan::{Options, Traversal};
+use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
 use rand::SeedableRng as _;
 
-use crate::support::bytes::{self, harvest, same};
-use crate::support::{GROOT_WARREN, MIXTURE, PREDICTED, SPLITTING, STAGED, engine, fluid, start};
+use crate::support::bytes::{self, same};
+use crate::support::{GROOT_WARREN, MIXTURE, PREDICTED, SPLITTING, STAGED, fluid};
 
 const STEPS: u64 = 24;
 const SHEARED: [&str; 4] = [SPLITTING, GROOT_WARREN, PREDICTED, STAGED];
@@ -28,15 +28,8 @@ fn scenes() -> Vec<Scene> {
 fn reruns_batches_orders_and_workgroup_sizes_give_the_same_bytes() {
     let mut random = rand::rngs::StdRng::seed_from_u64(3);
     for scene in scenes().into_iter().step_by(2) {
-        let plain = bytes::run(&scene, Options::default(), STEPS, 8);
+        let plain = bytes::same_in_any_traversal_and_order(&scene, Options::default(), STEPS, &mut random);
         assert_ne!(plain.state.walls[0].momentum(), [0; 3]);
-        for changed in [
-            Options { workgroup_size: Some(32), serial_memory: Some(false), ..Options::default() },
-            Options { traversal: Some(Traversal::Rows), ..Options::default() },
-        ] {
-            assert!(same(&plain, &bytes::run(&scene, changed, STEPS, 5)), "{changed:?}");
-        }
-        assert!(same(&plain, &bytes::shuffled(&scene, Options::default(), STEPS, 8, &mut random)), "storage order");
     }
 }
 
@@ -45,15 +38,7 @@ fn a_resumed_run_goes_on_with_the_same_bytes() {
     const INTERRUPTION: u64 = 5;
     for scene in scenes().into_iter().skip(1).step_by(2) {
         let plain = bytes::run(&scene, Options::default(), STEPS, 8);
-        let (_, state) = start(&scene);
-        let mut first = engine(&scene, &state, Options::default());
-        first.advance(INTERRUPTION, 8).unwrap();
-        let kept = first.state().unwrap();
-        let mut samples = first.finish().unwrap();
-        samples.retain(|sample| sample.step < INTERRUPTION);
-        let mut second = engine(&scene, &kept, Options::default());
-        second.advance(STEPS - INTERRUPTION, 8).unwrap();
-        assert!(same(&plain, &harvest(second, samples)));
+        assert!(same(&plain, &bytes::resumed(&scene, Options::default(), STEPS, INTERRUPTION)));
     }
 }
 

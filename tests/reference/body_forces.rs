@@ -7,8 +7,8 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, before_and_after, engine, largest_difference, observables, predictions_agree,
-    reference_of_particles, same_energies, start, units_of_a_step,
+    Device, INTEGRATORS, Implementation, SideBySide, before_and_after, engine, observables, reference_of_particles,
+    same_energies, start, units_of_a_step,
 };
 
 fn read(document: &Value) -> Scene {
@@ -68,26 +68,13 @@ fn same_account(found: &Observables, expected: &Observables, model: &Model, exac
 fn agree(document: &Value, exact: bool) {
     let scene = read(document);
     let (model, state) = start(&scene);
-    let mut device = engine(&scene, &state, Options::default());
-    let mut reference = reference_of_particles(model.clone(), state);
-    let units = units_of_a_step(false);
-    for step in 1..=4 {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        let (momentum, position) = largest_difference(&found, &expected);
-        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units\n{document:#}");
-        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units\n{document:#}");
-        let [given, known] = [&found, &expected].map(|state| state.account[0].momentum());
+    let mut both = SideBySide::new(scene.clone(), model.clone(), &state, Options::default());
+    both.steps(4, units_of_a_step(false), &format!("{document:#}"), |step, found, expected| {
+        let [given, known] = [found, expected].map(|state| state.account[0].momentum());
         assert!(!exact || given == known, "step {step}: {given:?}, {known:?}\n{document:#}");
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
-    let measured = observables(&mut device, &scene);
-    let expected = reference.observe();
+    });
+    let measured = observables(&mut both.device, &scene);
+    let expected = both.reference.observe();
     // Virials of the reference count what is held.
     if !model.has_fixed_particles() {
         same_energies(&measured, &expected, 0.0, &format!("{document:#}"));

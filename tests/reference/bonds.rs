@@ -8,10 +8,7 @@ use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use serde_json::{Value, json};
 
-use crate::support::{
-    Device, Implementation, Measured, engine, largest_difference, observables, predictions_agree,
-    reference_of_particles, same_energies, start,
-};
+use crate::support::{Device, Implementation, Measured, SideBySide, engine, observables, same_energies, start};
 
 fn read(document: &Value) -> Scene {
     crate::support::scene(&document.to_string())
@@ -45,28 +42,18 @@ const UNITS: i64 = 100;
 pub fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
     let scene = read(document);
     let (model, state) = start(&scene);
-    let mut device = engine(&scene, &state, Options::default());
-    let mut reference = reference_of_particles(model.clone(), state);
-    for step in 1..=4 {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        let (momentum, position) = largest_difference(&found, &expected);
-        let what = format!("step {step}, {} dimensions", scene.space.lengths.len());
-        assert!(momentum <= UNITS * step, "{what}: momenta differ by {momentum} units\n{document:#}");
-        assert!(position <= 4 * UNITS * step, "{what}: positions differ by {position} units\n{document:#}");
+    let mut both = SideBySide::new(scene, model, &state, Options::default());
+    both.steps(4, UNITS, &format!("{document:#}"), |step, found, expected| {
         assert_eq!(found.bond_baths.len(), expected.bond_baths.len());
         for (bond, (a, b)) in found.bond_baths.iter().zip(&expected.bond_baths).enumerate() {
             let [a, b] = [a, b].map(|bits| f32::from_bits(*bits));
-            assert!((a - b).abs() <= 1e-4 * b.abs().max(1.0), "{what}: bath {bond} is {a}, and {b} in the reference");
+            assert!(
+                (a - b).abs() <= 1e-4 * b.abs().max(1.0),
+                "step {step}: bath {bond} is {a}, and {b} in the reference"
+            );
         }
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
-    (device, reference)
+    });
+    (both.device, both.reference)
 }
 
 pub fn agree(document: &Value) {

@@ -7,8 +7,7 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, engine, largest_difference, observables, predictions_agree,
-    reference_of_particles, same_energies, start, traversals, units_of_a_step,
+    Device, INTEGRATORS, Implementation, SideBySide, reference_of_particles, start, traversals, units_of_a_step,
 };
 
 const BOXES: [&[f64]; 2] = [&[9.0, 7.0], &[5.0, 4.0, 4.5]];
@@ -55,29 +54,16 @@ fn mixed() -> Value {
 fn agree(document: &Value, options: Options) {
     let scene = read(document);
     let (model, state) = start(&scene);
-    let mut device = engine(&scene, &state, options);
-    let mut reference = reference_of_particles(model.clone(), state.clone());
+    let mut both = SideBySide::new(scene, model.clone(), &state, options);
     // Some pairs push each other with twenty times the force of the standard fluid, and both densities are rounded too.
     let units = 4 * units_of_a_step(document["interactions"][0]["pairs"].is_array());
-    for step in 1..=3 {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        let (momentum, position) = largest_difference(&found, &expected);
-        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units\n{document:#}");
-        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units\n{document:#}");
+    let what = format!("{document:#}");
+    both.steps(3, units, &what, |step, found, _| {
         assert_eq!(found.exchanged_momentum(), state.exchanged_momentum(), "step {step}\n{document:#}");
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
+    });
     // Of the very same state.
-    let last = device.state().unwrap();
-    let measured = observables(&mut device, &scene);
-    let same = reference_of_particles(model, last).observe();
-    same_energies(&measured, &same, 0.0, &format!("{document:#}"));
+    both.reference = reference_of_particles(model, both.device.state().unwrap());
+    both.energies(&what);
 }
 
 #[test]

@@ -6,8 +6,7 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, engine, largest_difference, observables, predictions_agree,
-    reference_of_particles, same_energies, start, traversals, units_of_a_step,
+    Device, INTEGRATORS, Implementation, SideBySide, reference_of_particles, start, traversals, units_of_a_step,
 };
 
 const BOXES: [&[f64]; 3] = [&[61.0], &[9.0, 7.0], &[5.0, 4.0, 4.5]];
@@ -54,25 +53,11 @@ const THREE_EXPONENTS: [f64; 3] = [1.0, 3.0, 0.5];
 fn agree(document: &Value, options: Options) {
     let scene = read(document);
     let (model, state) = start(&scene);
-    let mut device = engine(&scene, &state, options);
-    let mut reference = reference_of_particles(model.clone(), state);
+    let mut both = SideBySide::new(scene, model, &state, options);
     let powers = document["interactions"][0]["weight_exponent"] != json!(2.0);
-    let units = units_of_a_step(powers);
-    for step in 1..=3 {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        let (momentum, position) = largest_difference(&found, &expected);
-        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units\n{document:#}");
-        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units\n{document:#}");
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
-    let measured = observables(&mut device, &scene);
-    same_energies(&measured, &reference.observe(), 0.0, &format!("{document:#}"));
+    let what = format!("{document:#}");
+    both.steps(3, units_of_a_step(powers), &what, |_, _, _| {});
+    both.energies(&what);
 }
 
 fn is_split(integrator: &str) -> bool {

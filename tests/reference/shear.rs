@@ -7,8 +7,8 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, GROOT_WARREN, Implementation, PREDICTED, SPLITTING, STAGED, engine, largest_difference, observables,
-    predictions_agree, reference_of_particles, same_energies, start, units_of_a_step,
+    Device, GROOT_WARREN, Implementation, PREDICTED, SPLITTING, STAGED, SideBySide, engine, observables,
+    reference_of_particles, start, units_of_a_step,
 };
 
 const SHEARED: [&str; 4] = [SPLITTING, GROOT_WARREN, PREDICTED, STAGED];
@@ -51,31 +51,17 @@ fn agree(document: &Value, options: Options) {
     if document["integrator"]["lambda"].is_number() {
         state.predicted.clone_from(&state.momenta);
     }
-    let mut device = engine(&scene, &state, options);
-    let mut reference = reference_of_particles(model.clone(), state.clone());
-    let units = units_of_a_step(false);
+    let mut both = SideBySide::new(scene, model, &state, options);
     let what = format!("{options:?}\n{document:#}");
     let mut crossed = false;
-    for step in 1..=STEPS {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        assert_eq!(found.step, expected.step);
-        let (momentum, position) = largest_difference(&found, &expected);
-        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units {what}");
-        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units {what}");
+    both.steps(STEPS, units_of_a_step(false), &what, |step, found, expected| {
         assert_eq!(found.exchanged_momentum(), state.total_momentum(), "step {step} {what}");
         assert_eq!(expected.exchanged_momentum(), state.total_momentum(), "step {step} {what}");
         assert_eq!(found.walls, expected.walls, "step {step} {what}");
         crossed |= found.walls[0].momentum()[0] != 0;
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
+    });
     assert!(crossed, "too few crossings to say something {what}");
-    same_energies(&observables(&mut device, &scene), &reference.observe(), 0.0, &what);
+    both.energies(&what);
 }
 
 #[test]

@@ -6,8 +6,7 @@ use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, before_and_after, engine, largest_difference, observables, predictions_agree,
-    reference_of_particles, same_energies, start, units_of_a_step,
+    Device, INTEGRATORS, Implementation, SideBySide, before_and_after, reference_of_particles, start, units_of_a_step,
 };
 
 fn read(document: &Value) -> Scene {
@@ -61,18 +60,11 @@ fn agree(document: &Value) {
     const STEPS: i64 = 5;
     let scene = read(document);
     let (model, state) = start(&scene);
-    let mut device = engine(&scene, &state, Options::default());
-    let mut reference = reference_of_particles(model.clone(), state.clone());
+    let mut both = SideBySide::new(scene.clone(), model.clone(), &state, Options::default());
     let units = units_of_a_step(false);
-    for step in 1..=STEPS {
-        device.advance(1, 1).unwrap();
-        reference.step(1);
-        let found = device.state().unwrap();
-        let expected = reference.state();
-        let (momentum, position) = largest_difference(&found, &expected);
-        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units\n{document:#}");
-        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units\n{document:#}");
-        between_walls(&scene, &found);
+    let what = format!("{document:#}");
+    both.steps(STEPS, units, &what, |step, found, expected| {
+        between_walls(&scene, found);
         assert_eq!(found.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
         assert_eq!(expected.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
         assert_eq!(found.walls.len(), expected.walls.len());
@@ -81,14 +73,8 @@ fn agree(document: &Value) {
                 assert!((a - b).abs() <= units * step * state.len() as i64, "step {step}: {a} {b}\n{document:#}");
             }
         }
-        if !found.predicted.is_empty() {
-            predictions_agree(&found, &expected);
-            reference = reference_of_particles(model.clone(), found);
-        }
-    }
-    let measured = observables(&mut device, &scene);
-    let expected = reference.observe();
-    same_energies(&measured, &expected, 0.0, &format!("{document:#}"));
+    });
+    let [measured, expected] = both.energies(&what);
     let scale = (state.len() as f64 * model.units.momentum) * (units * STEPS) as f64;
     for (a, b) in measured.on_walls.momentum.as_flattened().iter().zip(expected.on_walls.momentum.as_flattened()) {
         assert!((a - b).abs() <= scale, "{a} {b}\n{document:#}");

@@ -1183,8 +1183,9 @@ fn host_structs_lie_as_in_the_shaders() {
 fn no_plan_needs_more_workgroups_than_can_be_folded() {
     for lengths in ["[1000,1000,1000]", "[2,2,1e6]", "[1e6,2,2]", "[1000,1e9]", "[2,2]", "[65536,65536]", "[3,3,3]"] {
         for count in [0_u64, 1, 64 * 65_535 + 1, u64::from(u32::MAX)] {
-            // So little friction that no density is refused.
-            let changes = ["time.steps=1000", "interactions.0.friction=1e-9", &format!("space.box={lengths}")];
+            // So weak forces that no density is refused.
+            let weak = ["interactions.0.friction=1e-9", "interactions.0.repulsion=1e-6"];
+            let changes = ["time.steps=1000", weak[0], weak[1], &format!("space.box={lengths}")];
             let samplers = [
                 r#"output.radial_distribution={"every":10,"range":1}"#,
                 r#"output.diffusion={"every":2,"window":8}"#,

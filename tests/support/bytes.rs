@@ -1,7 +1,7 @@
 //! The bytes of a run: what has to stay the same whatever changes that is not physics.
 
 use mesoscope::engine::{EngineError, Sample, Stepper};
-use mesoscope::plan::Options;
+use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
 use mesoscope::state::State;
 use rand::rngs::StdRng;
@@ -51,6 +51,34 @@ pub fn same_in_every_way(scene: &Scene, steps: u64) -> Bytes {
     let other = Scene { seed: scene.seed + 1, ..scene.clone() };
     assert!(!same(&plain, &run(&other, Options::default(), steps, 8)), "the seed changes nothing");
     plain
+}
+
+/// The bytes of particles in batches of 8 steps, which are the same in others, with other sizes of workgroups, where one particle at a time
+/// finds its neighbours, and with the particles in any order of storage.
+#[track_caller]
+pub fn same_in_any_traversal_and_order(scene: &Scene, options: Options, steps: u64, random: &mut StdRng) -> Bytes {
+    let plain = run(scene, options, steps, 8);
+    for changed in [
+        Options { workgroup_size: Some(32), serial_memory: Some(false), ..options },
+        Options { traversal: Some(Traversal::Rows), ..options },
+    ] {
+        assert!(same(&plain, &run(scene, changed, steps, 5)), "{changed:?}");
+    }
+    assert!(same(&plain, &shuffled(scene, options, steps, 8, random)), "storage order");
+    plain
+}
+
+/// The bytes of a run that is interrupted after some steps: what it has not reported by then is reported by the one that goes on.
+pub fn resumed(scene: &Scene, options: Options, steps: u64, interruption: u64) -> Bytes {
+    let (_, state) = start(scene);
+    let mut first = engine(scene, &state, options);
+    first.advance(interruption, 8).unwrap();
+    let kept = first.state().unwrap();
+    let mut samples = first.finish().unwrap();
+    samples.retain(|sample| sample.step < interruption);
+    let mut second = engine(scene, &kept, options);
+    second.advance(steps - interruption, 8).unwrap();
+    harvest(second, samples)
 }
 
 /// The same with the particles in another order of storage at the start.

@@ -2,11 +2,15 @@
 
 use std::sync::OnceLock;
 
+use mesoscope::engine::Engine;
+use mesoscope::families::Model;
 use mesoscope::measure::Observables;
+use mesoscope::plan::Options;
+use mesoscope::scene::Scene;
 use mesoscope::self_test::{Function, errors_of_functions};
 use mesoscope::state::State;
 
-use super::gpu;
+use super::{Implementation, engine, gpu, observables, reference_of_particles};
 
 /// Pairs of a particle in the standard fluid, or some more.
 const PAIRS: i64 = 25;
@@ -24,6 +28,54 @@ pub fn units_of_a_step(powers: bool) -> i64 {
         power.last_places.ceil() as i64
     };
     PAIRS * (PLACES + if powers { *OF_POWERS.get_or_init(of_powers) } else { 0 })
+}
+
+/// The device and the reference of particles, from one state with the same random words.
+pub struct SideBySide {
+    pub scene: Scene,
+    pub model: Model,
+    pub device: Engine<'static>,
+    pub reference: Box<dyn Implementation>,
+}
+
+impl SideBySide {
+    pub fn new(scene: Scene, model: Model, state: &State, options: Options) -> Self {
+        let device = engine(&scene, state, options);
+        let reference = reference_of_particles(model.clone(), state.clone());
+        Self { scene, model, device, reference }
+    }
+
+    /// Takes steps, after each of which momenta differ by some units a step at most and positions by four times as many, as a unit of
+    /// momentum moves a particle up to four units of position in the boxes of these tests. `also` compares more: it is given the number of
+    /// the step, the device's state and the reference's.
+    #[track_caller]
+    pub fn steps(&mut self, steps: i64, units: i64, what: &str, mut also: impl FnMut(i64, &State, &State)) {
+        for step in 1..=steps {
+            self.device.advance(1, 1).unwrap();
+            self.reference.step(1);
+            let found = self.device.state().unwrap();
+            let expected = self.reference.state();
+            assert_eq!(found.step, expected.step);
+            let (momentum, position) = largest_difference(&found, &expected);
+            assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units {what}");
+            assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units {what}");
+            also(step, &found, &expected);
+            // Shifts of predictions are kept in few bits, and rounded the other way they would grow apart.
+            if !found.predicted.is_empty() {
+                predictions_agree(&found, &expected);
+                self.reference = reference_of_particles(self.model.clone(), found);
+            }
+        }
+    }
+
+    /// That both find the same energies.
+    #[track_caller]
+    pub fn energies(&mut self, what: &str) -> [Observables; 2] {
+        let measured = observables(&mut self.device, &self.scene);
+        let expected = self.reference.observe();
+        same_energies(&measured, &expected, 0.0, what);
+        [measured, expected]
+    }
 }
 
 /// That the predicted momenta of two implementations are the same, but for some whose shift, kept in few bits, lies just

@@ -27,7 +27,8 @@ use mesoscope::scene::{self, Scene};
 use mesoscope::state::State;
 
 pub use comparison::{
-    largest_difference, predictions_agree, same_energies, same_observables, step_in_words, totals, units_of_a_step,
+    SideBySide, largest_difference, predictions_agree, same_energies, same_observables, step_in_words, totals,
+    units_of_a_step,
 };
 pub use implementations::{Device, Implementation, before_and_after, reference_of_particles};
 pub use scenes::{

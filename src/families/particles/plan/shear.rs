@@ -12,7 +12,7 @@ pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
     Choices::new()
         .with(pairs::Advance::Sheared)
         .with(pairs::Separation::Sheared)
-        .with(pairs::RowVisits::Sheared)
+        .with(pairs::Visit::Sheared)
         .with(pairs::ClusterRows::Sheared)
         .with(pairs::ReportedMotion::Peculiar)
         .with(core::Reported::WithWalls)

@@ -387,7 +387,6 @@ impl Builder<'_> {
             Masks::Kept => Some(pairs::Hits::Kept),
         });
         let (entry, lanes) = match traversal {
-            Traversal::Alone if self.is_sheared() => (Entry::VisitAloneInShear, self.workgroup_size()),
             Traversal::Alone => (Entry::VisitAlone, self.workgroup_size()),
             Traversal::Rows => (Entry::VisitRows, self.workgroup_size()),
             Traversal::Clusters => (Entry::VisitClusters, 8),
