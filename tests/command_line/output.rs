@@ -463,9 +463,9 @@ fn steps_of(path: &Path) -> Vec<u64> {
         .collect()
 }
 
-/// Bonds are in the first frame, and stay there when a trajectory is cut back to it; a line is a plane in HOOMD's terms.
+/// Bonds and angles are in the first frame, and stay there when a trajectory is cut back to it; a line is a plane in HOOMD's terms.
 #[test]
-fn gsd_holds_bonds() {
+fn gsd_holds_bonds_and_angles() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::TRAJECTORY_GSD);
     let scene = serde_json::from_value(serde_json::json!({
@@ -474,6 +474,7 @@ fn gsd_holds_bonds() {
         "interactions": [
             {"type": "bonds", "pairs": [[5, 1]]},
             {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 1.0}},
+            {"type": "angles", "stiffness": 1.0},
         ],
     }));
     let scene: Scene = scene.unwrap();
@@ -496,6 +497,11 @@ fn gsd_holds_bonds() {
     let groups: Vec<[u32; 2]> = file.iter_arrays(0, "bonds/group").unwrap().collect();
     assert_eq!(groups, [[5, 1], [0, 1], [1, 2], [3, 4], [4, 5]]);
     assert_eq!(file.iter_arrays::<i8, 64>(0, "bonds/types").unwrap().count(), 2);
+    assert_eq!(file.iter_scalars::<u32>(0, "angles/N").unwrap().collect::<Vec<_>>(), [2]);
+    assert_eq!(file.iter_scalars::<u32>(0, "angles/typeid").unwrap().collect::<Vec<_>>(), [0, 0]);
+    let groups: Vec<[u32; 3]> = file.iter_arrays(0, "angles/group").unwrap().collect();
+    assert_eq!(groups, [[0, 1, 2], [3, 4, 5]]);
+    assert_eq!(file.iter_arrays::<i8, 64>(0, "angles/types").unwrap().count(), 1);
     assert_eq!(file.iter_scalars::<u8>(0, "configuration/dimensions").unwrap().collect::<Vec<_>>(), [2]);
     assert_eq!(file.iter_scalars::<f32>(0, "configuration/box").unwrap().collect::<Vec<_>>()[..3], [50.0, 1.0, 0.0]);
     let positions: Vec<[f32; 3]> = file.iter_arrays(0, "particles/position").unwrap().collect();

@@ -32,7 +32,7 @@ def mean_squared_displacement(way):
 def gsd_frames(case, path):
     import gsd.hoomd
 
-    lengths, dimension = np.array(case["lengths"]), case["dimension"]
+    lengths, gaps, dimension = np.array(case["lengths"]), np.array(case["gaps"]), case["dimension"]
     reach = np.abs(unwrapped(case)).max(initial=0.0) + lengths.max()
     with gsd.hoomd.open(path, "r") as trajectory:
         assert len(trajectory) == len(case["frames"])
@@ -42,13 +42,14 @@ def gsd_frames(case, path):
             assert found.configuration.step == expected["step"]
             assert found.configuration.dimensions == max(dimension, 2)
             assert found.log["time"] == expected["time"]
+            assert (found.bonds.N, found.angles.N) == (case["bonds"], case["angles"])
             assert bytes(found.log["run_id"]).decode() == case["run_id"]
             assert [particles.types[kind] for kind in particles.typeid] == expected["names"]
             size = found.configuration.box[:3].astype(float)
             close(size[:dimension], lengths[:dimension], lengths.max(), "box")
             assert (np.abs(particles.position) <= size / 2 * (1 + 1e-6)).all()
-            # The centre of the box is the origin.
-            middle = np.where(np.arange(3) < dimension, lengths / 2, 0.0)
+            # The centre of the box, or of what is between walls, is the origin.
+            middle = np.where(np.arange(3) < dimension, (lengths - gaps) / 2, 0.0)
             close(particles.position + particles.image * size + middle, expected["unwrapped"], reach, "unwrapped")
             close(particles.velocity, expected["velocities"], np.abs(expected["velocities"]).max(), "velocities")
             close(particles.mass, expected["masses"], max(expected["masses"]), "masses")
@@ -67,6 +68,7 @@ def mdanalysis_universe(case, path):
     assert list(universe.atoms.types) == frames[0]["names"]
     close(universe.atoms.masses, frames[0]["masses"], max(frames[0]["masses"]), "masses")
     assert len(getattr(universe, "bonds", [])) == case["bonds"]
+    assert len(getattr(universe, "angles", [])) == case["angles"]
     for step, frame in zip(universe.trajectory, frames):
         assert step.data["step"] == frame["step"]
     # Its reader of GSD takes positions only; velocities, times and images come from the file by the package `gsd`.
@@ -99,8 +101,8 @@ def ase_frames(case, path):
     for atoms, expected in zip(found, case["frames"]):
         assert atoms.info["Step"] == expected["step"] and atoms.info["Time"] == expected["time"]
         assert atoms.info["run_id"] == case["run_id"]
-        close(atoms.cell.lengths(), lengths, lengths.max(), "cell")
-        assert list(atoms.pbc) == [axis < dimension for axis in range(3)]
+        close(atoms.cell.lengths(), lengths - np.array(case["gaps"]), lengths.max(), "cell")
+        assert list(atoms.pbc) == [axis < dimension and case["gaps"][axis] == 0 for axis in range(3)]
         if "species_name" in atoms.arrays:
             assert list(atoms.arrays["species_name"]) == expected["words"]
             symbols = {}

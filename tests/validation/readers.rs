@@ -23,6 +23,11 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let names = r#"particles=[{"species":"Na","count":30,"mass":2.5},{"species":"a solvent","count":20}]"#;
     let chains = r#"particles=[{"species":"C","count":24,"mass":12,"chain":{"beads":4}},{"species":"H","count":9}]"#;
     let bonds = r#"interactions=[{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},{"type":"langevin","friction":0.1}]"#;
+    let angles = r#"interactions=[{"type":"bonds","potential":{"type":"harmonic","stiffness":9}},
+        {"type":"angles","stiffness":3},{"type":"langevin","friction":0.1}]"#;
+    let channel = r#"space={"box":[4,4,5],"walls":{"z":{"lower_velocity":[-1,0,0]}}}"#;
+    let layers = r#"particles=[{"species":"A","count":240},
+        {"species":"B","number_density":3,"placement":{"type":"behind-walls","axis":"z","thickness":0.9}}]"#;
     let coupled = r#"integrator={"type":"cotter-reich"}"#;
     let tracers = r#"particles=[{"species":"water","count":512,"velocities":{"type":"geostrophic"}},
         {"species":"dye","count":7,"tracer":true,"velocities":{"type":"geostrophic"}}]"#;
@@ -31,6 +36,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("plane", fluid(&["space.box=[4,3]", "temperature=2", trajectory])),
         ("line", fluid(&["space.box=[20]", "temperature=40", chains, bonds, coupled, trajectory])),
         ("chains", fluid(&["space.box=[4,4,4]", "temperature=4", chains, bonds, coupled, trajectory])),
+        ("bent", fluid(&["space.box=[4,4,4]", "temperature=4", chains, angles, coupled, trajectory])),
+        ("layers", fluid(&["temperature=4", channel, layers, trajectory])),
         ("cells", cells(64, &[r#"interactions.0.form="consistent""#, "temperature=4", "time.step=0.05", trajectory])),
         ("water", water(&[tracers, trajectory])),
     ]
@@ -84,6 +91,8 @@ fn write(scene: &Scene, place: &Path) {
         "run_id": id,
         "lengths": model.units.lengths,
         "dimension": model.units.dimension,
+        "gaps": model.units.gaps,
+        "angles": model.particles().angles.as_ref().map_or(0, |angles| angles.count() as usize),
         "bonds": model.particles().bonds.as_ref().map_or(0, |bonds| bonds.count() as usize),
         "frames": frames,
     });

@@ -3,7 +3,7 @@
 //! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
 //! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
 //! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
-//! bonds, the id of the run as the text `log/run_id`) is written in the first frame, from which readers take it for all others.
+//! bonds, angles, the id of the run as the text `log/run_id`) is written in the first frame, from which readers take it for all others.
 
 use super::{Description, Format, Frames};
 use crate::output::extent::Checksum;
@@ -194,15 +194,36 @@ fn write_constants(file: &mut GsdFile, description: &Description, state: &State)
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
     file.write_scalars(RUN, description.run.to_string().into_bytes())?;
-    let bonds = &description.bonds;
-    if bonds.is_empty() {
-        return Ok(());
-    }
-    let kinds = bonds.iter().map(|(_, kind)| kind + 1).max().unwrap_or(0);
-    file.write_scalars("bonds/N", [bonds.len() as u32])?;
-    file.write_arrays("bonds/types", (0..kinds).map(|kind| type_name(&format!("bond {kind}"))))?;
-    file.write_scalars("bonds/typeid", bonds.iter().map(|(_, kind)| *kind))?;
-    file.write_arrays("bonds/group", bonds.iter().map(|(ends, _)| *ends))
+    write_links(file, &BONDS, &description.bonds)?;
+    write_links(file, &ANGLES, &description.angles)
+}
+
+/// The names of the arrays that join particles, and of a type of them.
+struct Links {
+    count: &'static str,
+    types: &'static str,
+    type_ids: &'static str,
+    groups: &'static str,
+    kind: &'static str,
+}
+
+const BONDS: Links =
+    Links { count: "bonds/N", types: "bonds/types", type_ids: "bonds/typeid", groups: "bonds/group", kind: "bond" };
+const ANGLES: Links = Links {
+    count: "angles/N",
+    types: "angles/types",
+    type_ids: "angles/typeid",
+    groups: "angles/group",
+    kind: "angle",
+};
+
+/// Bonds or angles, if there are any.
+fn write_links<const N: usize>(file: &mut GsdFile, names: &Links, links: &[([u32; N], u32)]) -> Result<(), WriteError> {
+    let Some(last) = links.iter().map(|(_, kind)| *kind).max() else { return Ok(()) };
+    file.write_scalars(names.count, [links.len() as u32])?;
+    file.write_arrays(names.types, (0..=last).map(|kind| type_name(&format!("{} {kind}", names.kind))))?;
+    file.write_scalars(names.type_ids, links.iter().map(|(_, kind)| *kind))?;
+    file.write_arrays(names.groups, links.iter().map(|(ends, _)| *ends))
 }
 
 /// The box of the file: that between the walls, or where particles are frozen behind them the whole period, which no position is outside of.
@@ -282,10 +303,14 @@ fn visit(path: &Path, file: &GsdFile, frame: u64, visitor: &mut impl Chunks) -> 
     chunk!(arrays i8, NAME, "particles/types");
     chunk!(scalars u32, "particles/typeid");
     chunk!(scalars u8, RUN);
-    chunk!(scalars u32, "bonds/N");
-    chunk!(arrays i8, NAME, "bonds/types");
-    chunk!(scalars u32, "bonds/typeid");
-    chunk!(arrays u32, 2, "bonds/group");
+    chunk!(scalars u32, BONDS.count);
+    chunk!(arrays i8, NAME, BONDS.types);
+    chunk!(scalars u32, BONDS.type_ids);
+    chunk!(arrays u32, 2, BONDS.groups);
+    chunk!(scalars u32, ANGLES.count);
+    chunk!(arrays i8, NAME, ANGLES.types);
+    chunk!(scalars u32, ANGLES.type_ids);
+    chunk!(arrays u32, 3, ANGLES.groups);
     chunk!(scalars f32, "particles/mass");
     chunk!(scalars u64, "configuration/step");
     chunk!(scalars f64, "log/time");
@@ -486,6 +511,7 @@ mod tests {
             specific_momenta: false,
             changing_masses: false,
             bonds: Vec::new(),
+            angles: Vec::new(),
         };
         assert_eq!(centred(&description, [1 << 31; 3]), ([0.0; 3], [0; 3]));
         assert_eq!(centred(&description, [u32::MAX; 3]), ([-5.0, -0.15, -3.5], [1; 3]));

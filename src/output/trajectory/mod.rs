@@ -5,7 +5,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, Id, OutputError, files};
-use crate::families::{Bonds, Model, Species};
+use crate::families::{Angles, Bonds, Model, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::fmt::Debug;
@@ -105,6 +105,8 @@ struct Description {
     changing_masses: bool,
     /// Numbers of bonded particles and kind of the bond.
     bonds: Vec<([u32; 2], u32)>,
+    /// The same of angles.
+    angles: Vec<([u32; 3], u32)>,
 }
 
 impl Description {
@@ -124,6 +126,14 @@ impl Description {
                 .into_iter()
                 .flat_map(Bonds::iter)
                 .map(|bond| (bond.ends, bond.kind))
+                .collect(),
+            angles: model
+                .particles()
+                .angles
+                .as_ref()
+                .into_iter()
+                .flat_map(Angles::iter)
+                .map(|angle| (angle.ends, angle.kind))
                 .collect(),
         }
     }
