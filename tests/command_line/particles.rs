@@ -246,17 +246,15 @@ fn nothing_is_overwritten_unless_asked() {
 
 #[test]
 fn an_explosion_is_reported_with_its_step() {
-    let place = place()
-        .with("/time/step", json!(1.0))
-        .with("/interactions/0/repulsion", json!(100_000))
-        .with("/output/checkpoint", json!({"every": 10}));
+    let place =
+        place().with("/interactions/0/repulsion", json!(690)).with("/output/checkpoint", json!({"every": 10}));
     let (scene, out) = (place.scene(), place.argument("out"));
     let message = fails(
         &["run", &scene, "--out", &out],
         4,
         &[
             "became unstable at step ",
-            "try a time step of 0.001 or less",
+            "try a time step of 0.007 or less",
             "checkpoint, of step 0",
             "warning: time.step",
         ],

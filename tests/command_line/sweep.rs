@@ -199,18 +199,18 @@ fn mistakes_in_variants_run_nothing() {
 fn an_unstable_variant_does_not_stop_the_others() {
     let place = place();
     let arguments =
-        sweep_into(&place, "out", &["--vary", "interactions.0.repulsion=25,1e7,10", "--jobs", "1", "--relative"]);
+        sweep_into(&place, "out", &["--vary", "interactions.0.repulsion=25,690,10", "--jobs", "1", "--relative"]);
     let message = fails(
         &borrowed(&arguments),
         4,
-        &["1 of 3 variants failed", "`repulsion=10000000.0`: the run became unstable at step ", "try a time step of"],
+        &["1 of 3 variants failed", "`repulsion=690`: the run became unstable at step ", "try a time step of"],
     );
     assert!(message.contains("3 of 3  repulsion=10  finished"), "{message}");
     let summary = summary(&place, "out");
     assert_eq!(states(&summary), [VariantState::Finished, VariantState::Failed, VariantState::Finished]);
     assert!(summary.variants[1].failure.as_ref().unwrap().contains("became unstable"));
     let table = fs::read_to_string(place.path("out/sweep.csv")).unwrap();
-    assert!(table.lines().nth(2).unwrap().starts_with("repulsion=10000000.0,10000000.0,failed,,"), "{table}");
+    assert!(table.lines().nth(2).unwrap().starts_with("repulsion=690,690,failed,,"), "{table}");
     assert_eq!(size(&place.path("out/sweep-total_energy.png")), (640, 480));
     read_table(&place.path("out/repulsion=10/energies.csv")).unwrap();
 }
