@@ -330,10 +330,11 @@ impl<'a> Engine<'a> {
         let first = exchange.is_first();
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
         let followed = self.plan.paths.are_followed().then_some(Paths::BUFFER);
+        let constant = self.plan.layout.constant();
         for (array, words) in arrays.chain(followed).zip(contents.iter().skip(1)) {
             let mut words = words.clone();
             match array {
-                _ if first => {}
+                _ if first || constant.contains(&array) => {}
                 Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
                 _ => words.fill(0),
             }
@@ -468,7 +469,11 @@ impl<'a> Engine<'a> {
 
     /// Particles, with the sums that belong to a state.
     fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
-        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| self.words(array));
+        let (constant, first) = (self.plan.layout.constant(), self.part()?.is_first());
+        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| {
+            // What is the same on all ranks comes from the first.
+            if !first && constant.contains(&array) { Ok(Vec::new()) } else { self.words(array) }
+        });
         let sums = sums.collect::<Result<Vec<_>, _>>()?;
         let crossed = self.plan.paths.are_followed().then(|| self.words(Paths::BUFFER)).transpose()?;
         let crossed = crossed.map(|paths| exchange::crossed(&paths, &particles));
@@ -694,6 +699,9 @@ impl<'a> Engine<'a> {
         let failure = Failure { step, bits: control.failures, place: control.failure_place };
         if failure.is(FailureKind::Frames) {
             return Err(EngineError::Crowded { step });
+        }
+        if failure.is(FailureKind::Reach) {
+            return Err(EngineError::Overreached { step });
         }
         if failure.is(FailureKind::Loops) {
             return Err(EngineError::GaveUp { step, adapter: self.gpu.description().name.clone() });

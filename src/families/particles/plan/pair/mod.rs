@@ -253,7 +253,7 @@ impl Builder<'_> {
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
             .with_if(self.gathers(), couplings::Gathered::Kept)
-            .with_if(self.is_bonded(), couplings::Slots::Kept)
+            .with_if(self.is_bonded() && self.options.part.is_none(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model, self.species.have_table()))
