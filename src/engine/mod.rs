@@ -529,6 +529,25 @@ impl<'a> Engine<'a> {
         self.with_sums(particles)
     }
 
+    /// Takes the samples of the current step that are measured of the particles of all ranks, which are given in the order of their ids.
+    pub(crate) fn measure_gathered(&mut self, particles: &[u32]) -> Result<(), EngineError> {
+        let buffer = self.buffers.get(&Array::Reported).filter(|buffer| buffer.size() == 4 * particles.len() as u64);
+        let Some(buffer) = buffer else {
+            return Err(EngineError::State { reason: "the plan gathers other particles".to_owned() });
+        };
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(particles));
+        let mut recording = Recording::new(self.gpu, "samples of all ranks");
+        for (number, sampler) in self.plan.samplers.iter().enumerate() {
+            if sampler.gathered && sampler.due(self.step) {
+                for &kernel in &sampler.kernels {
+                    recording.dispatch(&self.stages[kernel]);
+                }
+                self.pending_rows[number] += 1;
+            }
+        }
+        self.submit(recording.finish())
+    }
+
     fn report_now(&mut self) -> Result<(), EngineError> {
         let mut recording = Recording::new(self.gpu, "report");
         self.record_sample(&mut recording)?;
@@ -635,8 +654,11 @@ impl<'a> Engine<'a> {
             // Already sorted: the samples of this step have been taken.
             return Ok(());
         }
-        let due: Vec<usize> =
-            (0..self.plan.samplers.len()).filter(|&sampler| self.plan.samplers[sampler].due(self.step)).collect();
+        let here = |&sampler: &usize| {
+            let sampler = &self.plan.samplers[sampler];
+            sampler.due(self.step) && !sampler.gathered
+        };
+        let due: Vec<usize> = (0..self.plan.samplers.len()).filter(here).collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
             self.record_report(recording)?;
         }
@@ -701,6 +723,10 @@ impl<'a> Engine<'a> {
             return Err(EngineError::Crowded { step });
         }
         if failure.is(FailureKind::Reach) {
+            // Who knows the whole box misses nobody.
+            if self.exchange.as_ref().is_some_and(Exchange::knows_all) {
+                return Err(EngineError::Ranks { reason: "particles were lost between ranks".to_owned() });
+            }
             return Err(EngineError::Overreached { step });
         }
         if failure.is(FailureKind::Loops) {

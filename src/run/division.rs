@@ -116,13 +116,9 @@ fn planned(scene: &Scene, model: &Model, division: Division) -> Option<PlannedPa
 /// What of a scene several ranks cannot share.
 fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
     let mut reasons = model.physics().unshared(model);
-    if !reasons.is_empty() {
-        // Its plan may be of another kind altogether.
-        return reasons;
-    }
     let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
     reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
-        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
+        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution | AnalysisId::ChainSizes) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
     }));
     reasons

@@ -122,6 +122,19 @@ fn shipped_scenes_give_the_bytes_of_one_rank() {
     }
 }
 
+/// Chains are measured by the first rank, of the particles of all.
+#[test]
+fn chains_are_measured_as_by_one_rank() {
+    let sizes = r#"output.chain_sizes={"every":4}"#;
+    let radial = r#"output.radial_distribution={"every":6,"range":1.5,"bins":20}"#;
+    for integrator in [SPLITTING, GROOT_WARREN] {
+        let scene = scene(&[integrator, "space.box=[4,4,13]", RINGS, sizes, radial], &[PAIRS, SPRINGS]);
+        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
+        assert!([0, 1, 2].iter().all(|sampler| alone.samples.iter().any(|sample| sample.sampler == *sampler)));
+        assert!(same(&alone, &divided(&scene, [1, 1, 3], 8).0), "{integrator}");
+    }
+}
+
 /// What was saved by one number of ranks goes on with another.
 #[test]
 fn bonded_ranks_continue_from_each_others_states() {

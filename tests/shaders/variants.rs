@@ -61,7 +61,6 @@ pub fn plans() -> &'static [(String, Plan)] {
             fluid_plans,
             long_range_plans,
             shared_plans,
-            shared_bond_plans,
             driven_plans,
             walled_plans,
             sheared_plans,
@@ -74,6 +73,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             many_body_plans,
             relaxed_plans,
             layered_plans,
+            shared_bond_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -295,7 +295,7 @@ fn shared_bond_plans() -> Vec<(String, Plan)> {
         for (number, (bonds, pairs, more)) in [
             (harmonic, pair, unchanged),
             (others, pair, unchanged),
-            (others, dense, unchanged),
+            (harmonic, dense, unchanged),
             (rubbing, pair, unchanged),
             (rubbing, unrubbed, unchanged),
             (rubbing, "", unchanged),
@@ -313,7 +313,9 @@ fn shared_bond_plans() -> Vec<(String, Plan)> {
                 _ => true,
             };
             for (column, integrator) in INTEGRATORS.iter().filter(taken).enumerate() {
-                let changes = [space, *integrator, &interactions, particles[(number + column) % 2], more, unchanged];
+                let sizes = if number == 0 { r#"output.chain_sizes={"every":2}"# } else { unchanged };
+                let changes =
+                    [space, *integrator, &interactions, particles[(number + column) % 2], more, unchanged, sizes];
                 let traversal = [Traversal::Rows, Traversal::Clusters][(row + number + column) % 2];
                 let division = Division { parts: if row == 0 { [1, 2, 1] } else { [1, 1, 2] } };
                 let part = Some(Part { division, rank: 1 });
