@@ -58,6 +58,7 @@ impl Builder<'_> {
             .with(space::Followed::OfRank)
             .with_if(self.is_bonded(), couplings::Slots::OfRank)
             .with_if(self.is_bonded(), bonds::Presence::OfRank)
+            .with_if(self.is_bonded(), couplings::Places::Sorted)
     }
 
     /// Adds the kernels that exchange particles, after which they are counted into cells by `bin`.
