@@ -4,10 +4,13 @@ use super::Channel;
 use super::member::execute;
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
-use crate::plan::Plan;
+use crate::plan::{PARTICLE_WORDS, Plan};
 use crate::state::State;
 use std::collections::BTreeMap;
 use std::time::Duration;
+
+/// Words of a particle.
+const WORDS: usize = PARTICLE_WORDS as usize;
 
 /// What is wrong if not all particles come back.
 const LOST: &str = "particles were lost between ranks";
@@ -126,7 +129,6 @@ impl<'a> Team<'a> {
         if !due || self.measured == Some(step) {
             return Ok(());
         }
-        const WORDS: usize = crate::plan::PARTICLE_WORDS as usize;
         let contents = self.tell(Command::Report, &[])?;
         let mut gathered = vec![u32::MAX; WORDS * self.engine.plan().particles as usize];
         for particle in contents.first().map_or(&[][..], Vec::as_slice).chunks_exact(WORDS) {
@@ -182,7 +184,7 @@ impl<'a> Team<'a> {
             Some((_, layout)) if reported => layout,
             _ => &plan.layout,
         };
-        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(crate::plan::PARTICLE_WORDS) {
+        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(PARTICLE_WORDS) {
             return Err(problem(LOST.to_owned()));
         }
         let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();

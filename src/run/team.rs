@@ -194,7 +194,7 @@ pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> R
                 let roomy = |options: Options, _| options.with_room(model.particle_count());
                 let options = (0..repeated).fold(Options::default(), roomy);
                 let part = Some(Part { division: Division { parts: division }, rank });
-                let options = Options { part, lengthened, ..options };
+                let options = Options { lengthened, part, ..options };
                 take_part((&scene, &model), choice, options, channel.as_mut(), processes.peers()).map_err(lost)?;
             }
         }

@@ -313,8 +313,8 @@ impl Builder<'_> {
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
     /// more it would be one buffer too many, nor beside one where several ranks tell what is stored.
     fn keeps_probes(&self) -> bool {
-        let most = if self.options.part.is_some() { 0 } else { 1 };
-        self.traversal != Traversal::Alone && !self.texels && self.more_buffers() <= most && !self.is_sheared()
+        let beside = self.more_buffers() + u32::from(self.options.part.is_some());
+        self.traversal != Traversal::Alone && !self.texels && beside < 2 && !self.is_sheared()
     }
 
     /// Whether boundaries shear.
