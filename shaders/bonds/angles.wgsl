@@ -18,6 +18,7 @@ fn is_mobile(particle: Particle) -> bool { return angles[species_of(particle)].x
 fn visit_angle(angle: u32) {
     let word = angles[FIRST_ANGLE + angle];
     let ends = vec3<u32>(slots[word.x], slots[word.y], slots[word.z]);
+    if (!are_known(ends)) { return; }
     let stiffness = bitcast<f32>(word.w);
     let first_end = particle_in(ends.x);
     let middle = particle_in(ends.y);

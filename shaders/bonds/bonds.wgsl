@@ -49,6 +49,7 @@ fn visit_bond(bond: u32) {
     let kind = bond_kind(word.z);
     let slot = slots[word.x];
     let other_slot = slots[word.y];
+    if (!are_known(vec3<u32>(slot, other_slot, other_slot))) { return; }
     let ends = Ends(slot, other_slot, particle_in(slot), particle_in(other_slot));
     let contact = contact_of(separation(ends.me.position, ends.other.position));
     let stretch = stretch_of(kind, contact.distance);
@@ -86,7 +87,8 @@ fn bond_noise(bond: u32) -> f32 { return 0.0; }
 // Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = select(0.0, bath, kind.remembers); }
 
-// Slot bonds/bond_report: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup.
+// Slot bonds/bond_report: `note_bond` gets each bond with the impulse of potential and bath, `finish_bonds` ends the workgroup. Of several
+// ranks the owner of the first end counts a bond.
 // Default: off, a step without a report. Plans choose `observed` for reports; of split steps `motion` where the motion is
 // measured, and `configuration` half a drift later; for an analysis of the stress `stress`.
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}

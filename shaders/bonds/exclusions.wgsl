@@ -6,6 +6,8 @@ fn visit_excluded(index: u32) {
     let pair = excluded_pairs[index];
     let slot = slots[pair.x];
     let other_slot = slots[pair.y];
+    // Who is not known is beyond the cutoff.
+    if (!is_known(slot) || !is_known(other_slot)) { return; }
     let me = particle_in(slot);
     let other = particle_in(other_slot);
     let contact = contact_of(separation(me.position, other.position));
@@ -23,6 +25,8 @@ fn visit_excluded(index: u32) {
 fn note_excluded(pair: vec2<u32>, repulsion: Repulsion, contact: Contact) {}
 fn finish_exclusions(group: u32, lane: u32) {}
 
+// Of several ranks the owner of the first particle counts a pair.
+fn is_counted(pair: vec2<u32>) -> bool { return is_own(particle_in(slots[pair.x]).position); }
 fn note_virial_of_excluded(repulsion: Repulsion, contact: Contact) {
     total_add(1u, sum64_of_signed(-repulsion.impulse * contact.distance * PAIR_VIRIAL));
 }

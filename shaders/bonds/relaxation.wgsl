@@ -21,9 +21,11 @@ fn relax_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     let kind = bond_kind(word.z);
     let slot = slots[word.x];
     let other_slot = slots[word.y];
+    if (!are_known(vec3<u32>(slot, other_slot, other_slot))) { return; }
     let me = particle_at(slot);
     let other = particle_at(other_slot);
     let contact = contact_of(separation(me.position, other.position));
+    check_reach(me.position, other.position, contact.distance);
     let inverse_mass = pair_rate(me, other, 1.0, 0.0, 0.0);
     let rate = min(kind.response * inverse_mass, RATE_MOST);
     let lost = rate * relaxed_share(rate); // 1 - c

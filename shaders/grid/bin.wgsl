@@ -83,5 +83,7 @@ fn note_anchor(slot: u32, position: vec4<u32>) {}
 // whose bath has memory.
 fn note_origin(slot: u32, before: u32) {}
 
-// Slot couplings/slots: keeps where a particle is stored or sorted, by id. Default: off. Plans choose `kept` for bonds and angles.
+// Slot couplings/slots: keeps where a particle is stored or sorted, by id, until it is forgotten. Default: off. Plans choose `kept` for bonds
+// and angles, `of_rank` if several ranks share them.
 fn note_slot(id: u32, slot: u32) {}
+fn forget_slot(id: u32) {}

@@ -13,8 +13,12 @@ override ROOM: u32;  // particles that one of them can be sent in a step
 const OWN: u32 = 0u;
 const NEEDED: u32 = 1u;
 const OF_PEERS: u32 = 2u;
+// The last one, where there are bonds: where their ends have to be known.
+fn bonded_domain() -> u32 { return OF_PEERS + PEERS; }
 // The number of a particle that is forgotten.
 const NOBODY: u32 = 0xffffffffu;
+// The slot of a particle that is not known.
+const NOWHERE: u32 = 0xffffffffu;
 
 fn lies_in(domain: u32, position: vec4<u32>) -> bool {
     let width = domains[domain].width;
@@ -39,7 +43,15 @@ fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
         }
         if (lies_in(NEEDED, particle.position)) { return; }
     }
+    forget_slot(particle.position.w);
     var nobody = particle;
     nobody.position.w = NOBODY;
     store_particle(slot, nobody);
+}
+
+// Before the first sort no particle is known to bonds. One invocation a particle; writes `slots`.
+@compute @workgroup_size(WORKGROUP)
+fn forget_slots(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let id = linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (id < arrayLength(&slots)) { slots[id] = NOWHERE; }
 }

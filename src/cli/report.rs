@@ -114,8 +114,8 @@ impl Reporter {
                 }
             }
             Event::Advanced(progress) => self.advanced(&progress),
-            Event::Repeating { from, reason } => {
-                let text = format!("note: {reason}; continuing from step {} with more memory", grouped(from));
+            Event::Repeating { from, reason, with } => {
+                let text = format!("note: {reason}; continuing from step {} with {with}", grouped(from));
                 match &self.bar {
                     Some(bar) => bar.suspend(|| line(&text)),
                     None => line(&text),

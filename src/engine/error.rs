@@ -19,6 +19,12 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
     },
+    /// A bond that reaches beyond what one of several ranks knows around its part.
+    #[error("at step {step} a bond reaches beyond the halo of a rank")]
+    Overreached {
+        /// The first step at which it was seen.
+        step: u64,
+    },
     /// The adapter left a loop before its end, as software adapters do after some 65 000 iterations.
     #[error(
         "the adapter {adapter} gave up at step {step}: too many particles crowd in one place or form one chain; use another \

@@ -95,6 +95,11 @@ impl<'a> Exchange<'a> {
         self.part.part.rank == 0
     }
 
+    /// Whether the rank knows all particles of the box.
+    pub(super) fn knows_all(&self) -> bool {
+        self.part.domains.get(1).is_some_and(Domain::is_whole)
+    }
+
     /// Of particles as they are stored those that the rank needs.
     pub(super) fn needed(&self, particles: &[u32]) -> Vec<u32> {
         let [_, needed, ..] = self.part.domains[..] else { return Vec::new() };

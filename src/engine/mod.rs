@@ -330,10 +330,11 @@ impl<'a> Engine<'a> {
         let first = exchange.is_first();
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
         let followed = self.plan.paths.are_followed().then_some(Paths::BUFFER);
+        let constant = self.plan.layout.constant();
         for (array, words) in arrays.chain(followed).zip(contents.iter().skip(1)) {
             let mut words = words.clone();
             match array {
-                _ if first => {}
+                _ if first || constant.contains(&array) => {}
                 Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
                 _ => words.fill(0),
             }
@@ -468,7 +469,11 @@ impl<'a> Engine<'a> {
 
     /// Particles, with the sums that belong to a state.
     fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
-        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| self.words(array));
+        let (constant, first) = (self.plan.layout.constant(), self.part()?.is_first());
+        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| {
+            // What is the same on all ranks comes from the first.
+            if !first && constant.contains(&array) { Ok(Vec::new()) } else { self.words(array) }
+        });
         let sums = sums.collect::<Result<Vec<_>, _>>()?;
         let crossed = self.plan.paths.are_followed().then(|| self.words(Paths::BUFFER)).transpose()?;
         let crossed = crossed.map(|paths| exchange::crossed(&paths, &particles));
@@ -522,6 +527,25 @@ impl<'a> Engine<'a> {
         let counts = self.words(Array::OutgoingCounts)?;
         let particles = self.part()?.marked_of(&particles, &marks, &counts);
         self.with_sums(particles)
+    }
+
+    /// Takes the samples of the current step that are measured of the particles of all ranks, which are given in the order of their ids.
+    pub(crate) fn measure_gathered(&mut self, particles: &[u32]) -> Result<(), EngineError> {
+        let buffer = self.buffers.get(&Array::Reported).filter(|buffer| buffer.size() == 4 * particles.len() as u64);
+        let Some(buffer) = buffer else {
+            return Err(EngineError::State { reason: "the plan gathers other particles".to_owned() });
+        };
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(particles));
+        let mut recording = Recording::new(self.gpu, "samples of all ranks");
+        for (number, sampler) in self.plan.samplers.iter().enumerate() {
+            if sampler.gathered && sampler.due(self.step) {
+                for &kernel in &sampler.kernels {
+                    recording.dispatch(&self.stages[kernel]);
+                }
+                self.pending_rows[number] += 1;
+            }
+        }
+        self.submit(recording.finish())
     }
 
     fn report_now(&mut self) -> Result<(), EngineError> {
@@ -630,8 +654,11 @@ impl<'a> Engine<'a> {
             // Already sorted: the samples of this step have been taken.
             return Ok(());
         }
-        let due: Vec<usize> =
-            (0..self.plan.samplers.len()).filter(|&sampler| self.plan.samplers[sampler].due(self.step)).collect();
+        let here = |&sampler: &usize| {
+            let sampler = &self.plan.samplers[sampler];
+            sampler.due(self.step) && !sampler.gathered
+        };
+        let due: Vec<usize> = (0..self.plan.samplers.len()).filter(here).collect();
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
             self.record_report(recording)?;
         }
@@ -694,6 +721,13 @@ impl<'a> Engine<'a> {
         let failure = Failure { step, bits: control.failures, place: control.failure_place };
         if failure.is(FailureKind::Frames) {
             return Err(EngineError::Crowded { step });
+        }
+        if failure.is(FailureKind::Reach) {
+            // Who knows the whole box misses nobody.
+            if self.exchange.as_ref().is_some_and(Exchange::knows_all) {
+                return Err(EngineError::Ranks { reason: "particles were lost between ranks".to_owned() });
+            }
+            return Err(EngineError::Overreached { step });
         }
         if failure.is(FailureKind::Loops) {
             return Err(EngineError::GaveUp { step, adapter: self.gpu.description().name.clone() });

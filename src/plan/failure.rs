@@ -23,11 +23,13 @@ pub enum FailureKind {
     Energy,
     /// The adapter left a loop before its end.
     Loops,
+    /// A bond reaches beyond what a rank knows around its part.
+    Reach,
 }
 
 impl FailureKind {
     /// All of them, in the order of their bits.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Impulse,
         Self::Momentum,
         Self::Displacement,
@@ -38,6 +40,7 @@ impl FailureKind {
         Self::Mass,
         Self::Energy,
         Self::Loops,
+        Self::Reach,
     ];
 
     /// The constant of the shaders.
@@ -54,6 +57,7 @@ impl FailureKind {
             Self::Mass => "FAILURE_MASS",
             Self::Energy => "FAILURE_ENERGY",
             Self::Loops => "FAILURE_LOOPS",
+            Self::Reach => "FAILURE_REACH",
         }
     }
 

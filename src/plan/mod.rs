@@ -27,6 +27,7 @@ pub(crate) use kernel::{deviate, folded, words};
 pub use layout::{Layout, Length, Misfit, StateLayout};
 pub(crate) use layout::{Places, content};
 pub use options::{Hardware, Options, Storage, Traversal};
+pub(crate) use part::Halo;
 pub use part::{Division, Domain, Part, PlannedPart};
 pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};

@@ -49,6 +49,8 @@ pub struct Options {
     pub listed: bool,
     /// How often the capacity of the list for the pairs of a particle has been doubled.
     pub list_growth: u32,
+    /// How often the length that bonds may have among several ranks has been raised by half.
+    pub lengthened: u32,
     /// The most pairs that one dispatch examines for a radial distribution function; about a second's work if `None`.
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
@@ -81,6 +83,18 @@ impl Options {
             list_growth: self.list_growth.saturating_add(1),
             ..self
         }
+    }
+
+    /// Whether longer bonds may be expected.
+    #[must_use]
+    pub fn may_lengthen(&self) -> bool {
+        self.part.is_some() && self.lengthened < 31
+    }
+
+    /// The same choices with bonds that are half as long again.
+    #[must_use]
+    pub fn with_longer_bonds(self) -> Self {
+        Self { lengthened: self.lengthened.saturating_add(1), ..self }
     }
 
     /// Whether kernels are adapted to lanes that run one after the other.

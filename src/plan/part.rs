@@ -60,13 +60,16 @@ impl Division {
         domain
     }
 
-    /// The ranks around a rank, each once and without it.
+    /// The ranks around a rank with anything nearer to its part than a distance, each once and without it.
     #[must_use]
-    pub fn peers(&self, rank: u32) -> Vec<u32> {
+    pub fn peers(&self, rank: u32, units: &Units, distance: f64) -> Vec<u32> {
         let place = self.place(rank);
         let along = |axis: usize| {
             let (parts, here) = (self.parts[axis], place[axis]);
-            [(here + parts - 1) % parts, here, (here + 1) % parts]
+            let width = units.lengths[axis] / f64::from(parts);
+            // The part next to it begins where it ends.
+            let off = ((distance * MARGIN / width).floor().min(f64::from(parts)) as u32 + 1).min(parts / 2);
+            (parts - off..=parts + off).map(move |part| (here + part) % parts)
         };
         let mut peers: Vec<u32> = Vec::new();
         for z in along(2) {
@@ -119,6 +122,12 @@ impl Domain {
         self
     }
 
+    /// Whether it is the whole box.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.width == [0; 4]
+    }
+
     /// Whether a position lies in it.
     #[must_use]
     pub fn contains(&self, position: [u32; 3]) -> bool {
@@ -150,12 +159,15 @@ pub struct Part {
 pub struct PlannedPart {
     /// The rank and the division.
     pub part: Part,
-    /// Its own domain, the same with its halo, and those of its peers with their halos.
+    /// Its own domain, the same with its halo, and those of its peers with their halos; where there are bonds, then the domain within
+    /// which all of their ends have to be known.
     pub domains: Vec<Domain>,
     /// The ranks that it exchanges particles with, in the order of their domains.
     pub peers: Vec<u32>,
     /// Width of the halo.
     pub halo: f64,
+    /// Width that it has for all but bonds, which may reach as far as they like: a part has to be wider.
+    pub close: f64,
     /// Particles that it can store.
     pub slots: u64,
     /// Particles that it can send to a peer in a step.
@@ -164,14 +176,28 @@ pub struct PlannedPart {
     pub exchange: usize,
 }
 
+/// How far around a domain particles have to be known for those within it to be advanced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Halo {
+    /// For pairs, and whatever else ends within the cutoff.
+    pub close: f64,
+    /// For everything.
+    pub width: f64,
+    /// As far around the domain as bonds have to be complete, if there are any.
+    pub bonded: Option<f64>,
+}
+
 impl Part {
-    /// Plans it for a number of particles, all over the box; `growth` doublings more are expected in one place.
-    pub(crate) fn plan(self, units: &Units, halo: f64, particles: u64, growth: u32) -> PlannedPart {
+    /// Plans it for a number of particles, all over the box, none of which goes further in a step than `reach`; `growth` doublings more are
+    /// expected in one place.
+    pub(crate) fn plan(self, units: &Units, halo: Halo, reach: f64, particles: u64, growth: u32) -> PlannedPart {
         let Self { division, rank } = self;
+        let Halo { close, width: halo, bonded } = halo;
         let own = division.domain(rank);
-        let peers = division.peers(rank);
+        let peers = division.peers(rank, units, halo + reach);
         let needed = own.with_halo(units, halo);
         let of_peers = peers.iter().map(|peer| division.domain(*peer).with_halo(units, halo));
+        let of_bonds = bonded.map(|bonded| own.with_halo(units, bonded));
         // A fifth more than on average, and some; all of them at most.
         let expected = |share: f64| {
             let some = (1.2 * share * particles as f64) as u64 + 1024;
@@ -184,9 +210,10 @@ impl Part {
         let room = expected(ghosts.min(own.share()));
         PlannedPart {
             part: self,
-            domains: [own, needed].into_iter().chain(of_peers).collect(),
+            domains: [own, needed].into_iter().chain(of_peers).chain(of_bonds).collect(),
             peers,
             halo,
+            close,
             slots,
             room,
             exchange: 0,
@@ -238,11 +265,13 @@ mod tests {
     /// need it then.
     #[test]
     fn halos_hold_what_is_near_and_peers_are_all_that_need_it() {
-        let (halo, reach) = (1.0, 1.0);
+        let (close, reach) = (1.0, 1.0);
         let mut random = StdRng::seed_from_u64(6);
-        for parts in [[1, 1, 2], [1, 1, 3], [1, 5, 1], [2, 2, 2], [4, 5, 3]] {
+        let divisions = [[1, 1, 2], [1, 1, 3], [1, 5, 1], [2, 2, 2], [4, 5, 3]];
+        // Where bonds reach beyond the next part, or round the box, more ranks are peers.
+        for (parts, halo) in divisions.into_iter().flat_map(|parts| [close, 1.7, 3.0, 9.0].map(|halo| (parts, halo))) {
             let division = Division { parts };
-            assert!(division.suits(&UNITS, halo, reach), "{parts:?}");
+            assert!(division.suits(&UNITS, close, reach), "{parts:?}");
             let needed = |rank: u32| division.domain(rank).with_halo(&UNITS, halo);
             for position in positions(&division) {
                 let mut away = |distance: f64| -> [u32; 3] {
@@ -255,13 +284,14 @@ mod tests {
                 assert!(needed(owner).contains(away(halo)));
                 let moved = away(reach);
                 for rank in (0..division.ranks()).filter(|rank| *rank != owner && needed(*rank).contains(moved)) {
-                    assert!(division.peers(owner).contains(&rank), "{parts:?}: {owner} to {rank}");
+                    let peers = division.peers(owner, &UNITS, halo + reach);
+                    assert!(peers.contains(&rank), "{parts:?}: {owner} to {rank}");
                 }
             }
         }
         // Too thin for that, or as wide as the box with their halos.
-        assert!(!Division { parts: [1, 1, 4] }.suits(&UNITS, halo, reach));
+        assert!(!Division { parts: [1, 1, 4] }.suits(&UNITS, close, reach));
         assert!(!Division { parts: [1, 1, 2] }.suits(&UNITS, 2.0, reach));
-        assert_eq!(Division::most_parts(&UNITS, halo, reach, 2), 3);
+        assert_eq!(Division::most_parts(&UNITS, close, reach, 2), 3);
     }
 }

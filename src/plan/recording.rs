@@ -30,6 +30,7 @@ impl Plan {
             quantities: quantities as usize,
             capacity: SAMPLE_ROWS,
             needs_report: true,
+            gathered: false,
             window: None,
         });
         self.add_buffer(Array::PartialSums, 8 * quantities * groups);

@@ -42,6 +42,8 @@ pub struct Sampler {
     pub capacity: u64,
     /// Whether the kernels read the particles that the report leaves in the order of their ids.
     pub needs_report: bool,
+    /// Whether they read those of all ranks, which the first gathers.
+    pub gathered: bool,
     /// What stays on the device from one sample to the next, if anything.
     pub window: Option<Window>,
 }
@@ -60,6 +62,16 @@ impl Sampler {
     #[must_use]
     pub fn due(&self, step: u64) -> bool {
         step >= self.first && (step - self.first).is_multiple_of(self.every)
+    }
+
+    /// The next step after one with a sample.
+    #[must_use]
+    pub fn next_after(&self, step: u64) -> u64 {
+        if step < self.first {
+            return self.first;
+        }
+        let every = self.every.max(1);
+        self.first.saturating_add(((step - self.first) / every + 1).saturating_mul(every))
     }
 
     /// Number of samples before a step.

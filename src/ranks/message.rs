@@ -52,6 +52,8 @@ pub(super) enum Problem {
     Unstable { step: u64, bits: u32, place: u32 },
     /// Too many particles in one place.
     Crowded { step: u64 },
+    /// A bond reaches beyond the halo.
+    Overreached { step: u64 },
     /// The adapter left a loop.
     GaveUp { step: u64, adapter: String },
     /// Another rank is lost: whatever ended that is the cause.
@@ -67,6 +69,7 @@ impl Problem {
                 Self::Unstable { step: *step, bits: *bits, place: *place }
             }
             EngineError::Crowded { step } => Self::Crowded { step: *step },
+            EngineError::Overreached { step } => Self::Overreached { step: *step },
             EngineError::GaveUp { step, adapter } => Self::GaveUp { step: *step, adapter: adapter.clone() },
             EngineError::Ranks { reason } => Self::Alone { reason: reason.clone() },
             error => Self::Other { reason: error.to_string() },
@@ -81,7 +84,10 @@ impl Problem {
             return Some(EngineError::Ranks { reason: format!("rank {rank}: {reason}") });
         }
         let step = |problem: &Self| match problem {
-            Self::Unstable { step, .. } | Self::Crowded { step } | Self::GaveUp { step, .. } => Some(*step),
+            Self::Unstable { step, .. }
+            | Self::Crowded { step }
+            | Self::Overreached { step }
+            | Self::GaveUp { step, .. } => Some(*step),
             _ => None,
         };
         let Some(first) = problems.iter().filter_map(|(_, problem)| step(problem)).min() else {
@@ -93,6 +99,7 @@ impl Problem {
         for (_, problem) in problems.iter().filter(|(_, problem)| step(problem) == Some(first)) {
             match problem {
                 Self::Crowded { step } => return Some(EngineError::Crowded { step: *step }),
+                Self::Overreached { step } => return Some(EngineError::Overreached { step: *step }),
                 Self::GaveUp { step, adapter } => {
                     return Some(EngineError::GaveUp { step: *step, adapter: adapter.clone() });
                 }
@@ -196,6 +203,8 @@ mod tests {
         let lost = Problem::Other { reason: "the adapter is lost".to_owned() };
         assert!(told(&[unstable(7, 1, 9), unstable(5, 2, 4), unstable(9, 4, 1)]).ends_with("at step 5"));
         assert!(told(&[unstable(5, 1, 9), Problem::Crowded { step: 5 }]).contains("capacity"));
+        assert!(told(&[unstable(5, 1, 9), Problem::Overreached { step: 5 }]).contains("bond"));
+        assert!(told(&[unstable(4, 1, 9), Problem::Overreached { step: 5 }]).ends_with("at step 4"));
         assert_eq!(told(&[alone.clone(), lost]), "rank 1: the adapter is lost");
         assert_eq!(told(&[alone]), "rank 0: rank 2 has ended");
         assert!(Problem::first(&[]).is_none());

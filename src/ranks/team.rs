@@ -4,10 +4,16 @@ use super::Channel;
 use super::member::execute;
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
-use crate::plan::Plan;
+use crate::plan::{PARTICLE_WORDS, Plan};
 use crate::state::State;
 use std::collections::BTreeMap;
 use std::time::Duration;
+
+/// Words of a particle.
+const WORDS: usize = PARTICLE_WORDS as usize;
+
+/// What is wrong if not all particles come back.
+const LOST: &str = "particles were lost between ranks";
 
 /// Several ranks that advance one state.
 pub struct Team<'a> {
@@ -19,6 +25,8 @@ pub struct Team<'a> {
     traffic: Vec<Traffic>,
     introductions: Vec<Introduction>,
     species: Vec<u32>,
+    /// The step whose particles have been gathered and measured.
+    measured: Option<u64>,
 }
 
 impl<'a> Team<'a> {
@@ -42,6 +50,7 @@ impl<'a> Team<'a> {
             traffic: vec![Traffic::default(); count],
             introductions: vec![introduction; count],
             species: Vec::new(),
+            measured: None,
         };
         team.upload(state)?;
         if !mixed && !team.computes_alike() {
@@ -59,6 +68,7 @@ impl<'a> Team<'a> {
         self.species.clone_from(&state.species);
         self.incomplete.clear();
         self.collected.clear();
+        self.measured = None;
         self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
     }
 
@@ -112,9 +122,35 @@ impl<'a> Team<'a> {
         Problem::first(&problems).map_or(Ok(given), Err)
     }
 
+    /// Gathers the particles of all ranks and measures them, if a sample of them is due and has not been taken.
+    fn measure(&mut self) -> Result<(), EngineError> {
+        let step = self.engine.step();
+        let due = self.engine.plan().samplers.iter().any(|sampler| sampler.gathered && sampler.due(step));
+        if !due || self.measured == Some(step) {
+            return Ok(());
+        }
+        let contents = self.tell(Command::Report, &[])?;
+        let mut gathered = vec![u32::MAX; WORDS * self.engine.plan().particles as usize];
+        for particle in contents.first().map_or(&[][..], Vec::as_slice).chunks_exact(WORDS) {
+            if let Some(place) = gathered.chunks_exact_mut(WORDS).nth(particle[3] as usize) {
+                place.copy_from_slice(particle);
+            }
+        }
+        if (0..).zip(gathered.chunks_exact(WORDS)).any(|(id, particle): (u32, _)| particle[3] != id) {
+            return Err(EngineError::Ranks { reason: LOST.to_owned() });
+        }
+        self.measured = Some(step);
+        self.engine.measure_gathered(&gathered)
+    }
+
+    /// How many ranks add to a row of a sampler.
+    fn adding(&self, sampler: usize) -> u32 {
+        let gathered = self.engine.plan().samplers.get(sampler).is_some_and(|sampler| sampler.gathered);
+        if gathered { 1 } else { self.channel.count() }
+    }
+
     /// Adds the sums of a rank to those of the others.
     fn add(&mut self, rank: usize, answer: Answer) {
-        let count = self.channel.count();
         let [exchanges, bytes, copies, waiting] = answer.exchanged;
         if let Some(traffic) = self.traffic.get_mut(rank) {
             *traffic = Traffic { exchanges, bytes, copies, waiting: Duration::from_nanos(waiting) };
@@ -129,9 +165,13 @@ impl<'a> Team<'a> {
                 *total = total.wrapping_add(sum);
             }
         }
-        while let Some(entry) = self.incomplete.first_entry().filter(|entry| entry.get().0 == count) {
-            let ((step, sampler), (_, sums)) = entry.remove_entry();
-            self.collected.push(Sample { sampler, step, sums });
+        while let Some((&(step, sampler), (added, _))) = self.incomplete.first_key_value() {
+            if *added != self.adding(sampler) {
+                break;
+            }
+            if let Some((_, (_, sums))) = self.incomplete.pop_first() {
+                self.collected.push(Sample { sampler, step, sums });
+            }
         }
     }
 
@@ -144,8 +184,8 @@ impl<'a> Team<'a> {
             Some((_, layout)) if reported => layout,
             _ => &plan.layout,
         };
-        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(crate::plan::PARTICLE_WORDS) {
-            return Err(problem("particles were lost between ranks".to_owned()));
+        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(PARTICLE_WORDS) {
+            return Err(problem(LOST.to_owned()));
         }
         let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
         let mut state = layout.unpack(self.engine.step(), &contents, count).map_err(problem)?;
@@ -176,10 +216,21 @@ impl Stepper for Team<'_> {
     }
 
     fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
-        self.tell(Command::Advance { steps, batch }, &[]).map(|_| ())
+        let Some(last) = self.step().checked_add(steps) else {
+            // Which every rank refuses.
+            return self.tell(Command::Advance { steps, batch }, &[]).map(|_| ());
+        };
+        while self.step() < last {
+            self.measure()?;
+            let samplers = self.plan().samplers.iter().filter(|sampler| sampler.gathered);
+            let next = samplers.map(|sampler| sampler.next_after(self.step())).fold(last, u64::min);
+            self.tell(Command::Advance { steps: next - self.step(), batch }, &[])?;
+        }
+        Ok(())
     }
 
     fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
+        self.measure()?;
         self.tell(Command::Finish, &[])?;
         Ok(self.take_samples())
     }

@@ -4,7 +4,7 @@ use super::RunError;
 use super::plan::plan;
 use crate::families::Model;
 use crate::numbers::grouped;
-use crate::plan::{Division, Hardware, Options, PARTICLE_WORDS, Part, SamplerId};
+use crate::plan::{Division, Hardware, Options, PARTICLE_WORDS, Part, PlannedPart, SamplerId};
 use crate::scene::{AnalysisId, Scene};
 
 /// The most ranks that are looked for.
@@ -43,7 +43,7 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
         return refuse(reasons);
     }
     let dimension = model.units.dimension;
-    let halo = halo(scene, model);
+    let (with_bonds, halo) = halo(scene, model);
     let reach = model.physics().reach(model);
     let most = most_parts(model, halo);
     let width = |parts: &[u32; 3]| {
@@ -70,7 +70,7 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
                     .into_iter()
                     .filter(|parts| (0..3).all(|axis| parts[axis] <= most[axis]));
                 fit.map(|parts| Division { parts }).min_by(|a, b| {
-                    let copies = |division: &Division| division.domain(0).with_halo(&model.units, halo).share();
+                    let copies = |division: &Division| division.domain(0).with_halo(&model.units, with_bonds).share();
                     copies(a).total_cmp(&copies(b))
                 })
             };
@@ -102,24 +102,23 @@ fn most_parts(model: &Model, halo: f64) -> [u32; 3] {
     most
 }
 
-/// How far around its part a rank knows the particles.
-fn halo(scene: &Scene, model: &Model) -> f64 {
-    let part = Some(Part { division: Division { parts: [1; 3] }, rank: 0 });
-    let options = Options { part, ..Options::default() };
-    let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options);
-    plan.part.map_or(0.0, |part| part.halo)
+/// How far around its part a rank knows the particles, and how far it would without bonds.
+fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
+    planned(scene, model, Division { parts: [1; 3] }).map_or((0.0, 0.0), |part| (part.halo, part.close))
+}
+
+/// The part of the first rank of a division.
+fn planned(scene: &Scene, model: &Model, division: Division) -> Option<PlannedPart> {
+    let options = Options { part: Some(Part { division, rank: 0 }), ..Options::default() };
+    plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options).part
 }
 
 /// What of a scene several ranks cannot share.
 fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
     let mut reasons = model.physics().unshared(model);
-    if !reasons.is_empty() {
-        // Its plan may be of another kind altogether.
-        return reasons;
-    }
     let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
     reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
-        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
+        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution | AnalysisId::ChainSizes) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
     }));
     reasons
@@ -176,7 +175,9 @@ pub struct Share {
 /// ```
 #[must_use]
 pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
-    let (units, halo) = (&model.units, halo(scene, model));
+    let units = &model.units;
+    let (halo, close, peers) =
+        planned(scene, model, division).map_or((0.0, 0.0, 0), |part| (part.halo, part.close, part.peers.len()));
     let particles = model.particle_count() as f64;
     let own = division.domain(0);
     let copies = (own.with_halo(units, halo).share() - own.share()) * particles;
@@ -185,8 +186,8 @@ pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
         halo,
         own: own.share() * particles,
         copies,
-        peers: division.peers(0).len(),
+        peers,
         bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies,
-        most: most_parts(model, halo).into_iter().product(),
+        most: most_parts(model, close).into_iter().product(),
     }
 }

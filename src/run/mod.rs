@@ -93,12 +93,14 @@ pub enum Event<'a> {
     },
     /// The device has come further.
     Advanced(Progress),
-    /// The run goes back to an earlier step, to repeat the steps since with more memory; results are the same.
+    /// The run goes back to an earlier step, to repeat the steps since with more memory or wider halos; results are the same.
     Repeating {
         /// The step it continues from.
         from: u64,
         /// Why.
         reason: &'a str,
+        /// With what.
+        with: &'a str,
     },
     /// All steps are done; tables and pictures follow.
     Finishing,

@@ -235,12 +235,21 @@ impl Simulation {
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes, mixed), options, &start);
             match opened.and_then(|mut engine| attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)) {
-                Err(RunError::Engine(EngineError::Crowded { .. })) if options.has_room_left() => {
+                Err(RunError::Engine(error)) => {
+                    let particles = task.model.particle_count();
+                    let (reason, with);
                     // Too rare for every run to pay for it in memory or time.
-                    options = options.with_room(task.model.particle_count());
+                    (options, reason, with) = match error {
+                        EngineError::Crowded { .. } if options.has_room_left() => {
+                            (options.with_room(particles), task.model.physics().crowd(), "more memory")
+                        }
+                        EngineError::Overreached { .. } if options.may_lengthen() => {
+                            (options.with_longer_bonds(), "a bond is longer than expected", "wider halos")
+                        }
+                        error => return Err(error.into()),
+                    };
                     start = task.last_checkpoint(start)?;
-                    let reason = task.model.physics().crowd();
-                    observer(Event::Repeating { from: start.state.step, reason });
+                    observer(Event::Repeating { from: start.state.step, reason, with });
                     (gpu, plan) = open_adapter(&task.scene, &task.model, choice, options)?;
                 }
                 ended => return ended,

@@ -70,7 +70,7 @@ pub fn team<'a>(
 /// Refuses parts that are too thin for what their ranks have to know of each other.
 fn check_widths(model: &Model, plan: &Plan) -> Result<(), RunError> {
     let reach = model.physics().reach(model);
-    let suits = |part: &PlannedPart| part.part.division.suits(&model.units, part.halo, reach);
+    let suits = |part: &PlannedPart| part.part.division.suits(&model.units, part.close, reach);
     if plan.part.as_ref().is_some_and(suits) {
         return Ok(());
     }
@@ -132,6 +132,8 @@ enum Call {
         division: [u32; 3],
         /// How often it has been repeated with more room.
         repeated: u32,
+        /// How often with longer bonds.
+        lengthened: u32,
     },
     /// To end.
     End,
@@ -159,10 +161,8 @@ pub(super) fn team_of_processes<'a>(
 ) -> Result<Team<'a>, RunError> {
     let version = VERSION.to_owned();
     let scene_told = Box::new(scene.clone());
-    call(
-        processes,
-        &Call::Share { version, scene: scene_told, division: division.parts, repeated: options.list_growth },
-    )?;
+    let (repeated, lengthened) = (options.list_growth, options.lengthened);
+    call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated, lengthened })?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
     Ok(Team::new(engine, introduction(gpu, scene)?, processes.channel(), state, mixed)?)
@@ -189,12 +189,12 @@ pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> R
             Call::Share { version, .. } if version != VERSION => {
                 decline(channel.as_mut(), format!("is of version {VERSION}, the first of {version}")).map_err(lost)?;
             }
-            Call::Share { scene, division, repeated, .. } => {
+            Call::Share { scene, division, repeated, lengthened, .. } => {
                 let model = Model::new(&scene);
                 let roomy = |options: Options, _| options.with_room(model.particle_count());
                 let options = (0..repeated).fold(Options::default(), roomy);
                 let part = Some(Part { division: Division { parts: division }, rank });
-                let options = Options { part, ..options };
+                let options = Options { lengthened, part, ..options };
                 take_part((&scene, &model), choice, options, channel.as_mut(), processes.peers()).map_err(lost)?;
             }
         }

@@ -12,6 +12,7 @@ mod manifest;
 mod molecules;
 mod output;
 mod particles;
+mod ranks;
 mod schema;
 mod shallow_water;
 mod shards;

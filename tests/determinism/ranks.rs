@@ -12,11 +12,11 @@ use crate::support::{
     COTTER_REICH, GROOT_WARREN, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, STAGED, adapter, fluid, gpu, start,
 };
 
-const STEPS: u64 = 30;
-const EVERY_THIRD: &str = "output.energies.every=3";
+pub const STEPS: u64 = 30;
+pub const EVERY_THIRD: &str = "output.energies.every=3";
 const GAUSSIAN: &str = "noise.distribution=gaussian";
 
-const FOLLOWED: &str = r#"output.trajectory={"every":10}"#;
+pub const FOLLOWED: &str = r#"output.trajectory={"every":10}"#;
 const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
 const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
@@ -52,7 +52,7 @@ fn scene(changes: &[&str]) -> Scene {
     fluid(&[&["time.steps=1000", EVERY_THIRD], changes].concat())
 }
 
-fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
+pub fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
     let (model, _) = start(scene);
     run::team((scene, &model), gpu(), &adapter(), (division, false), options, state).expect("ranks")
 }

@@ -73,6 +73,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             many_body_plans,
             relaxed_plans,
             layered_plans,
+            shared_bond_plans,
         ];
         thread::scope(|scope| {
             let kinds = kinds.map(|plans| scope.spawn(plans));
@@ -258,6 +259,63 @@ fn shared_plans() -> Vec<(String, Plan)> {
                 let followed = r#"output.trajectory={"every":5}"#;
                 let followed = if number == 5 { "time.steps=1000" } else { followed };
                 let changes = [&["time.steps=1000", space, *integrator, radial, followed], *kind].concat();
+                let traversal = [Traversal::Rows, Traversal::Clusters][(row + number + column) % 2];
+                let division = Division { parts: if row == 0 { [1, 2, 1] } else { [1, 1, 2] } };
+                let part = Some(Part { division, rank: 1 });
+                let options = Options { traversal: Some(traversal), part, ..Options::default() };
+                plans.extend(plans_of(
+                    &format!("{} {traversal:?} shared", changes.join(" ")),
+                    &fluid(&changes),
+                    options,
+                ));
+            }
+        }
+    }
+    plans
+}
+
+/// The same with bonds, angles, tethers and friction along bonds.
+fn shared_bond_plans() -> Vec<(String, Plan)> {
+    let harmonic = r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":50,"length":0.6}}"#;
+    let others = r#"{"type":"bonds","potential":{"type":"fene","stiffness":9,"extent":2},"exclude_repulsion":true},
+        {"type":"angles","stiffness":2}"#;
+    let rubbing = r#"{"type":"bonds","friction":2},{"type":"tether","stiffness":3}"#;
+    let pair = r#"{"type":"dpd","repulsion":25,"friction":4.5}"#;
+    let unrubbed = r#"{"type":"dpd","repulsion":25}"#;
+    let dense = r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#;
+    let walled = r#"space.walls={"x":{}}"#;
+    let sheared = r#"space.shear={"rate":0.5,"gradient":"y"}"#;
+    let unchanged = "time.steps=1000";
+    let particles = [
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":4}}]"#,
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":4}},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let mut plans = Vec::new();
+    for (row, space) in ["space.box=[9,22]", "space.box=[7,8,25]"].into_iter().enumerate() {
+        for (number, (bonds, pairs, more)) in [
+            (harmonic, pair, unchanged),
+            (others, pair, unchanged),
+            (harmonic, dense, unchanged),
+            (rubbing, pair, unchanged),
+            (rubbing, unrubbed, unchanged),
+            (rubbing, "", unchanged),
+            (others, pair, walled),
+            (others, pair, sheared),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let comma = if pairs.is_empty() { "" } else { "," };
+            let interactions = format!("interactions=[{bonds}{comma}{pairs}]");
+            let taken = |integrator: &&&str| match number {
+                3..=5 => integrator.contains("splitting"),
+                7 => !integrator.contains("cotter-reich"),
+                _ => true,
+            };
+            for (column, integrator) in INTEGRATORS.iter().filter(taken).enumerate() {
+                let sizes = if number == 0 { r#"output.chain_sizes={"every":2}"# } else { unchanged };
+                let changes =
+                    [space, *integrator, &interactions, particles[(number + column) % 2], more, unchanged, sizes];
                 let traversal = [Traversal::Rows, Traversal::Clusters][(row + number + column) % 2];
                 let division = Division { parts: if row == 0 { [1, 2, 1] } else { [1, 1, 2] } };
                 let part = Some(Part { division, rank: 1 });

@@ -1,5 +1,6 @@
 // A report of excluded pairs: motion and configuration.
 fn note_excluded(pair: vec2<u32>, repulsion: Repulsion, contact: Contact) {
+    if (!is_counted(pair)) { return; }
     note_virial_of_excluded(repulsion, contact);
     note_configuration_of_excluded(repulsion, contact);
 }

@@ -12,9 +12,9 @@ pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static s
     let Share { lengths, halo, own, copies, peers, bytes: sent, most } = share_of(scene, model, division);
     let product = |numbers: Vec<String>| numbers[..dimension].join(" × ");
     let parts = product(division.parts.map(|part| part.to_string()).to_vec());
-    let lengths = product(
-        lengths.map(|length| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()).to_vec(),
-    );
+    let brief = |length: f64| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    let lengths = product(lengths.map(brief).to_vec());
+    let halo = brief(halo);
     let count = division.ranks();
     vec![
         (

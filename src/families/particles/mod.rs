@@ -300,17 +300,27 @@ impl Physics for Particles {
         }
     }
 
-    fn unshared(&self, _: &Model) -> Vec<String> {
+    fn unshared(&self, model: &Model) -> Vec<String> {
+        let splits = matches!(model.integrator, Integrator::Splitting { .. });
+        let of_split_steps = self.position_bath.is_some()
+            || self.tether.is_some()
+            || self.bonds.as_ref().is_some_and(Bonds::have_friction);
+        let chained = self.chains.is_some();
         let there = [
-            (self.are_bonded(), "bonds and angles"),
-            (self.tether.is_some(), "tethers"),
-            (self.chains.is_some(), "harmonic chains"),
+            (chained, "harmonic chains"),
             (self.coloured_noise.is_some(), "coloured noise"),
+            (!chained && self.has_memory(), "baths with memory"),
+            (model.species.iter().any(|species| species.fixed && !species.frozen), "fixed particles"),
+            (
+                !chained && !splits && of_split_steps,
+                "tethers, Langevin baths and friction along bonds, unless steps are split,",
+            ),
+            (!chained && model.units.dimension == 1, "particles on a line"),
         ];
         let mut found: Vec<String> =
             there.iter().filter(|(there, _)| *there).map(|(_, what)| format!("{what}: on one rank only")).collect();
         if found.is_empty() && self.are_coupled {
-            found.push("baths with memory, lists of neighbours and fixed particles: on one rank only".to_owned());
+            found.push("lists of neighbours: on one rank only".to_owned());
         }
         found
     }

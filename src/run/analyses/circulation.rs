@@ -62,6 +62,7 @@ impl Descriptor for Circulation {
             quantities: 2 * tracers as usize,
             capacity,
             needs_report: true,
+            gathered: false,
             window: None,
         });
     }

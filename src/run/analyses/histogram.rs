@@ -108,6 +108,7 @@ impl Descriptor for Histogram {
             quantities: entries as usize,
             capacity,
             needs_report: true,
+            gathered: false,
             window: None,
         });
     }

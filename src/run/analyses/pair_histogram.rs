@@ -78,6 +78,7 @@ impl PairHistogram<'_> {
             quantities: self.asked.bins as usize,
             capacity: CAPACITY,
             needs_report: ordered.needs_report,
+            gathered: false,
             window: None,
         });
     }

@@ -2,7 +2,7 @@
 
 use crate::families::Model;
 use crate::plan::recording::{SAMPLE_ROWS, record_sums};
-use crate::plan::{Kernel, Options, Ordered, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
+use crate::plan::{Kernel, Options, Ordered, PARTICLE_WORDS, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
 use crate::scene::{AnalysisId, Frame, Output};
 use crate::shaders::analyses::{Frame as CentreFrame, Sampled};
 use crate::shaders::{Array, Choices, Constant, Entry};
@@ -89,8 +89,16 @@ impl<'a> Planner<'a> {
         Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
     }
 
-    /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`.
+    /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`. Of several ranks the first measures, and
+    /// gathers the particles for it.
     pub(super) fn add_sums(&mut self, sampler: &SumSampler) {
+        let gathered = self.plan.part.is_some();
+        if gathered && !self.plan.has_buffer(Array::Reported) {
+            // The other ranks do not measure.
+            let first = self.plan.part.as_ref().is_some_and(|part| part.part.rank == 0);
+            let particles = if first { self.plan.particles } else { 1 };
+            self.plan.add_buffer(Array::Reported, 4 * u64::from(PARTICLE_WORDS) * particles);
+        }
         let groups = self.groups();
         let rows = vec![(Array::PartialSums, sampler.sums), (Array::Samples, sampler.samples)];
         let renamed = [&rows[..], &sampler.renamed].concat();
@@ -112,6 +120,7 @@ impl<'a> Planner<'a> {
             quantities: sampler.quantities,
             capacity: SAMPLE_ROWS,
             needs_report: true,
+            gathered,
             window: sampler.window,
         });
     }

@@ -98,6 +98,7 @@ impl Descriptor for Profiles {
             quantities: entries as usize,
             capacity,
             needs_report: true,
+            gathered: false,
             window: None,
         });
     }

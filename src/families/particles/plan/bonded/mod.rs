@@ -118,6 +118,35 @@ pub(super) fn kicks(dimension: usize) -> Choices {
     Choices::new().with(if dimension == 3 { couplings::Kicks::Volume } else { couplings::Kicks::Plane })
 }
 
+/// Rounds in which a step relaxes the velocities along bonds, each of which depends on the one before.
+pub(super) fn rounds(model: &Model) -> u32 {
+    let particles = model.particles();
+    let bonds = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds(model));
+    bonds.map_or(0, |bonds| bonds.rounds().len() as u32)
+}
+
+/// Bonds in a row that a force depends on: of an angle two.
+pub(super) fn links(model: &Model) -> u32 {
+    if model.particles().angles.is_some() { 2 } else { u32::from(pulling(model).is_some()) }
+}
+
+/// A length that bonds are not expected to exceed: none that its potential limits, and few of all that fluctuate about their length at
+/// rest.
+pub(super) fn longest_expected(model: &Model, cutoff: f64) -> f64 {
+    const DEVIATIONS: f64 = 6.0;
+    let of_kind = |kind: &BondKind| match kind.potential {
+        Some(BondPotential::Harmonic { stiffness, length }) => {
+            length + DEVIATIONS * (model.temperature.max(kind.temperature) / stiffness).sqrt()
+        }
+        Some(BondPotential::Fene { extent, length, .. }) => length + extent,
+        None => cutoff,
+    };
+    let longest = pulling(model).map(|bonds| bonds.kinds.iter().map(of_kind).fold(0.0, f64::max));
+    // Arms of angles need be no bonds.
+    let longest = longest.unwrap_or(cutoff);
+    longest.clamp(0.1 * cutoff, model.units.lengths.iter().copied().fold(cutoff, f64::max))
+}
+
 /// The largest spring constant of a scene.
 pub(super) fn stiffest_spring(model: &Model) -> f64 {
     let kinds = model.particles().bonds.as_ref().into_iter().flat_map(|bonds| &bonds.kinds);

@@ -24,12 +24,13 @@ impl Builder<'_> {
             .and(&bonded::noise_of_bonds(bonds))
             .with(words(self.model.generator))
             .with_if(needs_forces, pairs::ReportedForce::Added);
+        let longest = self.longest_bond();
         let mut first = bonded::first_relaxed(self.model, bonds);
         for round in bonds.rounds() {
             let count = round.len() as u64;
             let kernel = self.kernel("relax_bonds", Entry::RelaxBonds, choices.clone(), count);
             let own = [(Constant::FirstRelaxed, first as f64), (Constant::Relaxed, count as f64)];
-            self.plan.kernels[kernel].constants.extend(own);
+            self.plan.kernels[kernel].constants.extend(own.into_iter().chain(longest));
             kernels.push(kernel);
             first += count;
             self.plan.operations_per_particle += 120.0 * count as f64 / self.particles.max(1) as f64;

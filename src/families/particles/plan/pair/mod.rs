@@ -253,7 +253,7 @@ impl Builder<'_> {
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
             .with_if(self.gathers(), couplings::Gathered::Kept)
-            .with_if(self.is_bonded(), couplings::Slots::Kept)
+            .with_if(self.is_bonded() && self.options.part.is_none(), couplings::Slots::Kept)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model, self.species.have_table()))
@@ -302,18 +302,19 @@ impl Builder<'_> {
         self.model.particles().splits(self.model)
     }
 
-    /// Buffers of a kernel of a step or a report beyond those of all: impulses that were gathered, what walls take up, a table of species, local
-    /// densities, and the domains of ranks.
+    /// Buffers of the kernel that ends a step beyond those of all: impulses that were gathered, what walls take up, and of several ranks the
+    /// domain in which they do, a table of species, and local densities.
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
-        let shared = self.options.part.is_some();
-        [self.gathers(), walled, self.species.have_table(), dense, shared].into_iter().map(u32::from).sum()
+        let booked = self.options.part.is_some() && (walled || self.is_sheared());
+        [self.gathers(), walled, booked, self.species.have_table(), dense].into_iter().map(u32::from).sum()
     }
 
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
-    /// more it would be one buffer too many.
+    /// more it would be one buffer too many, nor beside one where several ranks tell what is stored.
     fn keeps_probes(&self) -> bool {
-        self.traversal != Traversal::Alone && !self.texels && self.more_buffers() < 2 && !self.is_sheared()
+        let beside = self.more_buffers() + u32::from(self.options.part.is_some());
+        self.traversal != Traversal::Alone && !self.texels && beside < 2 && !self.is_sheared()
     }
 
     /// Whether boundaries shear.
@@ -598,7 +599,7 @@ impl Builder<'_> {
             choices: space_of(&self.model.units, self.predicted())
                 .and(&self.species.choices())
                 .and(&shear::of_species(self.model, self.species.have_table())),
-            particles: Array::Particles,
+            particles: if self.options.part.is_some() { Array::Reported } else { Array::Particles },
             // The particles of a split step's report are half a drift later, and have been kicked for it.
             momenta: self.splits().then_some(Array::ReportedMomenta),
             forces: Array::ReportedForces,
