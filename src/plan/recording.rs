@@ -31,6 +31,7 @@ impl Plan {
             capacity: SAMPLE_ROWS,
             needs_report: true,
             window: None,
+            whole: 0..0,
         });
         self.add_buffer(Array::PartialSums, 8 * quantities * groups);
         self.add_buffer(Array::Samples, 8 * (1 + SAMPLE_ROWS * (1 + quantities)));

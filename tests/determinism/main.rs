@@ -13,6 +13,7 @@ mod pair_coefficients;
 mod particles;
 mod paths;
 mod ranks;
+mod ranks_of_water;
 mod relaxation;
 mod resumed_analyses;
 mod shallow_water;

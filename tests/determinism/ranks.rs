@@ -52,7 +52,7 @@ fn scene(changes: &[&str]) -> Scene {
     fluid(&[&["time.steps=1000", EVERY_THIRD], changes].concat())
 }
 
-fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
+pub fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
     let (model, _) = start(scene);
     run::team((scene, &model), gpu(), &adapter(), (division, false), options, state).expect("ranks")
 }

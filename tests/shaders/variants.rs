@@ -65,6 +65,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             walled_plans,
             sheared_plans,
             water_plans,
+            shared_water_plans,
             coupled_plans,
             noise_plans,
             bond_plans,
@@ -267,6 +268,28 @@ fn shared_plans() -> Vec<(String, Plan)> {
                     &fluid(&changes),
                     options,
                 ));
+            }
+        }
+    }
+    plans
+}
+
+/// The same of shallow water, with particles that are followed and not.
+fn shared_water_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for spline in [1, 2, 3].map(|order| format!("interactions.0.spline_order={order}")) {
+        for mesh in
+            ["interactions.0.mesh=[32,32]", r#"interactions.0={"type":"shallow-water","mesh":[15,12],"wave_speed":1}"#]
+        {
+            for more in [&[][..], &[WATER_TRACERS, r#"output.trajectory={"every":5}"#]] {
+                let changes = [&[mesh, &spline], more].concat();
+                for (traversal, many_level_scan) in [(Traversal::Rows, false), (Traversal::Clusters, true)] {
+                    let part = Some(Part { division: Division { parts: [1, 3, 1] }, rank: 0 });
+                    let traversal = Some(traversal);
+                    let options = Options { traversal, many_level_scan, part, ..Options::default() };
+                    let name = format!("water {} {traversal:?} {many_level_scan} shared", changes.join(" "));
+                    plans.extend(plans_of(&name, &water(&changes), options));
+                }
             }
         }
     }

@@ -63,6 +63,7 @@ impl Descriptor for Circulation {
             capacity,
             needs_report: true,
             window: None,
+            whole: 0..2 * tracers as usize,
         });
     }
 

@@ -109,6 +109,7 @@ impl Descriptor for Histogram {
             capacity,
             needs_report: true,
             window: None,
+            whole: 0..0,
         });
     }
 

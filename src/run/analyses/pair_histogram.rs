@@ -79,6 +79,7 @@ impl PairHistogram<'_> {
             capacity: CAPACITY,
             needs_report: ordered.needs_report,
             window: None,
+            whole: 0..0,
         });
     }
 

@@ -113,6 +113,7 @@ impl<'a> Planner<'a> {
             capacity: SAMPLE_ROWS,
             needs_report: true,
             window: sampler.window,
+            whole: 0..0,
         });
     }
 

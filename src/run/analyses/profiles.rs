@@ -99,6 +99,7 @@ impl Descriptor for Profiles {
             capacity,
             needs_report: true,
             window: None,
+            whole: 0..0,
         });
     }
 
