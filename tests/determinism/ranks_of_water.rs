@@ -1,7 +1,7 @@
 //! Shallow water on several ranks: the same bytes as one.
 
 use mesoscope::engine::{EngineError, Stepper};
-use mesoscope::families::Model;
+use mesoscope::families::{Instability, Model};
 use mesoscope::plan::{Division, Failure, FailureKind, Options, Rows, Storage};
 use mesoscope::ranks::Team;
 use mesoscope::run::{self, Ranks};
@@ -143,30 +143,40 @@ fn watched_ranks_have_the_surface_of_one() {
     }
 }
 
-fn failure(mut stepper: impl Stepper) -> Failure {
+/// How a run fails, and what is told of it.
+fn failure(scene: &Scene, mut stepper: impl Stepper) -> (Failure, String) {
     match stepper.advance(100, 8).and_then(|()| stepper.finish()) {
-        Err(EngineError::Unstable(failure)) => failure,
+        Err(EngineError::Unstable(failure)) => {
+            let told = Instability::new(&failure, stepper.plan(), &Model::new(scene)).to_string();
+            (failure, told)
+        }
         other => panic!("{other:?}"),
     }
 }
 
-/// A run that fails does so at the same step and place, however many ranks it has.
+/// A run that fails does so at the same step and place with the same words, however many ranks it has.
 #[test]
 fn failures_are_those_of_one_rank() {
     // Around a node between two slabs, on each of which alone the mass would do.
     let crowd = r#"particles=[{"species":"water","count":4096,"placement":
         {"type":"circle","center":[3.141592653589793,3.141592653589793],"radius":0.004}}]"#;
+    let lone = r#"particles=[{"species":"water","placement":{"type":"listed","positions":[[1.0,3.2]]}}]"#;
+    let overshoot = r#"interactions.0.smoothing={"length":0.2,"solver":{"type":"fft","symbol":"spectral"}}"#;
     for (changes, kind) in [
-        (&["time.step=0.3"][..], FailureKind::Depth),
+        (&["time.step=0.3"][..], FailureKind::Momentum),
+        (&[LINEAR, overshoot, lone, "interactions.0.surface=[]"], FailureKind::Depth),
         (&[LINEAR, crowd, "interactions.0.surface=[]"], FailureKind::Crowding),
     ] {
         let scene = scene(changes);
         let (_, state) = start(&scene);
-        let expected = failure(engine(&scene, &state, Options::default()));
-        assert!(expected.is(kind), "{expected:?}");
-        let options = Options::default().with_room(state.len() as u64).with_room(state.len() as u64);
-        assert_eq!(failure(team(&scene, slabs(2), options, &state)), expected);
-        assert_eq!(failure(team(&scene, slabs(4), options, &state)), expected);
+        let roomy = |options: Options, _| options.with_room(state.len() as u64);
+        let options = (0..4).fold(Options::default(), roomy);
+        let (expected, told) = failure(&scene, engine(&scene, &state, options));
+        assert!(expected.is(kind), "{told}");
+        for ranks in [2, 4] {
+            let (found, words) = failure(&scene, team(&scene, slabs(ranks), options, &state));
+            assert_eq!((found.step, found.place, &words), (expected.step, expected.place, &told), "{ranks} ranks");
+        }
     }
 }
 
@@ -175,7 +185,7 @@ fn failures_are_those_of_one_rank() {
 fn crowded_slabs_get_more_room() {
     let scene = scene(&[r#"particles=[
         {"species":"water","count":512,"placement":{"type":"lattice"},"velocities":{"type":"thermal"}},
-        {"species":"water","count":3500,"placement":{"type":"circle","center":[3,1],"radius":0.7}}]"#]);
+        {"species":"water","count":12000,"placement":{"type":"circle","center":[3,1],"radius":0.7}}]"#]);
     let (model, state) = start(&scene);
     let ended = run::team(
         (&scene, &model),
@@ -187,9 +197,10 @@ fn crowded_slabs_get_more_room() {
     );
     let Err(error) = ended.map(|_: Team<'_>| ()) else { panic!("it fits") };
     assert!(error.to_string().contains("capacity"), "{error}");
-    let alone = bytes::run(&scene, Options::default(), 8, 8);
+    let sorted = Options { storage: Some(Storage::Sorted), ..Options::default() };
+    let alone = bytes::run(&scene, sorted, 5, 8);
     let mut roomy = team(&scene, slabs(3), Options::default().with_room(state.len() as u64), &state);
-    roomy.advance(8, 8).unwrap();
+    roomy.advance(5, 8).unwrap();
     assert!(same(&alone, &harvest(roomy, Vec::new())));
 }
 
