@@ -412,6 +412,32 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_rank_has_whole_rows_and_adds_to_their_nodes() {
+        let mut random = StdRng::seed_from_u64(7);
+        for (count, ranks, centred) in [(5, 2, false), (13, 13, true), (16, 3, true), (64, 7, false), (4093, 4, true)] {
+            let (rows, division) = (Rows { count, centred }, Division { parts: [1, ranks, 1] });
+            let domains: Vec<Domain> = (0..ranks).map(|rank| division.domain_of_rows(rank, rows)).collect();
+            let bounds = domains.iter().flat_map(|domain| [u32::MAX, 0, 1].map(|off| domain.low[1].wrapping_add(off)));
+            for y in bounds.chain((0..500).map(|_| random.random())).collect::<Vec<u32>>() {
+                let owners: Vec<u32> = (0..ranks).filter(|&rank| domains[rank as usize].contains([3, y, 0])).collect();
+                let shift = if centred { 1 << 31 } else { 0 };
+                let row = ((u64::from(y) * u64::from(count) + shift) >> 32) as u32 % count;
+                assert!(owners.len() == 1 && division.rows(owners[0], rows).contains(&row), "{y} in {rows:?}");
+            }
+            // Cubic splines: a row below and two above.
+            let part = Part { division, rank: 0 };
+            for (rank, stretch) in (0..).zip(part.stretches(rows, 10, [1, 2])) {
+                let Range { start, end } = division.rows(rank, rows);
+                assert_eq!(stretch.first, 10 * u64::from((start + count - 1) % count));
+                assert_eq!(stretch.count, 10 * u64::from((end - start + 3).min(count)));
+            }
+        }
+        let sum = SharedSum { array: Array::NodeMasses, after: 0, length: 50, stretches: Vec::new() };
+        let pieces = |first, count| sum.pieces(Stretch { first, count }).map(|piece| (piece.first, piece.count));
+        assert_eq!((pieces(10, 40), pieces(40, 30)), ([(10, 40), (0, 0)], [(40, 10), (0, 20)]));
+    }
+
     /// Whoever may interact with a particle of a domain is known there, and whoever leaves a domain in a step is known to those that
     /// need it then.
     #[test]
