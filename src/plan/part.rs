@@ -78,7 +78,7 @@ impl Division {
     }
 
     /// The rows that a rank has.
-    fn rows(&self, rank: u32, rows: Rows) -> Range<u32> {
+    pub(crate) fn rows(&self, rank: u32, rows: Rows) -> Range<u32> {
         let bound = |place: u32| (u64::from(place) * u64::from(rows.count)).div_ceil(u64::from(self.parts[1])) as u32;
         let place = self.place(rank)[1];
         bound(place)..bound(place + 1)

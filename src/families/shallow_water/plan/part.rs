@@ -29,7 +29,15 @@ impl Builder<'_> {
         if self.plan.part.is_none() {
             return Choices::new();
         }
-        Choices::new().with(grid::Stored::OfRank).with(water::Stored::OfRank).with(mesh::Gathered::OfRank)
+        let on_mesh = Choices::new().with(mesh::Gathered::OfRank).with(mesh::Visited::OfRank);
+        on_mesh.with(grid::Stored::OfRank).with(water::Stored::OfRank)
+    }
+
+    /// The rows of cells in which it has particles.
+    pub(super) fn visited_rows(&self) -> Range<u64> {
+        let all = self.water.rows();
+        let visited = self.options.part.map_or(0..all.count, |part| part.division.rows(part.rank, all));
+        visited.start.into()..visited.end.into()
     }
 
     /// Adds the masses of the nodes, which a kernel has gathered, over the ranks.

@@ -234,12 +234,13 @@ impl Builder<'_> {
 
     /// A kernel that visits the cells.
     fn cell_kernel(&mut self, name: &'static str, choices: &Choices) -> usize {
-        let (entry, lanes) = if self.eights {
-            (Entry::VisitMeshStrips, self.water.nodes() / STRIP)
+        let rows = self.visited_rows();
+        let (entry, lines) = if self.eights {
+            (Entry::VisitMeshStrips, rows.end.div_ceil(STRIP) - rows.start / STRIP)
         } else {
-            (Entry::VisitMeshCells, self.water.nodes())
+            (Entry::VisitMeshCells, rows.end - rows.start)
         };
-        self.kernel(name, entry, choices, lanes)
+        self.kernel(name, entry, choices, lines * u64::from(self.water.mesh[0]))
     }
 
     fn gyrates(&self) -> bool {
