@@ -1,4 +1,4 @@
-// Visits every cell of the mesh, one invocation a cell, for any subgroup size.
+// Visits the cells of the mesh, one invocation a cell, for any subgroup size.
 //
 // Slots without defaults, chosen by src/families/shallow_water/plan/steps.rs:
 // - mesh/pass: `visit_cell`, what is done in a cell. Variants deposit; push; push_of_eight (in strips).
@@ -15,10 +15,15 @@
 // Default: the step begins here. The plan chooses `by_sort` where particles are sorted.
 fn begin_unsorted_step() { begin_step(); }
 
-// Visits every cell of the mesh, for any subgroup size. One invocation a cell; the pass decides what is read and written.
+// Slot mesh/visited: the rows of cells that are visited.
+// Default: all. The plan chooses `of_rank` for one of several ranks, which has particles in some rows.
+fn first_visited_row() -> u32 { return 0u; }
+fn end_of_visited_rows() -> u32 { return CELLS_Y; }
+
+// Visits cells of the mesh row by row, for any subgroup size. One invocation a cell; the pass decides what is read and written.
 @compute @workgroup_size(WORKGROUP)
 fn visit_mesh_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let cell = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (cell < CELLS_X * CELLS_Y) { visit_cell(cell); }
+    let cell = first_visited_row() * CELLS_X + linear_workgroup(workgroup) * WORKGROUP + lane;
+    if (cell < end_of_visited_rows() * CELLS_X) { visit_cell(cell); }
     report_turns(workgroup.x >> 16u);
 }

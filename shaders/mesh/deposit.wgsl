@@ -8,6 +8,10 @@ fn add_particle(moments: ptr<function, Moments>, particle: Water) {
     add_moments(moments, x, f32(particle.mass) * powers(y));
 }
 
+// Slot mesh/gathered: what is kept of the mass of a node, and of the least that it has been while it was summed.
+// Default: the mass. The plan chooses `of_rank` for one of several ranks, whose masses are added.
+fn kept_mass(mass: i32, least: i32) -> u32 { return u32(mass); }
+
 // Sums the mass of a node from the cells whose splines reach it. One invocation a node; reads `contributions`, what each cell brings
 // to each of its nodes, [node of the cell][cell], and writes `node_masses`.
 @compute @workgroup_size(WORKGROUP)
@@ -29,5 +33,5 @@ fn gather_nodes(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     }
     // A cell has too much, or the sum has wrapped round.
     raise_at(select(0u, FAILURE_CROWDING, least < LEAST_MASS), node);
-    node_masses[node] = u32(mass);
+    node_masses[node] = kept_mass(mass, least);
 }

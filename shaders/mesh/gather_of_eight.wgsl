@@ -41,7 +41,7 @@ fn gather_nodes_of_eight(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(l
         let node = (strip * STRIP + k - 1u) * CELLS_X + column;
         // A cell has too much, or the sum has wrapped round.
         crowded = select(crowded, node, least_mass[k - 1u] < LEAST_MASS);
-        node_masses[node] = u32(gathered_shares[k - 1u]);
+        node_masses[node] = kept_mass(gathered_shares[k - 1u], least_mass[k - 1u]);
     }
     raise_at(select(FAILURE_CROWDING, 0u, crowded == 0xffffffffu), crowded);
 }

@@ -2,6 +2,8 @@
 
 // Where there is no mass, rounding alone leaves no less than this.
 const LEAST_MASS: i32 = -65536;
+// What stands for more mass than integers hold: a negative number that is noticed.
+const TOO_MUCH: i32 = i32(-2147483648);
 
 // A particle of shallow water.
 struct Water {

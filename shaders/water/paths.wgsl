@@ -1,10 +1,10 @@
 // Paths of particles of shallow water across the periodic box: see space/paths.
 
-// Follows particles in one array. One invocation a particle; updates `paths` by id.
+// Follows particles in one array. One invocation a place; updates `paths` by id.
 @compute @workgroup_size(WORKGROUP)
 fn follow_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= PARTICLES) { return; }
+    if (!holds_water(index)) { return; }
     let particle = load_water(index);
     follow(particle.id, vec4<u32>(particle.position, 0u, 0u));
 }

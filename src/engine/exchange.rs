@@ -1,17 +1,14 @@
-//! Particles that pass from rank to rank at the end of a step, where several share a run.
+//! What passes from rank to rank where several share a run: particles at the end of a step, and integers that all add to within it.
 
 use super::readback::read_after;
 use super::{EngineError, recording::Recording};
 use crate::gpu::Gpu;
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Domain, PARTICLE_WORDS, Part, PlannedPart};
+use crate::plan::{Domain, FREE_SHARE, Part, ParticleWords, PlannedPart, SharedSum, Stretch};
 use crate::shaders::Array;
 use crate::state::crossings;
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
-
-/// Words of a particle.
-const PARTICLE: usize = PARTICLE_WORDS as usize;
 
 /// The number of a particle that is forgotten: shaders/ranks/domain.wgsl.
 const NOBODY: u32 = u32::MAX;
@@ -52,10 +49,14 @@ pub(super) struct Exchange<'a> {
     stored_count: wgpu::Buffer,
     outgoing: wgpu::Buffer,
     outgoing_counts: wgpu::Buffer,
+    /// The array that is summed over ranks, if there is one.
+    summed: Option<wgpu::Buffer>,
     /// Particles for each peer that are read back before their number is known.
     guesses: Vec<u64>,
-    /// Particles stored: the sorted ones and what has arrived.
+    /// Places of particles in use: the sorted ones and what has arrived.
     pub stored: u64,
+    /// Particles that are the rank's own, where it knows of no others.
+    own: u64,
     /// The step at which a part turned out too small for what arrived.
     pub crowded: Option<u64>,
     pub traffic: Traffic,
@@ -70,6 +71,7 @@ impl<'a> Exchange<'a> {
     ) -> Self {
         let of = |array| buffers[&array].clone();
         let guesses = vec![0; part.peers.len()];
+        let summed = part.sum.as_ref().map(|sum| of(sum.array));
         Self {
             gpu,
             part,
@@ -78,16 +80,42 @@ impl<'a> Exchange<'a> {
             stored_count: of(Array::StoredNumber),
             outgoing: of(Array::Outgoing),
             outgoing_counts: of(Array::OutgoingCounts),
+            summed,
             guesses,
             stored: 0,
+            own: 0,
             crowded: None,
             traffic: Traffic::default(),
         }
     }
 
-    /// The kernel after which particles are exchanged.
-    pub(super) fn kernel(&self) -> usize {
-        self.part.exchange
+    /// Exchanges what is exchanged after a kernel, if anything, with all that is recorded before.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device or a peer fails.
+    pub(super) fn follow(
+        &mut self,
+        kernel: usize,
+        recording: &mut Recording<'_>,
+        step: u64,
+    ) -> Result<(), EngineError> {
+        if kernel == self.part.exchange {
+            self.pass_on(recording, step)?;
+        }
+        match (self.part.sum.clone(), self.summed.clone()) {
+            (Some(sum), Some(buffer)) if kernel == sum.after => self.add_up(recording, &sum, &buffer),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether so many places are free that particles should be put in order.
+    pub(super) fn has_gaps(&self) -> bool {
+        FREE_SHARE * self.stored.saturating_sub(self.own) > self.own
+    }
+
+    /// Whether all ranks have an array whole, and alike.
+    pub(super) fn has_whole(&self, array: Array) -> bool {
+        self.part.whole.contains(&array)
     }
 
     /// Whether this is the first rank.
@@ -103,19 +131,25 @@ impl<'a> Exchange<'a> {
     /// Of particles as they are stored those that the rank needs.
     pub(super) fn needed(&self, particles: &[u32]) -> Vec<u32> {
         let [_, needed, ..] = self.part.domains[..] else { return Vec::new() };
-        within(&needed, particles)
+        within(&needed, self.part.particle, particles)
     }
 
     /// The rank's own of the particles in storage after an exchange.
     pub(super) fn own_of(&self, particles: &[u32]) -> Vec<u32> {
-        let stored = &particles[..PARTICLE * (self.stored as usize)];
-        self.part.domains.first().map_or_else(Vec::new, |own| within(own, stored))
+        let stored = &particles[..self.part.particle.count * (self.stored as usize)];
+        self.part.domains.first().map_or_else(Vec::new, |own| within(own, self.part.particle, stored))
     }
 
-    /// The rank's own of the particles in storage after a sort, which has marked them and counted all.
-    pub(super) fn marked_of(&self, particles: &[u32], marks: &[u32], counts: &[u32]) -> Vec<u32> {
-        let sorted = counts.get(self.part.peers.len()).copied().unwrap_or_default();
-        let marked = particles.chunks_exact(PARTICLE).zip(marks).take(sorted as usize);
+    /// The rank's own of the particles in storage after a sort, which has counted all; where there are copies of others, it has marked them
+    /// before they moved on.
+    pub(super) fn sorted_of(&self, particles: &[u32], marks: Option<&[u32]>, counts: &[u32]) -> Vec<u32> {
+        let words = self.part.particle.count;
+        let sorted = counts.get(self.part.peers.len()).map_or(0, |sorted| *sorted as usize);
+        let Some(marks) = marks else {
+            let own = self.part.domains.first();
+            return own.map_or_else(Vec::new, |own| within(own, self.part.particle, &particles[..words * sorted]));
+        };
+        let marked = particles.chunks_exact(words).zip(marks).take(sorted);
         marked.filter(|(_, mark)| **mark != 0).flat_map(|(particle, _)| particle).copied().collect()
     }
 
@@ -124,10 +158,28 @@ impl<'a> Exchange<'a> {
         self.swap.leave(&self.part.peers);
     }
 
-    /// Begins with a number of particles in storage.
-    pub(super) fn begin(&mut self, stored: u64) {
+    /// The array of particles that all ranks have, and the number of those that they share out.
+    pub(super) fn everywhere(&self) -> Option<Array> {
+        self.part.everywhere
+    }
+
+    pub(super) fn shared(&self) -> usize {
+        self.part.shared as usize
+    }
+
+    /// How a particle is stored.
+    pub(super) fn particle(&self) -> ParticleWords {
+        self.part.particle
+    }
+
+    /// Begins with particles in storage, of so many words.
+    pub(super) fn begin(&mut self, words: u64) {
+        let stored = words / self.part.particle.count as u64;
         self.store_count(stored);
+        self.own = stored;
         self.crowded = None;
+        let none = vec![0_u8; 4 * (self.part.peers.len() + 1)];
+        self.gpu.queue.write_buffer(&self.outgoing_counts, 0, &none);
     }
 
     fn store_count(&mut self, stored: u64) {
@@ -139,8 +191,8 @@ impl<'a> Exchange<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device or a peer fails. Too many particles are no error yet: the other ranks wait for the rest of the batch.
-    pub(super) fn pass_on(&mut self, recording: &mut Recording<'_>, step: u64) -> Result<(), EngineError> {
-        let particle = 4 * PARTICLE as u64;
+    fn pass_on(&mut self, recording: &mut Recording<'_>, step: u64) -> Result<(), EngineError> {
+        let particle = 4 * self.part.particle.count as u64;
         let stretch = particle * self.part.room;
         let head = 4 * (self.part.peers.len() as u64 + 1);
         let (outgoing, counts) = (&self.outgoing, &self.outgoing_counts);
@@ -174,6 +226,7 @@ impl<'a> Exchange<'a> {
         self.traffic.exchanges += 1;
         self.traffic.bytes += parcels.iter().map(|parcel| parcel.len() as u64).sum::<u64>();
         let mut stored = u64::from(sorted);
+        self.own = self.own.saturating_sub(counts.iter().sum());
         for parcel in &arrived {
             let count = parcel.len() as u64 / particle;
             let fits = count.min(self.part.slots - stored.min(self.part.slots));
@@ -182,15 +235,62 @@ impl<'a> Exchange<'a> {
             }
             self.gpu.queue.write_buffer(&self.particles, particle * stored, &parcel[..(particle * fits) as usize]);
             stored += fits;
-            self.traffic.copies += fits;
+            self.own += fits;
+            // Without a halo a particle is nobody else's.
+            self.traffic.copies += if self.part.halo > 0.0 { fits } else { 0 };
         }
         self.store_count(stored);
         Ok(())
     }
 
+    /// Runs what is recorded, and adds what the other ranks have to an array that all of them add to.
+    fn add_up(
+        &mut self,
+        recording: &mut Recording<'_>,
+        sum: &SharedSum,
+        buffer: &wgpu::Buffer,
+    ) -> Result<(), EngineError> {
+        let lost = |reason: String| EngineError::Ranks { reason };
+        let rank = self.part.part.rank as usize;
+        let none = Stretch { first: 0, count: 0 };
+        let stretch_of = |rank: usize| sum.stretches.get(rank).copied().unwrap_or(none);
+        let own = stretch_of(rank);
+        let read = read_after(self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
+            let mut at = 0;
+            for piece in sum.pieces(own).into_iter().filter(|piece| piece.count > 0) {
+                encoder.copy_buffer_to_buffer(buffer, 4 * piece.first, staging, at, 4 * piece.count);
+                at += 4 * piece.count;
+            }
+        })?;
+        let others = self.part.others();
+        let begun = Instant::now();
+        let arrived = self.swap.swap(&self.part.part, &others, &vec![read.as_slice(); others.len()]).map_err(lost)?;
+        self.traffic.waiting += begun.elapsed();
+        self.traffic.bytes += (read.len() * others.len()) as u64;
+        let mut sums = vec![0_i64; sum.length as usize];
+        let parts = others.iter().map(|other| *other as usize).zip(&arrived).chain([(rank, &read)]);
+        for (rank, bytes) in parts {
+            let stretch = stretch_of(rank);
+            if bytes.len() as u64 != 4 * stretch.count {
+                return Err(lost(format!("rank {rank} adds to another number of places")));
+            }
+            let words: Vec<i32> = bytemuck::pod_collect_to_vec(bytes);
+            let mut words = words.into_iter();
+            for piece in sum.pieces(stretch) {
+                let places = sums.iter_mut().skip(piece.first as usize).take(piece.count as usize);
+                for (place, word) in places.zip(words.by_ref()) {
+                    *place = if word == i32::MIN { i64::MIN } else { place.saturating_add(word.into()) };
+                }
+            }
+        }
+        let sums: Vec<i32> = sums.into_iter().map(|sum| i32::try_from(sum).unwrap_or(i32::MIN)).collect();
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&sums));
+        Ok(())
+    }
+
     /// Reads what was not guessed.
     fn read_rest(&self, counts: &[u64], parcels: &mut [Vec<u8>]) -> Result<(), EngineError> {
-        let particle = 4 * PARTICLE as u64;
+        let particle = 4 * self.part.particle.count as u64;
         let rests: Vec<u64> =
             counts.iter().zip(&self.guesses).map(|(count, guess)| count.saturating_sub(*guess)).collect();
         let all: u64 = rests.iter().sum();
@@ -218,22 +318,22 @@ impl<'a> Exchange<'a> {
 }
 
 /// The particles in a domain; one that is forgotten may lie anywhere.
-fn within(domain: &Domain, particles: &[u32]) -> Vec<u32> {
-    let inside = |particle: &&[u32]| particle[3] != NOBODY && domain.contains([particle[0], particle[1], particle[2]]);
-    particles.chunks_exact(PARTICLE).filter(inside).flatten().copied().collect()
+fn within(domain: &Domain, words: ParticleWords, particles: &[u32]) -> Vec<u32> {
+    let inside = |particle: &&[u32]| particle[words.number] != NOBODY && domain.contains(words.position(particle));
+    particles.chunks_exact(words.count).filter(inside).flatten().copied().collect()
 }
 
 /// How often each particle has crossed the box on every axis while it was a rank's own, two words each, from where all were last and these
 /// particles, its own, are now.
-pub(super) fn crossed(paths: &[u32], own: &[u32]) -> Vec<u32> {
+pub(super) fn crossed(paths: &[u32], words: ParticleWords, own: &[u32]) -> Vec<u32> {
     let mut counted: Vec<[i64; 3]> = paths
         .chunks_exact(PATH_WORDS)
         .map(|path| std::array::from_fn(|axis| i64::from(path[PATH_WORDS / 2 + axis].cast_signed())))
         .collect();
-    for particle in own.chunks_exact(PARTICLE) {
-        let id = particle[3] as usize;
+    for particle in own.chunks_exact(words.count) {
+        let id = particle[words.number] as usize;
         if let (Some(counted), Some(path)) = (counted.get_mut(id), paths.chunks_exact(PATH_WORDS).nth(id)) {
-            let since = crossings([path[0], path[1], path[2]], [particle[0], particle[1], particle[2]]);
+            let since = crossings([path[0], path[1], path[2]], words.position(particle));
             (0..3).for_each(|axis| counted[axis] += i64::from(since[axis]));
         }
     }

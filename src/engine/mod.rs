@@ -21,7 +21,7 @@ use std::mem::offset_of;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
+use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
 use crate::shaders::Array;
 use crate::state::{State, crossings};
 use exchange::Exchange;
@@ -326,21 +326,20 @@ impl<'a> Engine<'a> {
             return Err(EngineError::Crowded { step });
         }
         self.gpu.queue.write_buffer(buffer, 0, bytes);
-        // Sums over all ranks are with the first.
+        // Sums over all ranks are with the first; other arrays all ranks have.
         let first = exchange.is_first();
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
         let followed = self.plan.paths.are_followed().then_some(Paths::BUFFER);
-        let constant = self.plan.layout.constant();
         for (array, words) in arrays.chain(followed).zip(contents.iter().skip(1)) {
             let mut words = words.clone();
             match array {
-                _ if first || constant.contains(&array) => {}
+                _ if first || exchange.has_whole(array) => {}
                 Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
                 _ => words.fill(0),
             }
             self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(&words));
         }
-        exchange.begin(needed.len() as u64 / u64::from(PARTICLE_WORDS));
+        exchange.begin(needed.len() as u64);
         self.begin(step);
         Ok(())
     }
@@ -467,16 +466,24 @@ impl<'a> Engine<'a> {
         self.with_sums(particles)
     }
 
-    /// Particles, with the sums that belong to a state.
+    /// Particles, with the sums that belong to a state, and from the first rank with the arrays that all have.
     fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
-        let (constant, first) = (self.plan.layout.constant(), self.part()?.is_first());
-        let sums = self.plan.layout.buffers().into_iter().skip(1).map(|array| {
-            // What is the same on all ranks comes from the first.
-            if !first && constant.contains(&array) { Ok(Vec::new()) } else { self.words(array) }
-        });
+        let part = self.part()?;
+        let (first, words) = (part.is_first(), part.particle());
+        let arrays = self.plan.layout.buffers().into_iter().skip(1);
+        let arrays: Vec<(Array, bool)> = arrays.map(|array| (array, first || !part.has_whole(array))).collect();
+        let sums = arrays.into_iter().map(|(array, given)| if given { self.words(array) } else { Ok(Vec::new()) });
         let sums = sums.collect::<Result<Vec<_>, _>>()?;
-        let crossed = self.plan.paths.are_followed().then(|| self.words(Paths::BUFFER)).transpose()?;
-        let crossed = crossed.map(|paths| exchange::crossed(&paths, &particles));
+        let crossed = if self.plan.paths.are_followed() {
+            let paths = self.words(Paths::BUFFER)?;
+            let everywhere = self.part()?.everywhere().filter(|_| first);
+            let more = everywhere.map(|array| self.words(array)).transpose()?.unwrap_or_default();
+            let counted = self.plan.particles as usize - self.part()?.shared();
+            let own = [&particles[..], &more[..more.len().min(words.count * counted)]].concat();
+            Some(exchange::crossed(&paths, words, &own))
+        } else {
+            None
+        };
         Ok(std::iter::once(particles).chain(sums).chain(crossed).collect())
     }
 
@@ -523,9 +530,9 @@ impl<'a> Engine<'a> {
     pub fn own_reported(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.part()?;
         self.report_now()?;
-        let (particles, marks) = (self.words(Array::Particles)?, self.words(Array::OwnedSlots)?);
-        let counts = self.words(Array::OutgoingCounts)?;
-        let particles = self.part()?.marked_of(&particles, &marks, &counts);
+        let (particles, counts) = (self.words(Array::Particles)?, self.words(Array::OutgoingCounts)?);
+        let marks = self.plan.has_buffer(Array::OwnedSlots).then(|| self.words(Array::OwnedSlots)).transpose()?;
+        let particles = self.part()?.sorted_of(&particles, marks.as_deref(), &counts);
         self.with_sums(particles)
     }
 
@@ -634,7 +641,8 @@ impl<'a> Engine<'a> {
 
     /// Whether the particles are sorted in memory at the current step.
     fn tidies(&self) -> bool {
-        !self.plan.tidy.is_empty() && (self.step - self.first_step).is_multiple_of(TIDYING)
+        let has_gaps = self.exchange.as_ref().is_some_and(Exchange::has_gaps);
+        !self.plan.tidy.is_empty() && (has_gaps || (self.step - self.first_step).is_multiple_of(TIDYING))
     }
 
     /// Sorts, unless that has been done, and takes the samples that are due.
@@ -646,8 +654,8 @@ impl<'a> Engine<'a> {
                 }
             }
             let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
-            for &kernel in self.plan.sort.iter().chain(tidy).chain(&self.plan.before_report) {
-                recording.dispatch(&self.stages[kernel]);
+            for kernels in [self.plan.sort.as_slice(), tidy, self.plan.before_report.as_slice()] {
+                record(kernels, &self.stages, &mut self.exchange, self.step, recording)?;
             }
             self.phase = Phase::Sorted { reported: false };
         } else {
@@ -736,7 +744,7 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Records kernels, and exchanges particles with other ranks where they ask for it.
+/// Records kernels, and exchanges with other ranks what they ask for.
 fn record(
     kernels: &[usize],
     stages: &[Stage],
@@ -746,8 +754,8 @@ fn record(
 ) -> Result<(), EngineError> {
     for &kernel in kernels {
         recording.dispatch(&stages[kernel]);
-        if let Some(exchange) = exchange.as_mut().filter(|exchange| exchange.kernel() == kernel) {
-            exchange.pass_on(recording, step)?;
+        if let Some(exchange) = exchange {
+            exchange.follow(kernel, recording, step)?;
         }
     }
     Ok(())

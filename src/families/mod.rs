@@ -55,7 +55,7 @@ pub use warnings::warnings;
 
 use crate::document::{FieldQuantity, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::numbers::grouped;
-use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::state::State;
 use crate::tessellation::Tessellation;
 use pictures::{CellValues, EnergyChart, MeshPictures};
@@ -196,7 +196,20 @@ pub(crate) trait Physics {
 
     /// What of it several ranks cannot share, in words; nothing where they can share all.
     fn unshared(&self, _: &Model) -> Vec<String> {
-        vec!["scenes of this kind run on one rank: only particles with pair forces can be shared".to_owned()]
+        vec![
+            "scenes of this kind run on one rank: particles with pair forces and shallow water can be shared"
+                .to_owned(),
+        ]
+    }
+
+    /// Rows of cells of a mesh, of which each of several ranks has whole ones; without a mesh the box is divided anywhere.
+    fn rows(&self) -> Option<Rows> {
+        None
+    }
+
+    /// The same kind of scene with a few particles, from which ranks find out whether they compute alike; a small fluid where there is none.
+    fn small_scene(&self, _: &Scene) -> Option<Scene> {
+        None
     }
 
     /// The plan of steps and reports, with what is measured.

@@ -13,11 +13,6 @@ pub trait StateLayout: Compared + Debug + Send + Sync {
     /// The buffers and textures that hold the state.
     fn buffers(&self) -> Vec<Array>;
 
-    /// Those of them that no step changes; the others hold particles or sums.
-    fn constant(&self) -> Vec<Array> {
-        Vec::new()
-    }
-
     /// The contents of [`Self::buffers`], with the particles in a given order of their ids.
     ///
     /// # Errors

@@ -3,7 +3,13 @@
 //! A position alone decides. Domains are bounded by integers, so that every adapter finds the same; a rank stores its own particles
 //! and copies of those within a halo around its domain.
 
+use super::PARTICLE_WORDS;
+use crate::shaders::Array;
 use crate::state::Units;
+use std::ops::Range;
+
+/// Places of particles that have gone are closed when they are more than this part of those that are taken.
+pub(crate) const FREE_SHARE: u64 = 8;
 
 /// Parts of the box on each axis, all alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +25,17 @@ pub struct Division {
 pub struct Domain {
     low: [u32; 4],
     width: [u32; 4],
+}
+
+/// Rows of cells of a mesh, one above the other along y, of which each rank has whole ones.
+///
+/// What cells do with their particles is rounded once a cell: a cell that two ranks shared would be rounded twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rows {
+    /// Number of rows.
+    pub count: u32,
+    /// Whether cells are centred on the nodes of the mesh, rather than between them.
+    pub centred: bool,
 }
 
 /// Bounds have to be beyond the cutoff as single precision finds it.
@@ -58,6 +75,48 @@ impl Division {
             (domain.low[axis], domain.width[axis]) = (low as u32, (high - low) as u32);
         }
         domain
+    }
+
+    /// The rows that a rank has.
+    pub(crate) fn rows(&self, rank: u32, rows: Rows) -> Range<u32> {
+        let bound = |place: u32| (u64::from(place) * u64::from(rows.count)).div_ceil(u64::from(self.parts[1])) as u32;
+        let place = self.place(rank)[1];
+        bound(place)..bound(place + 1)
+    }
+
+    /// The domain of a rank that has whole rows.
+    ///
+    /// ```
+    /// use mesoscope::plan::{Division, Rows};
+    ///
+    /// // Five rows for two ranks: three and two.
+    /// let (division, rows) = (Division { parts: [1, 2, 1] }, Rows { count: 5, centred: false });
+    /// let owner = |y: u32| (0..2).find(|&rank| division.domain_of_rows(rank, rows).contains([7, y, 0]));
+    /// let bound = (3_u64 << 32).div_ceil(5) as u32;
+    /// assert_eq!([0, bound - 1, bound, u32::MAX].map(owner), [Some(0), Some(0), Some(1), Some(1)]);
+    /// // The lowest row of cells that are centred on nodes begins below the end of the box.
+    /// let rows = Rows { centred: true, ..rows };
+    /// let owner = |y: u32| (0..2).find(|&rank| division.domain_of_rows(rank, rows).contains([7, y, 0]));
+    /// assert_eq!(owner(u32::MAX), Some(0));
+    /// ```
+    #[must_use]
+    pub fn domain_of_rows(&self, rank: u32, rows: Rows) -> Domain {
+        let mut domain = Domain { low: [0; 4], width: [0; 4] };
+        if self.parts[1] > 1 {
+            // The first fraction of a row, as `place_along` in shaders/mesh/mesh.wgsl finds rows.
+            let shift = if rows.centred { 1 << 31 } else { 0 };
+            let count = i64::from(rows.count);
+            let first = |row: u32| ((i64::from(row) << 32) - shift + count - 1).div_euclid(count) as u32;
+            let Range { start, end } = self.rows(rank, rows);
+            domain.low[1] = first(start);
+            domain.width[1] = first(end).wrapping_sub(first(start));
+        }
+        domain
+    }
+
+    /// All ranks but one.
+    fn others(&self, rank: u32) -> Vec<u32> {
+        (0..self.ranks()).filter(|other| *other != rank).collect()
     }
 
     /// The ranks around a rank with anything nearer to its part than a distance, each once and without it.
@@ -174,6 +233,87 @@ pub struct PlannedPart {
     pub room: u64,
     /// The kernel after which particles are exchanged, as an index into [`super::Plan::kernels`].
     pub exchange: usize,
+    /// How a particle lies in its array.
+    pub particle: ParticleWords,
+    /// Particles that are shared out; those after them all ranks have.
+    pub shared: u64,
+    /// Arrays that all ranks have whole, and alike.
+    pub whole: Vec<Array>,
+    /// The one of these that holds the particles after the shared ones, if there are any.
+    pub everywhere: Option<Array>,
+    /// What is added over all ranks within a step.
+    pub sum: Option<SharedSum>,
+}
+
+/// How a particle that passes from rank to rank lies in its array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ParticleWords {
+    /// Words of a particle.
+    pub count: usize,
+    /// Coordinates, in the first words.
+    pub axes: usize,
+    /// The word that holds its number.
+    pub number: usize,
+}
+
+impl ParticleWords {
+    /// The position of a particle.
+    pub(crate) fn position(&self, particle: &[u32]) -> [u32; 3] {
+        std::array::from_fn(|axis| if axis < self.axes { particle[axis] } else { 0 })
+    }
+}
+
+/// An array of integers that all ranks add to within a step, and then have whole.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SharedSum {
+    /// The array, of signed words. The least integer stands for one that is out of range, on one rank or in all.
+    pub array: Array,
+    /// The kernel after which it is summed, as an index into [`super::Plan::kernels`].
+    pub after: usize,
+    /// Words of the array.
+    pub length: u64,
+    /// Where each rank adds, in order of the ranks: everywhere else it has zeros.
+    pub stretches: Vec<Stretch>,
+}
+
+/// Words of an array that goes on at its beginning where it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stretch {
+    /// The first word.
+    pub first: u64,
+    /// Number of words.
+    pub count: u64,
+}
+
+impl SharedSum {
+    /// The parts of a stretch in the array, each from where on and how many words: one, or two of a stretch that goes past the end.
+    #[must_use]
+    pub fn pieces(&self, stretch: Stretch) -> [Stretch; 2] {
+        let before_end = stretch.count.min(self.length - stretch.first);
+        [Stretch { count: before_end, ..stretch }, Stretch { first: 0, count: stretch.count - before_end }]
+    }
+}
+
+impl PlannedPart {
+    /// Bytes of what is summed that it sends in a step.
+    #[must_use]
+    pub fn summed_bytes(&self) -> u64 {
+        let own = |sum: &SharedSum| sum.stretches.get(self.part.rank as usize).map_or(0, |stretch| stretch.count);
+        4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
+    }
+
+    /// All other ranks.
+    #[must_use]
+    pub fn others(&self) -> Vec<u32> {
+        self.part.division.others(self.part.rank)
+    }
+}
+
+/// How many of a number of particles, all over the box, are expected in a share of it: a fifth more than on average, and some; all of
+/// them at most. `growth` doublings more are expected in one place.
+fn expected(share: f64, particles: u64, growth: u32) -> u64 {
+    let some = (1.2 * share * particles as f64) as u64 + 1024;
+    some.saturating_mul(1 << growth.min(32)).min(particles)
 }
 
 /// How far around a domain particles have to be known for those within it to be advanced.
@@ -198,11 +338,7 @@ impl Part {
         let needed = own.with_halo(units, halo);
         let of_peers = peers.iter().map(|peer| division.domain(*peer).with_halo(units, halo));
         let of_bonds = bonded.map(|bonded| own.with_halo(units, bonded));
-        // A fifth more than on average, and some; all of them at most.
-        let expected = |share: f64| {
-            let some = (1.2 * share * particles as f64) as u64 + 1024;
-            some.saturating_mul(1 << growth.min(32)).min(particles)
-        };
+        let expected = |share: f64| expected(share, particles, growth);
         let ghosts = needed.share() - own.share();
         // Those of this step, and what arrives for the next before the copies are forgotten.
         let slots = expected(needed.share()) + expected(ghosts);
@@ -217,7 +353,50 @@ impl Part {
             slots,
             room,
             exchange: 0,
+            particle: ParticleWords { count: PARTICLE_WORDS as usize, axes: 3, number: 3 },
+            shared: particles,
+            whole: Vec::new(),
+            everywhere: None,
+            sum: None,
         }
+    }
+
+    /// The same of a rank that has whole rows of cells, and knows of no particles beyond them; a particle may go to any rank in a step.
+    pub(crate) fn plan_of_rows(self, rows: Rows, particle: ParticleWords, particles: u64, growth: u32) -> PlannedPart {
+        let Self { division, rank } = self;
+        let domain = |rank: u32| division.domain_of_rows(rank, rows);
+        let (own, peers) = (domain(rank), division.others(rank));
+        let expected = |share: f64| expected(share, particles, growth);
+        // A quarter of what it has.
+        let room = expected(0.25 * own.share());
+        PlannedPart {
+            part: self,
+            domains: [own, own].into_iter().chain(peers.iter().map(|peer| domain(*peer))).collect(),
+            peers,
+            halo: 0.0,
+            close: 0.0,
+            // Its own, as many free places as are left before they are closed, and what arrives in a step.
+            slots: expected(own.share()) + expected(own.share()) / FREE_SHARE + room,
+            room,
+            exchange: 0,
+            particle,
+            shared: particles,
+            whole: Vec::new(),
+            everywhere: None,
+            sum: None,
+        }
+    }
+
+    /// Where this rank and the others add to the nodes of a mesh that has so many columns: on the nodes of their rows of cells, so many
+    /// rows before these, and so many after.
+    pub(crate) fn stretches(self, rows: Rows, columns: u32, [before, after]: [u32; 2]) -> Vec<Stretch> {
+        let of_rank = |rank: u32| {
+            let Range { start, end } = self.division.rows(rank, rows);
+            let first = u64::from((start + rows.count - before % rows.count) % rows.count);
+            let count = u64::from((end - start + before + after).min(rows.count));
+            Stretch { first: first * u64::from(columns), count: count * u64::from(columns) }
+        };
+        (0..self.division.ranks()).map(of_rank).collect()
     }
 }
 
@@ -259,6 +438,32 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_rank_has_whole_rows_and_adds_to_their_nodes() {
+        let mut random = StdRng::seed_from_u64(7);
+        for (count, ranks, centred) in [(5, 2, false), (13, 13, true), (16, 3, true), (64, 7, false), (4093, 4, true)] {
+            let (rows, division) = (Rows { count, centred }, Division { parts: [1, ranks, 1] });
+            let domains: Vec<Domain> = (0..ranks).map(|rank| division.domain_of_rows(rank, rows)).collect();
+            let bounds = domains.iter().flat_map(|domain| [u32::MAX, 0, 1].map(|off| domain.low[1].wrapping_add(off)));
+            for y in bounds.chain((0..500).map(|_| random.random())).collect::<Vec<u32>>() {
+                let owners: Vec<u32> = (0..ranks).filter(|&rank| domains[rank as usize].contains([3, y, 0])).collect();
+                let shift = if centred { 1 << 31 } else { 0 };
+                let row = ((u64::from(y) * u64::from(count) + shift) >> 32) as u32 % count;
+                assert!(owners.len() == 1 && division.rows(owners[0], rows).contains(&row), "{y} in {rows:?}");
+            }
+            // Cubic splines: a row below and two above.
+            let part = Part { division, rank: 0 };
+            for (rank, stretch) in (0..).zip(part.stretches(rows, 10, [1, 2])) {
+                let Range { start, end } = division.rows(rank, rows);
+                assert_eq!(stretch.first, 10 * u64::from((start + count - 1) % count));
+                assert_eq!(stretch.count, 10 * u64::from((end - start + 3).min(count)));
+            }
+        }
+        let sum = SharedSum { array: Array::NodeMasses, after: 0, length: 50, stretches: Vec::new() };
+        let pieces = |first, count| sum.pieces(Stretch { first, count }).map(|piece| (piece.first, piece.count));
+        assert_eq!((pieces(10, 40), pieces(40, 30)), ([(10, 40), (0, 0)], [(40, 10), (0, 20)]));
     }
 
     /// Whoever may interact with a particle of a domain is known there, and whoever leaves a domain in a step is known to those that

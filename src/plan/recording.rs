@@ -32,6 +32,7 @@ impl Plan {
             needs_report: true,
             gathered: false,
             window: None,
+            whole: 0..0,
         });
         self.add_buffer(Array::PartialSums, 8 * quantities * groups);
         self.add_buffer(Array::Samples, 8 * (1 + SAMPLE_ROWS * (1 + quantities)));

@@ -2,6 +2,7 @@
 
 use crate::document::AnalysisId;
 use crate::shaders::Array;
+use std::ops::Range;
 
 /// What a sampler is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +47,8 @@ pub struct Sampler {
     pub gathered: bool,
     /// What stays on the device from one sample to the next, if anything.
     pub window: Option<Window>,
+    /// Sums that each of several ranks finds whole, by their places in a row; all others are added over the ranks.
+    pub whole: Range<usize>,
 }
 
 /// A window of samples, each compared with the first: a buffer of the plan holds the particles as they were then.

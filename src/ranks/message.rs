@@ -154,7 +154,8 @@ pub(super) fn read<Head: for<'de> Deserialize<'de>>(bytes: &[u8]) -> Result<(Hea
     if left.is_empty() { Ok((head, contents)) } else { Err(garbled()) }
 }
 
-/// Adds what another rank has of the arrays of a state: particles follow those that are there, and of all others the 64-bit sums are added.
+/// Adds what another rank has of the arrays of a state: particles follow those that are there, and of all others the 64-bit sums are
+/// added; a rank gives nothing of an array that all have whole.
 pub(super) fn join(contents: &mut Contents, other: Contents) {
     for (number, words) in other.into_iter().enumerate() {
         match contents.get_mut(number) {

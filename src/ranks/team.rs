@@ -5,6 +5,7 @@ use super::member::execute;
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
 use crate::plan::{PARTICLE_WORDS, Plan};
+use crate::shaders::Array;
 use crate::state::State;
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -161,7 +162,10 @@ impl<'a> Team<'a> {
         for (sampler, step, sums) in answer.samples {
             let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
             *added += 1;
-            for (total, sum) in total.iter_mut().zip(sums) {
+            // What every rank finds whole is that of the first.
+            let whole = self.engine.plan().samplers.get(sampler).map_or(0..0, |sampler| sampler.whole.clone());
+            let added = total.iter_mut().zip(sums).enumerate().filter(|(place, _)| rank == 0 || !whole.contains(place));
+            for (_, (total, sum)) in added {
                 *total = total.wrapping_add(sum);
             }
         }
@@ -180,11 +184,12 @@ impl<'a> Team<'a> {
         let plan = self.engine.plan();
         let count = plan.particles as usize;
         let problem = |reason: String| EngineError::Ranks { reason };
+        let shared = plan.part.as_ref().map_or(0, |part| part.shared * part.particle.count as u64);
         let layout = match &plan.reported {
             Some((_, layout)) if reported => layout,
             _ => &plan.layout,
         };
-        if contents.first().map_or(0, Vec::len) as u64 != plan.particles * u64::from(PARTICLE_WORDS) {
+        if contents.first().map_or(0, Vec::len) as u64 != shared {
             return Err(problem(LOST.to_owned()));
         }
         let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
@@ -237,6 +242,14 @@ impl Stepper for Team<'_> {
 
     fn take_samples(&mut self) -> Vec<Sample> {
         std::mem::take(&mut self.collected)
+    }
+
+    fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError> {
+        if self.plan().part.as_ref().is_some_and(|part| part.whole.contains(&array)) {
+            return self.engine.words(array);
+        }
+        let reason = format!("`{}` lies on several devices", array.name());
+        Err(EngineError::State { reason })
     }
 
     fn state(&mut self) -> Result<State, EngineError> {

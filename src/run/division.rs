@@ -4,7 +4,7 @@ use super::RunError;
 use super::plan::plan;
 use crate::families::Model;
 use crate::numbers::grouped;
-use crate::plan::{Division, Hardware, Options, PARTICLE_WORDS, Part, PlannedPart, SamplerId};
+use crate::plan::{Division, Domain, Hardware, Options, PARTICLE_WORDS, Part, PlannedPart, Sampler, SamplerId};
 use crate::scene::{AnalysisId, Scene};
 
 /// The most ranks that are looked for.
@@ -46,24 +46,28 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
     let (with_bonds, halo) = halo(scene, model);
     let reach = model.physics().reach(model);
     let most = most_parts(model, halo);
-    let width = |parts: &[u32; 3]| {
-        let axis = (0..dimension).find(|&axis| parts[axis] > most[axis]);
-        axis.map(|axis| {
-            format!(
-                "{} parts along {} are too thin: each has to be wider than {:.4}, and with {halo:.4} more on both sides \
-                 narrower than the box; at most {} fit",
-                parts[axis],
-                ["x", "y", "z"][axis],
+    let thin = |(axis, part): (usize, u32)| {
+        let (name, most) = (["x", "y", "z"][axis], most[axis]);
+        match model.physics().rows() {
+            Some(_) if axis == 1 => {
+                format!("{part} parts along y: the mesh has {most} rows of cells, and a part whole ones")
+            }
+            Some(_) => {
+                format!("{part} parts along {name}: parts are rows of cells of the mesh, one above the other along y")
+            }
+            None => format!(
+                "{part} parts along {name} are too thin: each has to be wider than {:.4}, and with {halo:.4} more on \
+                 both sides narrower than the box; at most {most} fit",
                 halo + reach,
-                most[axis]
-            )
-        })
+            ),
+        }
     };
     match asked {
-        Ranks::Parts(parts) => match width(&parts) {
-            Some(reason) => refuse(vec![reason]),
-            None => Ok(Division { parts }),
-        },
+        Ranks::Parts(parts) => {
+            let beyond = (0..dimension).filter(|&axis| parts[axis] > most[axis]);
+            let reasons: Vec<String> = beyond.map(|axis| thin((axis, parts[axis]))).collect();
+            if reasons.is_empty() { Ok(Division { parts }) } else { refuse(reasons) }
+        }
         Ranks::Count(count) => {
             let best = |count: u32| {
                 let fit = divisions(count, dimension)
@@ -77,6 +81,9 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
             best(count).map_or_else(
                 || {
                     let fits = (1..count.min(MOST)).rev().find(|fewer| best(*fewer).is_some()).unwrap_or(1);
+                    if model.physics().rows().is_some() {
+                        return refuse(vec![thin((1, count))]);
+                    }
                     refuse(vec![format!(
                         "no division of the box into {} parts leaves each wider than {:.4} ({halo:.4} around a part is \
                          known to its rank): {} ranks fit",
@@ -93,6 +100,9 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
 
 /// The most parts of each axis.
 fn most_parts(model: &Model, halo: f64) -> [u32; 3] {
+    if let Some(rows) = model.physics().rows() {
+        return [1, rows.count, 1];
+    }
     let reach = model.physics().reach(model);
     let mut most: [u32; 3] = std::array::from_fn(|axis| Division::most_parts(&model.units, halo, reach, axis));
     if model.particles().shear.is_some() {
@@ -102,23 +112,31 @@ fn most_parts(model: &Model, halo: f64) -> [u32; 3] {
     most
 }
 
-/// How far around its part a rank knows the particles, and how far it would without bonds.
-fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
-    planned(scene, model, Division { parts: [1; 3] }).map_or((0.0, 0.0), |part| (part.halo, part.close))
+/// Whether the parts of a division are wide enough for what their ranks have to know of each other.
+pub(super) fn fits(model: &Model, part: &PlannedPart) -> bool {
+    let most = most_parts(model, part.close);
+    (0..3).all(|axis| part.part.division.parts[axis] <= most[axis])
 }
 
-/// The part of the first rank of a division.
-fn planned(scene: &Scene, model: &Model, division: Division) -> Option<PlannedPart> {
+/// What the first rank of a division has.
+fn first_part(scene: &Scene, model: &Model, division: Division) -> Option<PlannedPart> {
     let options = Options { part: Some(Part { division, rank: 0 }), ..Options::default() };
     plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options).part
+}
+
+/// How far around its part a rank knows the particles, and how far it would without bonds.
+fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
+    first_part(scene, model, Division { parts: [1; 3] }).map_or((0.0, 0.0), |part| (part.halo, part.close))
 }
 
 /// What of a scene several ranks cannot share.
 fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
     let mut reasons = model.physics().unshared(model);
     let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+    let is_whole = |sampler: &Sampler| sampler.whole.len() == sampler.quantities;
     reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
         SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution | AnalysisId::ChainSizes) => None,
+        SamplerId::Analysis(_) if is_whole(sampler) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
     }));
     reasons
@@ -142,7 +160,7 @@ fn divisions(count: u32, dimension: usize) -> Vec<[u32; 3]> {
 }
 
 /// What one of the ranks that share a scene has to do.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Share {
     /// Lengths of its part of the box.
     pub lengths: [f64; 3],
@@ -154,8 +172,10 @@ pub struct Share {
     pub copies: f64,
     /// The ranks that it exchanges particles with.
     pub peers: usize,
-    /// Bytes that it sends in a step.
+    /// Bytes of these copies, and of what it adds on the nodes of a mesh, that it sends in a step.
     pub bytes: f64,
+    /// Nodes of the mesh that it adds to, and all of them, if there is a mesh.
+    pub nodes: Option<[u64; 2]>,
     /// The most ranks that fit.
     pub most: u32,
 }
@@ -175,19 +195,19 @@ pub struct Share {
 /// ```
 #[must_use]
 pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
-    let units = &model.units;
-    let (halo, close, peers) =
-        planned(scene, model, division).map_or((0.0, 0.0, 0), |part| (part.halo, part.close, part.peers.len()));
-    let particles = model.particle_count() as f64;
-    let own = division.domain(0);
-    let copies = (own.with_halo(units, halo).share() - own.share()) * particles;
+    let (units, planned) = (&model.units, first_part(scene, model, division));
+    let Some(PlannedPart { halo, close, domains, peers, shared, .. }) = &planned else { return Share::default() };
+    let [own, needed] = [0, 1].map(|place| domains.get(place).map_or(0.0, Domain::share) * *shared as f64);
+    let copies = if *halo > 0.0 { needed - own } else { 0.0 };
+    let summed = planned.as_ref().map_or(0, PlannedPart::summed_bytes);
     Share {
         lengths: std::array::from_fn(|axis| units.lengths[axis] / f64::from(division.parts[axis])),
-        halo,
-        own: own.share() * particles,
+        halo: *halo,
+        own,
         copies,
-        peers,
-        bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies,
-        most: most_parts(model, close).into_iter().product(),
+        peers: peers.len(),
+        bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies + summed as f64,
+        nodes: model.physics().rows().map(|_| [summed / 4 / peers.len().max(1) as u64, model.physics().nodes()]),
+        most: most_parts(model, *close).into_iter().product(),
     }
 }

@@ -2,10 +2,11 @@
 
 use super::RunError;
 use super::adapter::{open_adapter, plan_for};
+use super::division::fits;
 use crate::engine::{Engine, EngineError, Swap};
 use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::plan::{Division, Options, Part, Plan, PlannedPart};
+use crate::plan::{Division, Options, Part, Plan};
 use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
 use crate::scene::{self, Scene};
 use crate::state::State;
@@ -69,9 +70,7 @@ pub fn team<'a>(
 
 /// Refuses parts that are too thin for what their ranks have to know of each other.
 fn check_widths(model: &Model, plan: &Plan) -> Result<(), RunError> {
-    let reach = model.physics().reach(model);
-    let suits = |part: &PlannedPart| part.part.division.suits(&model.units, part.close, reach);
-    if plan.part.as_ref().is_some_and(suits) {
+    if plan.part.as_ref().is_some_and(|part| fits(model, part)) {
         return Ok(());
     }
     Err(RunError::Undividable { reasons: vec!["its parts are too thin for this scene".to_owned()] })
@@ -102,11 +101,20 @@ fn take_part<'a>(
 const SMALL: [&str; 3] = ["space.box=[5,5,5]", "time.equilibration=0", "output={}"];
 const STEPS: u64 = 8;
 
-/// This rank, with what its adapter makes of a small fluid by the integrator and the noise of a scene.
-fn introduction(gpu: &Gpu, scene: &Scene) -> Result<Introduction, RunError> {
+/// A small scene of the kind of a scene; else a small fluid with its integrator and noise.
+fn small_scene(scene: &Scene) -> Result<Scene, RunError> {
+    if let Some(small) = Model::new(scene).physics().small_scene(scene) {
+        return Ok(small);
+    }
     let mut small = scene::load("dpd-fluid", &SMALL.map(str::to_owned))?;
     small.integrator.clone_from(&scene.integrator);
     small.noise.clone_from(&scene.noise);
+    Ok(small)
+}
+
+/// This rank, with what its adapter makes of a small scene.
+fn introduction(gpu: &Gpu, scene: &Scene) -> Result<Introduction, RunError> {
+    let small = small_scene(scene)?;
     let model = Model::new(&small);
     let state = initial_state(&small, &model);
     let mut engine = Engine::new(gpu, plan_for(&small, &model, gpu, Options::default()).without_reports(), &state)?;

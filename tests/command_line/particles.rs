@@ -246,8 +246,7 @@ fn nothing_is_overwritten_unless_asked() {
 
 #[test]
 fn an_explosion_is_reported_with_its_step() {
-    let place =
-        place().with("/interactions/0/repulsion", json!(690)).with("/output/checkpoint", json!({"every": 10}));
+    let place = place().with("/interactions/0/repulsion", json!(690)).with("/output/checkpoint", json!({"every": 10}));
     let (scene, out) = (place.scene(), place.argument("out"));
     let message = fails(
         &["run", &scene, "--out", &out],

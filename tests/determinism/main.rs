@@ -14,6 +14,7 @@ mod particles;
 mod paths;
 mod ranks;
 mod ranks_bonds;
+mod ranks_of_water;
 mod relaxation;
 mod resumed_analyses;
 mod shallow_water;

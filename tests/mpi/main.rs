@@ -59,7 +59,12 @@ impl Run {
 
     #[track_caller]
     fn same(&self, one: &str, other: &str) {
-        for file in FILES {
+        self.same_files(&FILES, one, other);
+    }
+
+    #[track_caller]
+    fn same_files(&self, files: &[&str], one: &str, other: &str) {
+        for file in files {
             let [one, other] = [one, other].map(|name| fs::read(self.directory(name).join(file)).unwrap());
             assert!(!one.is_empty() && one == other, "{file}");
         }
@@ -131,6 +136,25 @@ fn processes_leave_the_bytes_of_one() {
             let output = run.command(ranks, &name).output().unwrap();
             assert!(output.status.success(), "{}", said(&output));
             run.same("ranks-1", &name);
+        }
+    }
+}
+
+/// Shallow water, whose ranks all exchange with each other, twice a step.
+#[test]
+fn processes_share_water() {
+    for bath in ["null", r#"{"type":"memory","epsilon":1}"#] {
+        let output = r#"output={"energies":{"every":3},"fields":{"quantities":["depth"]},"checkpoint":{"every":20}}"#;
+        let bath = format!("interactions.0.bath={bath}");
+        let set = ["temperature=1e-3", "interactions.0.mesh=[32,32]", "particles.0.count=16384", &bath, output];
+        let set = set.iter().flat_map(|change| ["--set", change]);
+        let arguments = ["run", "shallow-water", "--steps", "50", "--quiet"].into_iter().chain(set);
+        let run = Run { place: tempfile::tempdir().unwrap(), arguments: arguments.map(str::to_owned).collect() };
+        for ranks in [1, 2, 3, 4] {
+            let name = format!("ranks-{ranks}");
+            let output = run.command(ranks, &name).output().unwrap();
+            assert!(output.status.success(), "{}", said(&output));
+            run.same_files(&["energies.csv", "checkpoint.bin", "depth.png"], "ranks-1", &name);
         }
     }
 }

@@ -65,6 +65,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             walled_plans,
             sheared_plans,
             water_plans,
+            shared_water_plans,
             coupled_plans,
             noise_plans,
             bond_plans,
@@ -325,6 +326,27 @@ fn shared_bond_plans() -> Vec<(String, Plan)> {
                     &fluid(&changes),
                     options,
                 ));
+            }
+        }
+    }
+    plans
+}
+
+/// The same of shallow water, with particles that are followed and not.
+fn shared_water_plans() -> Vec<(String, Plan)> {
+    let mut plans = Vec::new();
+    for spline in [1, 2, 3].map(|order| format!("interactions.0.spline_order={order}")) {
+        let solver = r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":0.1}"#;
+        for mesh in [&["interactions.0.mesh=[32,32]"][..], &["interactions.0.mesh=[15,12]", solver]] {
+            for more in [&[][..], &[WATER_TRACERS, r#"output.trajectory={"every":5}"#]] {
+                let changes = [&[spline.as_str()], mesh, more].concat();
+                for (traversal, many_level_scan) in [(Traversal::Rows, false), (Traversal::Clusters, true)] {
+                    let part = Some(Part { division: Division { parts: [1, 3, 1] }, rank: 0 });
+                    let traversal = Some(traversal);
+                    let options = Options { traversal, many_level_scan, part, ..Options::default() };
+                    let name = format!("water {} {traversal:?} {many_level_scan} shared", changes.join(" "));
+                    plans.extend(plans_of(&name, &water(&changes), options));
+                }
             }
         }
     }
@@ -1147,8 +1169,8 @@ fn host_structs_lie_as_in_the_shaders() {
             Some((texture.words, u64::from(texture.size[0]) * u64::from(texture.size[1])))
         };
         if water.is_none_or(|layout| layout.bins.is_none()) {
-            let slots = plan.part.as_ref().map_or(plan.particles, |part| part.slots);
-            let particles = water.map_or(slots, |layout| layout.carriers as u64);
+            let all = water.map_or(plan.particles, |layout| layout.carriers as u64);
+            let particles = plan.part.as_ref().map_or(all, |part| part.slots);
             match (water, texels(Array::Particles)) {
                 (_, None) => {
                     let expected = (u64::from(stride) * particles).max(64).next_multiple_of(16);

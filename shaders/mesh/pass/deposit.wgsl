@@ -3,9 +3,8 @@
 // The moments Σ m xᵃ yᵇ of the cell are integer sums, so that their order does not matter; the masses of the nodes
 // follow from them, and what rounding leaves over goes to one node: no mass is lost.
 
-// The most that the integers of a cell hold, and what stands for more: a negative number that the nodes notice.
+// The most that the integers of a cell hold.
 const MOST_MASS: f32 = 2.1e9;
-const TOO_MUCH: i32 = i32(-2147483648);
 
 fn visit_cell(cell: u32) {
     if (cell == 0u) { begin_unsorted_step(); }

@@ -10,6 +10,7 @@ pub(crate) mod model;
 mod observables;
 mod plan;
 pub mod reference;
+mod small_scene;
 mod start;
 mod steady;
 pub mod surface;
@@ -26,7 +27,7 @@ use super::{
 };
 use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
 use crate::numbers::{grouped, with_error};
-use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
+use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::shaders::Constant;
 use crate::state::State;
 use reference::ShallowWaterReference;
@@ -119,6 +120,18 @@ impl Physics for ShallowWater {
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
         self::plan::plan(model, self, measured, hardware, options)
+    }
+
+    fn unshared(&self, _: &Model) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn rows(&self) -> Option<Rows> {
+        Some(Self::rows(self))
+    }
+
+    fn small_scene(&self, scene: &Scene) -> Option<Scene> {
+        Some(small_scene::of(scene))
     }
 
     fn particles_in_words(&self, count: u64) -> String {

@@ -6,6 +6,7 @@ use crate::document::{
 };
 use crate::families::BathStep;
 use crate::families::shallow_water::surface::Surface;
+use crate::plan::Rows;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -91,6 +92,11 @@ impl ShallowWater {
     #[must_use]
     pub fn nodes(&self) -> u64 {
         u64::from(self.mesh[0]) * u64::from(self.mesh[1])
+    }
+
+    /// Rows of cells of the mesh.
+    pub(super) fn rows(&self) -> Rows {
+        Rows { count: self.mesh[1], centred: self.spline_order == 2 }
     }
 
     /// Name and particle numbers of every group of tracers that form a closed loop.

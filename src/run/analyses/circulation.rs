@@ -64,6 +64,7 @@ impl Descriptor for Circulation {
             needs_report: true,
             gathered: false,
             window: None,
+            whole: 0..2 * tracers as usize,
         });
     }
 

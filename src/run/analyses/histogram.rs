@@ -110,6 +110,7 @@ impl Descriptor for Histogram {
             needs_report: true,
             gathered: false,
             window: None,
+            whole: 0..0,
         });
     }
 

@@ -80,6 +80,7 @@ impl PairHistogram<'_> {
             needs_report: ordered.needs_report,
             gathered: false,
             window: None,
+            whole: 0..0,
         });
     }
 

@@ -122,6 +122,7 @@ impl<'a> Planner<'a> {
             needs_report: true,
             gathered,
             window: sampler.window,
+            whole: 0..0,
         });
     }
 

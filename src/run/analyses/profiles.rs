@@ -100,6 +100,7 @@ impl Descriptor for Profiles {
             needs_report: true,
             gathered: false,
             window: None,
+            whole: 0..0,
         });
     }
 

@@ -50,10 +50,6 @@ impl StateLayout for CoupledLayout {
         self.particles.buffers().into_iter().chain(asked).collect()
     }
 
-    fn constant(&self) -> Vec<Array> {
-        self.tethers.then_some(Array::Tethers).into_iter().collect()
-    }
-
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         let mut contents = self.particles.pack(state, order)?;
         let count = state.len();

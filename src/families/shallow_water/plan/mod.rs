@@ -1,5 +1,6 @@
 //! The plan of shallow water.
 
+mod part;
 pub mod smoothing;
 mod steps;
 
@@ -9,3 +10,6 @@ use crate::plan::{
     Buffer, Contents, Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal,
     prefix_sum, words,
 };
+
+/// Bytes of a particle or tracer.
+const WATER: u64 = 24;

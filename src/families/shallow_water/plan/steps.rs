@@ -5,7 +5,9 @@
 
 use super::prefix_sum::PrefixSum;
 use super::smoothing::{self, smoothing};
-use super::{Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, words};
+use super::{
+    Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, WATER, words,
+};
 use crate::document::Integrator;
 use crate::families::shallow_water::{Bins, WaterLayout};
 use crate::families::{Model, ShallowWater};
@@ -17,8 +19,6 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
 /// mass on the nodes.
 const OBSERVABLES: u64 = 6;
-/// Bytes of a particle or tracer.
-const WATER: u64 = 24;
 /// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
 const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
@@ -40,10 +40,16 @@ pub(crate) fn plan(
     options: Options,
 ) -> PhysicsPlan {
     let eights = takes_eights(water, hardware, options);
-    let storage = options.storage.unwrap_or_else(|| best_storage(model, water, eights));
-    let texels = options.suits_serial_memory(hardware) && Texture::holds(places(model, water, storage), 4);
+    // Particles that come from other ranks and go there lie in a buffer, in any order.
+    let storage = options.storage.filter(|_| options.part.is_none());
+    let storage = if options.part.is_some() { Some(Storage::Sorted) } else { storage };
+    let storage = storage.unwrap_or_else(|| best_storage(model, water, eights));
+    let in_texels = options.part.is_none() && options.suits_serial_memory(hardware);
+    let texels = in_texels && Texture::holds(places(model, water, storage), 4);
     let plan = empty_plan(model, water, storage, texels);
-    let mut builder = Builder { model, water, options, storage, eights, texels, stride: 0.5, plan };
+    let slots = water.carriers;
+    let mut builder = Builder { model, water, options, storage, eights, texels, slots, stride: 0.5, plan };
+    builder.plan_part();
     builder.constants();
     builder.ordering();
     builder.depth();
@@ -150,22 +156,24 @@ fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
     }
 }
 
-struct Builder<'a> {
-    model: &'a Model,
-    water: &'a ShallowWater,
-    options: Options,
+pub(super) struct Builder<'a> {
+    pub(super) model: &'a Model,
+    pub(super) water: &'a ShallowWater,
+    pub(super) options: Options,
     storage: Storage,
     /// Whether the lanes of a subgroup take eight cells side by side.
     eights: bool,
     /// Whether particles are texels.
     texels: bool,
+    /// Places for particles, where they are sorted.
+    pub(super) slots: u64,
     /// The largest share of the box that a particle may go in a step.
     stride: f64,
-    plan: Plan,
+    pub(super) plan: Plan,
 }
 
 impl Builder<'_> {
-    fn tracers(&self) -> u64 {
+    pub(super) fn tracers(&self) -> u64 {
         self.model.particle_count() - self.water.carriers
     }
 
@@ -187,7 +195,7 @@ impl Builder<'_> {
             (Constant::Workgroup, self.options.workgroup() as f64),
             (Constant::CellsX, f64::from(water.mesh[0])),
             (Constant::CellsY, f64::from(water.mesh[1])),
-            (Constant::Particles, carriers),
+            (Constant::Particles, self.slots as f64),
             (Constant::Tracers, self.tracers() as f64),
             (Constant::FirstTracer, carriers),
             (Constant::KickX, kick(0)),
@@ -226,20 +234,26 @@ impl Builder<'_> {
 
     /// A kernel that visits the cells.
     fn cell_kernel(&mut self, name: &'static str, choices: &Choices) -> usize {
-        let (entry, lanes) = if self.eights {
-            (Entry::VisitMeshStrips, self.water.nodes() / STRIP)
+        let rows = self.visited_rows();
+        let (entry, lines) = if self.eights {
+            (Entry::VisitMeshStrips, rows.end.div_ceil(STRIP) - rows.start / STRIP)
         } else {
-            (Entry::VisitMeshCells, self.water.nodes())
+            (Entry::VisitMeshCells, rows.end - rows.start)
         };
-        self.kernel(name, entry, choices, lanes)
+        self.kernel(name, entry, choices, lines * u64::from(self.water.mesh[0]))
     }
 
     fn gyrates(&self) -> bool {
         self.model.integrator != Integrator::Rotate {}
     }
 
-    /// What is chosen for every kernel: the splines, where particles are kept, and what drives them.
+    /// What is chosen for every kernel.
     fn choices(&self) -> Choices {
+        self.choices_of_one_rank().and(&self.of_rank())
+    }
+
+    /// What is chosen however many ranks there are: the splines, where particles are kept, and what drives them.
+    fn choices_of_one_rank(&self) -> Choices {
         let choices = Choices::new()
             .with(match self.water.spline_order {
                 1 => mesh::Spline::Linear,
@@ -256,11 +270,10 @@ impl Builder<'_> {
             .with_if(self.water.bath.is_some(), mesh::Surface::Bath)
             .with_if(self.texels, arrays::Order::Texture);
         match self.storage {
-            Storage::Sorted => choices.with(water::Storage::Sorted).with(water::Sorted::BySort).with(if self.texels {
-                water::Particles::InPlaceTextures
-            } else {
-                water::Particles::InPlace
-            }),
+            Storage::Sorted => {
+                let in_place = if self.texels { water::Particles::InPlaceTextures } else { water::Particles::InPlace };
+                choices.with(water::Storage::Sorted).with(water::Sorted::BySort).with(in_place)
+            }
             Storage::Bins => choices.with(water::Storage::Bins).with(if self.texels {
                 water::Particles::BinsTextures
             } else {
@@ -270,7 +283,7 @@ impl Builder<'_> {
     }
 
     /// A kernel with a lane for each of some things.
-    fn kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, things: u64) -> usize {
+    pub(super) fn kernel(&mut self, name: &'static str, entry: Entry, choices: &Choices, things: u64) -> usize {
         let workgroups = things.div_ceil(self.options.workgroup());
         self.plan.add_kernel(Kernel::new(name, entry, self.choices().and(choices), workgroups))
     }
@@ -280,9 +293,9 @@ impl Builder<'_> {
         if self.storage == Storage::Bins {
             return;
         }
-        let carriers = self.water.carriers;
+        let slots = self.slots;
         let none = Choices::new();
-        let bin = self.kernel("bin", Entry::BinWater, &none, carriers);
+        let bin = self.kernel("bin", Entry::BinWater, &none, slots);
         self.plan.prepare.push(bin);
         let paired = self.water.mesh[0].is_multiple_of(2);
         let choices = Choices::new().with(grid::Dimension::Plane).with(if paired {
@@ -297,11 +310,11 @@ impl Builder<'_> {
             self.plan.sort.push(kernel);
         }
         let entry = if self.eights { Entry::OrderWaterOfEight } else { Entry::OrderWater };
-        let order = self.kernel("order", entry, &none, carriers);
+        let order = self.kernel("order", entry, &none, slots);
         self.plan.sort.push(order);
         let tidied = Choices::new().with(if self.texels { water::Tidied::Textures } else { water::Tidied::Buffers });
-        let tidy = self.kernel("tidy", Entry::TidyWater, &tidied, carriers);
-        let keep = self.kernel("keep_tidied", Entry::KeepTidiedWater, &tidied, carriers);
+        let tidy = self.kernel("tidy", Entry::TidyWater, &tidied, slots);
+        let keep = self.kernel("keep_tidied", Entry::KeepTidiedWater, &tidied, slots);
         let back = [(Array::Particles, Array::Tidied), (Array::Tidied, Array::Particles)];
         self.plan.kernels[keep].renamed.extend(back);
         if self.texels {
@@ -328,6 +341,7 @@ impl Builder<'_> {
             self.kernel("gather_nodes", Entry::GatherNodes, &none, nodes)
         };
         self.plan.before_report.extend([deposit, gather]);
+        self.add_up_nodes(gather);
         let lengths = [self.model.units.lengths[0], self.model.units.lengths[1]];
         let smoothing = smoothing(self.water, lengths, self.options);
         self.plan.buffers.extend(smoothing.buffers);
@@ -370,6 +384,7 @@ impl Builder<'_> {
         if self.tracers() > 0 {
             self.drifting();
         }
+        self.exchange(measured.follows);
         let width = f64::from(self.water.spline_order + 1);
         let per_cell = self.water.nodes() as f64 / self.water.carriers.max(1) as f64;
         // Moments and gradient of a particle; polynomials, contributions and transforms of a cell.
@@ -394,12 +409,13 @@ impl Builder<'_> {
     fn followers(&self) -> Vec<Kernel> {
         let groups = |things: u64| things.div_ceil(self.options.workgroup());
         let (entry, followed) = match self.storage {
-            Storage::Sorted => (Entry::FollowWater, self.water.carriers),
+            Storage::Sorted => (Entry::FollowWater, self.slots),
             Storage::Bins => (Entry::FollowBins, self.water.nodes()),
         };
         let mut kernels = vec![Kernel::new("follow", entry, self.choices(), groups(followed))];
-        if self.tracers() > 0 {
-            let stored = self.choices().with(water::Particles::InPlace);
+        // Tracers, which all ranks have, the first follows.
+        if self.tracers() > 0 && self.options.part.is_none_or(|part| part.rank == 0) {
+            let stored = self.choices_of_one_rank().with(water::Particles::InPlace);
             let follow = Kernel::new("follow_tracers", Entry::FollowWater, stored, groups(self.tracers()));
             let count = vec![(Constant::Particles, self.tracers() as f64)];
             kernels.push(follow.with(count).renamed(vec![(Array::Particles, Array::Tracers)]));
@@ -418,7 +434,7 @@ impl Builder<'_> {
     }
 
     fn buffers(&mut self) {
-        let (particles, nodes, rows) = (self.water.carriers, self.water.nodes(), u64::from(self.water.mesh[1]));
+        let (particles, nodes, rows) = (self.slots, self.water.nodes(), u64::from(self.water.mesh[1]));
         let width = u64::from(self.water.spline_order + 1);
         self.plan.add_buffer(Array::Control, 64);
         match self.storage {

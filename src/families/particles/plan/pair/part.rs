@@ -42,7 +42,9 @@ impl Builder<'_> {
     pub(super) fn plan_part(&mut self) {
         let Some(part) = self.options.part else { return };
         let (halo, reach) = (self.halo(), self.model.physics().reach(self.model));
-        let planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
+        let mut planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
+        // No step changes where tethers end.
+        planned.whole.extend(self.model.particles().tether.is_some().then_some(Array::Tethers));
         self.slots = planned.slots;
         self.plan.part = Some(planned);
     }
