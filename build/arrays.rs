@@ -65,7 +65,7 @@ pub const ARRAYS: &[Array] = &[
     table(
         "domains",
         "array<Domain>",
-        "the part of the box of this rank, the same with its halo, and those of its peers",
+        "the part of the box of this rank, the same with its halo, those of its peers, and that of its bonds",
     ),
     table("stored_number", "u32", "particles stored: its own, and copies of those of other ranks"),
     array("owned_slots", "array<u32>", "whether a particle is this rank's own in the step, by slot"),
