@@ -41,9 +41,8 @@ pub(crate) fn plan(
 ) -> PhysicsPlan {
     let eights = takes_eights(water, hardware, options);
     // Particles that come from other ranks and go there lie in a buffer, in any order.
-    let storage = options.storage.filter(|_| options.part.is_none());
-    let storage = if options.part.is_some() { Some(Storage::Sorted) } else { storage };
-    let storage = storage.unwrap_or_else(|| best_storage(model, water, eights));
+    let asked = if options.part.is_some() { Some(Storage::Sorted) } else { options.storage };
+    let storage = asked.unwrap_or_else(|| best_storage(model, water, eights));
     let in_texels = options.part.is_none() && options.suits_serial_memory(hardware);
     let texels = in_texels && Texture::holds(places(model, water, storage), 4);
     let plan = empty_plan(model, water, storage, texels);
