@@ -140,10 +140,11 @@ fn processes_leave_the_bytes_of_one() {
 /// Bonds that are longer than expected let all processes go back for wider halos.
 #[test]
 fn bonded_processes_leave_the_bytes_of_one() {
-    let chains = r#"particles=[{"species":"A","count":1500,"chain":{"beads":10,"spacing":1.6}}]"#;
+    let chains = r#"particles=[{"species":"A","count":1200,"chain":{"beads":10,"spacing":1.9}}]"#;
     let forces = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"angles","stiffness":2},
         {"type":"bonds","potential":{"type":"harmonic","stiffness":900,"length":0.5}}]"#;
-    let run = Run::of(60, &["--set", chains, "--set", forces, "--set", "time.step=0.01"]);
+    let run =
+        Run::of(60, &["--set", chains, "--set", forces, "--set", "time.step=0.002", "--set", "space.box=[5,5,18]"]);
     for ranks in [1, 2, 4] {
         let name = format!("ranks-{ranks}");
         let output = run.command(ranks, &name).output().unwrap();
