@@ -8,6 +8,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use mesoscope::output::Summary;
 use rand::{RngExt as _, SeedableRng as _, rngs::StdRng};
 use tempfile::TempDir;
 
@@ -156,6 +157,24 @@ fn processes_share_water() {
             assert!(output.status.success(), "{}", said(&output));
             run.same_files(&["energies.csv", "checkpoint.bin", "depth.png"], "ranks-1", &name);
         }
+    }
+}
+
+/// Bonds that are longer than expected let all processes go back for wider halos.
+#[test]
+fn bonded_processes_leave_the_bytes_of_one() {
+    let chains = r#"particles=[{"species":"A","count":1200,"chain":{"beads":10,"spacing":1.9}}]"#;
+    let forces = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"angles","stiffness":2},
+        {"type":"bonds","potential":{"type":"harmonic","stiffness":900,"length":0.5}}]"#;
+    let run =
+        Run::of(60, &["--set", chains, "--set", forces, "--set", "time.step=0.002", "--set", "space.box=[5,5,18]"]);
+    for ranks in [1, 2, 4] {
+        let name = format!("ranks-{ranks}");
+        let output = run.command(ranks, &name).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        let summary = Summary::load(&run.directory(&name).join("run.json")).unwrap();
+        assert!(summary.ranks.is_none_or(|shared| shared.halo > 3.0));
+        run.same("ranks-1", &name);
     }
 }
 
