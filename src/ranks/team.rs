@@ -4,7 +4,7 @@ use super::Channel;
 use super::member::execute;
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
-use crate::plan::{PARTICLE_WORDS, Plan};
+use crate::plan::{PARTICLE_WORDS, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::State;
 use std::collections::BTreeMap;
@@ -245,11 +245,22 @@ impl Stepper for Team<'_> {
     }
 
     fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError> {
-        if self.plan().part.as_ref().is_some_and(|part| part.whole.contains(&array)) {
+        let plan = self.plan();
+        let is_of_first =
+            |sampler: &Sampler| sampler.gathered && sampler.window.is_some_and(|window| window.buffer == array);
+        let is_whole = plan.part.as_ref().is_some_and(|part| part.whole.contains(&array));
+        if is_whole || plan.samplers.iter().any(is_of_first) {
             return self.engine.words(array);
         }
         let reason = format!("`{}` lies on several devices", array.name());
         Err(EngineError::State { reason })
+    }
+
+    fn continue_window(&mut self, sampler: usize, taken: u64, words: &[u32]) -> Result<(), EngineError> {
+        if self.plan().samplers.get(sampler).is_some_and(|sampler| sampler.gathered) {
+            return self.engine.continue_window(sampler, taken, words);
+        }
+        Err(EngineError::State { reason: "windows of samples lie on several devices".to_owned() })
     }
 
     fn state(&mut self) -> Result<State, EngineError> {

@@ -10,6 +10,9 @@ use crate::scene::{AnalysisId, Scene};
 /// The most ranks that are looked for.
 const MOST: u32 = 4096;
 
+/// What the first of several ranks measures, of the particles of all.
+const GATHERED: [AnalysisId; 3] = [AnalysisId::ChainSizes, AnalysisId::Diffusion, AnalysisId::Viscosity];
+
 /// What a user asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ranks {
@@ -135,7 +138,8 @@ fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
     let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
     let is_whole = |sampler: &Sampler| sampler.whole.len() == sampler.quantities;
     reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
-        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution | AnalysisId::ChainSizes) => None,
+        SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
+        SamplerId::Analysis(id) if GATHERED.contains(&id) => None,
         SamplerId::Analysis(_) if is_whole(sampler) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
     }));

@@ -74,11 +74,11 @@ fn everything_that_hinders_is_told() {
     place.scene["integrator"] = json!({"type": "cotter-reich"});
     place.scene["interactions"][1]["friction"] = json!(3);
     place.scene["interactions"][1]["bath"] = json!({"type": "memory", "rate": 2});
-    place.scene["output"]["viscosity"] = json!({"every": 2, "window": 8});
+    place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
         "baths with memory: on one rank only",
         "unless steps are split",
-        "`output.viscosity` is measured on one device",
+        "`output.profiles` is measured on one device",
     ];
     fails(&["run", &place.scene(), "--out", &place.argument("out"), "--ranks", "2"], 2, &reasons);
 }

@@ -79,28 +79,32 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
     }
 }
 
-/// What was saved by one number of ranks goes on with another.
+/// That what was saved by ranks of one division goes on with the bytes of one rank, by ranks of another and alone.
+#[track_caller]
+pub fn continues(scene: &Scene, [first, second]: [[u32; 3]; 2]) {
+    const FIRST: u64 = 11;
+    let alone = bytes::run(scene, Options::default(), STEPS, 8);
+    let (_, state) = start(scene);
+    let mut before = team(scene, Division { parts: first }, Options::default(), &state);
+    before.advance(FIRST, 4).unwrap();
+    let kept = before.state().unwrap();
+    let mut samples = before.finish().unwrap();
+    samples.retain(|sample| sample.step < FIRST);
+    let mut after = team(scene, Division { parts: second }, Options::default(), &kept);
+    after.advance(STEPS - FIRST, 8).unwrap();
+    assert!(same(&alone, &harvest(after, samples.clone())), "by ranks");
+    let mut after = crate::support::engine(scene, &kept, Options::default());
+    after.advance(STEPS - FIRST, 8).unwrap();
+    assert!(same(&alone, &harvest(after, samples)), "alone");
+}
+
 #[test]
 fn ranks_continue_from_each_others_states() {
-    const FIRST: u64 = 11;
-    for (changes, [first, second]) in [
+    for (changes, divisions) in [
         (vec![SPLITTING, "space.box=[4,4,13]"], [[1, 1, 2], [1, 1, 3]]),
         (vec![PREDICTED, "space.box=[12,16]", MIXTURE, MIXTURE_FORCE], [[1, 4, 1], [2, 1, 1]]),
     ] {
-        let scene = scene(&changes);
-        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
-        let (_, state) = start(&scene);
-        let mut before = team(&scene, Division { parts: first }, Options::default(), &state);
-        before.advance(FIRST, 4).unwrap();
-        let kept = before.state().unwrap();
-        let mut samples = before.finish().unwrap();
-        samples.retain(|sample| sample.step < FIRST);
-        let mut after = team(&scene, Division { parts: second }, Options::default(), &kept);
-        after.advance(STEPS - FIRST, 8).unwrap();
-        assert!(same(&alone, &harvest(after, samples.clone())), "{changes:?} by ranks");
-        let mut after = crate::support::engine(&scene, &kept, Options::default());
-        after.advance(STEPS - FIRST, 8).unwrap();
-        assert!(same(&alone, &harvest(after, samples)), "{changes:?} alone");
+        continues(&scene(&changes), divisions);
     }
 }
 

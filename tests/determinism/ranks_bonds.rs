@@ -6,7 +6,7 @@ use mesoscope::plan::{Division, Options};
 use mesoscope::run;
 use mesoscope::scene::Scene;
 
-use super::ranks::{EVERY_THIRD, FOLLOWED, STEPS, team};
+use super::ranks::{EVERY_THIRD, FOLLOWED, STEPS, continues, team};
 use crate::support::bytes::{self, Bytes, same};
 use crate::support::{COTTER_REICH, GROOT_WARREN, PREDICTED, SPLITTING, STAGED, built_in, fluid, hardware, start};
 
@@ -146,25 +146,12 @@ fn chains_are_measured_as_by_one_rank() {
 /// What was saved by one number of ranks goes on with another.
 #[test]
 fn bonded_ranks_continue_from_each_others_states() {
-    const FIRST: u64 = 11;
-    for (list, [first, second]) in [
+    for (list, divisions) in [
         (vec![PAIRS, RUBBING], [[1, 1, 2], [1, 1, 3]]),
         (vec![PAIRS, SPRINGS, ANGLES, TETHERS], [[1, 1, 4], [1, 1, 2]]),
     ] {
         let scene = scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS, FOLLOWED], &list);
-        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
-        let (_, state) = start(&scene);
-        let mut before = team(&scene, Division { parts: first }, Options::default(), &state);
-        before.advance(FIRST, 4).unwrap();
-        let kept = before.state().unwrap();
-        let mut samples = before.finish().unwrap();
-        samples.retain(|sample| sample.step < FIRST);
-        let mut after = team(&scene, Division { parts: second }, Options::default(), &kept);
-        after.advance(STEPS - FIRST, 8).unwrap();
-        assert!(same(&alone, &bytes::harvest(after, samples.clone())), "{list:?} by ranks");
-        let mut after = crate::support::engine(&scene, &kept, Options::default());
-        after.advance(STEPS - FIRST, 8).unwrap();
-        assert!(same(&alone, &bytes::harvest(after, samples)), "{list:?} alone");
+        continues(&scene, divisions);
     }
 }
 

@@ -3,12 +3,13 @@
 
 use mesoscope::output::checkpoint::{self, Checkpoint};
 use mesoscope::output::{Summary, files};
+use mesoscope::plan::Division;
 use mesoscope::run::{Event, Interrupt, Outcome, RunError, Simulation};
 use mesoscope::scene::{self, Scene};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::support::{adapter, cells, fluid, water};
+use crate::support::{GROOT_WARREN, PREDICTED, SPLITTING, adapter, cells, fluid, water};
 
 /// Steps of a run, the last of them in the middle of windows.
 const STEPS: u64 = 42;
@@ -30,10 +31,10 @@ fn run(scene: &Scene, directory: &Path) -> Outcome {
     Simulation::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
-/// Runs a scene until it is interrupted at a step after the first.
-fn run_until(scene: &Scene, directory: &Path, step: u64) {
+/// Runs a scene in slabs until it is interrupted at a step after the first.
+fn run_until(scene: &Scene, directory: &Path, step: u64, slabs: u32) {
     let interrupt = Interrupt::default();
-    let run = Simulation::start(scene.clone(), directory, true).until(&interrupt);
+    let run = Simulation::start(scene.clone(), directory, true).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
     let stopped = run.execute(&adapter(), &mut |event| match event {
         // The interrupt is seen after one step more.
         Event::Advanced(progress) if progress.step + 1 >= step => interrupt.ask(),
@@ -47,6 +48,11 @@ fn run_until(scene: &Scene, directory: &Path, step: u64) {
 
 fn resume(directory: &Path) -> Result<Outcome, RunError> {
     Simulation::resume(directory, None)?.execute(&adapter(), &mut |_| {})
+}
+
+/// Ranks one above the other along z.
+fn of_slabs(slabs: u32) -> Division {
+    Division { parts: [1, 1, slabs] }
 }
 
 /// Everything in the directory of a finished run; of its summary and checkpoint what does not tell of the clock.
@@ -82,7 +88,7 @@ fn goes_on(scene: &Scene, steps: &[u64]) {
     let whole = contents(&whole);
     for step in steps {
         let parts = directory.path().join(format!("until {step}"));
-        run_until(scene, &parts, *step);
+        run_until(scene, &parts, *step, 1);
         resume(&parts).unwrap();
         let parts = contents(&parts);
         assert!(parts.keys().eq(whole.keys()), "{step}: {:?}, not {:?}", parts.keys(), whole.keys());
@@ -112,6 +118,29 @@ fn particles_go_on_at_any_step() {
     let scene = small(&fluid(&["space.box=[3,3,3]", "time.step=0.02"]), EVERYTHING);
     // During equilibration, at the first sample, in the middle of a window, and on its edge.
     goes_on(&scene, &[6, 9, 18, 21]);
+}
+
+/// Of several ranks the first measures by number what all have, and its windows go on with others.
+#[test]
+fn ranks_go_on_with_windows_of_each_other() {
+    let changes = [&EVERYTHING[..5], &EVERYTHING[EVERYTHING.len() - 1..]].concat();
+    for (number, integrator) in [SPLITTING, GROOT_WARREN, PREDICTED].into_iter().enumerate() {
+        let scene = small(&fluid(&["space.box=[3,3,10]", "time.step=0.02", integrator]), &changes);
+        let directory = tempfile::tempdir().unwrap();
+        let whole = directory.path().join("whole");
+        run(&scene, &whole);
+        let [first, second] = [[1, 3], [3, 2], [2, 1]][number];
+        let parts = directory.path().join("parts");
+        run_until(&scene, &parts, 18, first);
+        let resumed = Simulation::resume(&parts, None).unwrap().on_ranks(Some(of_slabs(second)));
+        resumed.execute(&adapter(), &mut |_| {}).unwrap();
+        let [whole, parts] = [contents(&whole), contents(&parts)];
+        // The summary says how many ranks there were.
+        let differing: Vec<&String> =
+            whole.keys().filter(|name| *name != files::SUMMARY && whole.get(*name) != parts.get(*name)).collect();
+        assert!(differing.is_empty(), "{first} ranks, then {second}: {differing:?}");
+        assert!(whole.contains_key("diffusion.csv") && whole.contains_key("viscosity.csv"), "{:?}", whole.keys());
+    }
 }
 
 #[test]
@@ -183,7 +212,7 @@ fn harmonic_chains_go_on() {
 fn sections_of_another_length_are_refused() {
     let scene = small(&fluid(&["space.box=[3,3,3]", "time.step=0.02"]), EVERYTHING);
     let directory = tempfile::tempdir().unwrap();
-    run_until(&scene, directory.path(), 18);
+    run_until(&scene, directory.path(), 18, 1);
     let path = directory.path().join(files::CHECKPOINT);
     let saved = std::fs::read(&path).unwrap();
     let Checkpoint { run_id, scene, state, files: written, sections } = checkpoint::load(&path).unwrap();
@@ -223,7 +252,7 @@ fn sections_of_another_length_are_refused() {
 fn a_changed_momentum_is_told() {
     let scene = small(&fluid(&["space.box=[3,3,3]", "time.step=0.02", "output.energies.every=5"]), &[]);
     let directory = tempfile::tempdir().unwrap();
-    run_until(&scene, directory.path(), 18);
+    run_until(&scene, directory.path(), 18, 1);
     let path = directory.path().join(files::CHECKPOINT);
     let Checkpoint { run_id, scene, mut state, files: written, sections } = checkpoint::load(&path).unwrap();
     state.momenta[7][1] += 2;

@@ -38,8 +38,9 @@ impl Descriptor for Diffusion {
     fn add_sampler(&self, planner: &mut Planner<'_>) {
         let Some(asked) = &planner.output.diffusion else { return };
         let unit = planner.model.units.momentum;
+        let measured = planner.measured();
         let plan = &mut *planner.plan;
-        plan.add_buffer(TRACKERS, 64 * plan.particles);
+        plan.add_buffer(TRACKERS, 64 * measured);
         let constants = vec![
             (Constant::Window, asked.window as f64),
             (Constant::Displacement, 1.0 / plan.quanta.length_squared),

@@ -72,6 +72,12 @@ impl<'a> Planner<'a> {
         self.plan.particles.div_ceil(self.options.workgroup()).max(1)
     }
 
+    /// Particles that this device measures by id: of several ranks the first measures all of them.
+    pub(super) fn measured(&self) -> u64 {
+        let measures = self.plan.part.as_ref().is_none_or(|part| part.part.rank == 0);
+        if measures { self.plan.particles } else { 1 }
+    }
+
     /// A kernel that reads the particles by id, if they are reported.
     pub(super) fn kernel_of_particles(
         &self,
@@ -94,10 +100,8 @@ impl<'a> Planner<'a> {
     pub(super) fn add_sums(&mut self, sampler: &SumSampler) {
         let gathered = self.plan.part.is_some();
         if gathered && !self.plan.has_buffer(Array::Reported) {
-            // The other ranks do not measure.
-            let first = self.plan.part.as_ref().is_some_and(|part| part.part.rank == 0);
-            let particles = if first { self.plan.particles } else { 1 };
-            self.plan.add_buffer(Array::Reported, 4 * u64::from(PARTICLE_WORDS) * particles);
+            let bytes = 4 * u64::from(PARTICLE_WORDS) * self.measured();
+            self.plan.add_buffer(Array::Reported, bytes);
         }
         let groups = self.groups();
         let rows = vec![(Array::PartialSums, sampler.sums), (Array::Samples, sampler.samples)];
