@@ -2,9 +2,9 @@
 //! the last bit.
 //!
 //! The first rank decides what is done and writes the files; the others do what it tells them ([`serve`]). Together they look like one
-//! engine ([`Team`]). At the end of every step each rank gives others the particles that these have to know ([`crate::engine::Swap`]), and
-//! on a mesh in the middle of it what it adds there; sums of integers are added over ranks, in whatever order. How messages pass is behind two small traits,
-//! of which ranks that are threads of one process ([`threads`]) are one case.
+//! engine ([`Team`]). At the end of every step each rank gives others the particles that these have to know ([`crate::engine::Swap`]),
+//! and in the middle of it what it adds to the nodes of a mesh; sums of integers are added over ranks, in whatever order. How messages
+//! pass is behind two small traits, of which ranks that are threads of one process ([`threads`]) are one case.
 
 mod member;
 mod message;
