@@ -9,7 +9,7 @@ use crate::document::{Scene, SpeciesNames, Velocities, Warning};
 /// use mesoscope::{families, scene};
 ///
 /// assert!(families::warnings(&scene::load("dpd-fluid", &[])?).is_empty());
-/// let coarse = scene::load("dpd-fluid", &["time.step=0.5".to_owned()])?;
+/// let coarse = scene::load("dpd-fluid", &["time.step=0.1".to_owned()])?;
 /// assert!(families::warnings(&coarse).iter().any(|warning| warning.path == "time.step"));
 /// # Ok::<(), scene::SceneError>(())
 /// ```
