@@ -65,6 +65,18 @@ fn features() -> Vec<Feature> {
         Feature { name, scene, never, off, on }
     };
     let tracers = |count: &str| TRACERS.replace("COUNT", count);
+    let push = |force: &str| {
+        format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},
+                {{"type":"body-force","profile":"opposed","axis":"y","force":[{force},0,0]}}]"#
+        )
+    };
+    let angles = |stiffness: &str| {
+        format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},
+                {{"type":"bonds","potential":{{"type":"harmonic","stiffness":4}}}},{{"type":"angles","stiffness":{stiffness}}}]"#
+        )
+    };
     vec![
         feature("the same scene again", FLUID, "", "", ""),
         feature(
@@ -87,6 +99,38 @@ fn features() -> Vec<Feature> {
             "",
             "interactions.0.pairs=[]",
             r#"interactions.0.pairs=[{"between":["A","A"],"repulsion":26}]"#,
+        ),
+        feature(
+            "density-dependent repulsion",
+            FLUID,
+            "",
+            "interactions.0.many_body=null",
+            r#"interactions.0.many_body={"repulsion":5,"cutoff":0.75}"#,
+        ),
+        feature(
+            "two stages of friction",
+            FLUID,
+            r#"integrator={"type":"splitting"}"#,
+            r#"integrator={"type":"splitting","relaxation":"mean-field"}"#,
+            r#"integrator={"type":"splitting","relaxation":"two-stages"}"#,
+        ),
+        feature("two walls", FLUID, "", "space.walls={}", r#"space.walls={"z":{"reflection":"bounce-back"}}"#),
+        feature("shear", FLUID, "", "space.shear=null", r#"space.shear={"rate":0.2,"flow":"x","gradient":"y"}"#),
+        feature("body force", FLUID, "", &push("0"), &push("0.05")),
+        feature("stress, every 20", FLUID, "", "output.stress=null", r#"output.stress={"every":20}"#),
+        feature(
+            "profiles, every 20",
+            FLUID,
+            "",
+            "output.profiles=null",
+            r#"output.profiles={"axis":"z","bins":20,"every":20}"#,
+        ),
+        feature(
+            "viscosity, every 5",
+            FLUID,
+            "",
+            "output.viscosity=null",
+            r#"output.viscosity={"every":5,"window":200}"#,
         ),
         feature(
             "radial distribution, every 20",
@@ -118,6 +162,7 @@ fn features() -> Vec<Feature> {
             r#"interactions.0.bath={"type":"memory","rate":10}"#,
         ),
         feature("friction of bonds", COUPLED, "", "interactions.1.friction=0", "interactions.1.friction=2"),
+        feature("angles", COUPLED, "", &angles("0"), &angles("2")),
         feature(
             "bonds that spare repulsion",
             COUPLED,

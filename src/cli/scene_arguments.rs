@@ -24,11 +24,29 @@ pub struct SceneArguments {
 }
 
 impl SceneArguments {
+    /// The scene as further commands take it, with its changes.
+    pub fn as_argument(&self) -> String {
+        let seed = self.seed.map(|seed| format!("seed={seed}"));
+        let changes = self.set.iter().cloned().chain(seed);
+        let changes: Vec<String> = changes.map(|change| format!(" --set {}", quoted(&change))).collect();
+        quoted(&self.scene) + &changes.concat()
+    }
+
     /// The scene with all changes applied, checked, and what was shortened to suit the number of steps.
     pub fn load(&self) -> Result<(Scene, Vec<Warning>), SceneError> {
         let mut overrides = self.set.clone();
         overrides.extend(self.seed.map(|seed| format!("seed={seed}")));
         scene::load_for(&self.scene, &overrides, self.steps)
+    }
+}
+
+/// A text as one word of a POSIX shell.
+fn quoted(text: &str) -> String {
+    let is_plain = |symbol: char| symbol.is_alphanumeric() || "-_./=,:+@%".contains(symbol);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
     }
 }
 

@@ -24,6 +24,7 @@ pub(crate) fn check(scene: &Scene, step: StepCheck, problems: &mut Problems) {
     if has_places && model.physics().may_refuse_starts() && model.particle_count() <= MOST_TRIED {
         model.physics().check_start(scene, &model, &initial_state(scene, &model), problems);
     }
+    model.physics().check_capacity(scene, &model, problems);
     if step == StepCheck::Refuse {
         model.physics().check_step(scene, &model, problems);
         speeds::check(scene, &model, problems);

@@ -38,7 +38,7 @@ pub use model::{Model, Species};
 pub use observables::{CellObservables, Observables, OnWalls, PutIn};
 pub use particles::Particles;
 pub(crate) use particles::chains::mirrored;
-pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT};
+pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, FRICTION_LIMIT};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
@@ -172,6 +172,11 @@ pub(crate) trait Physics {
         None
     }
 
+    /// Choices of a scene that take time and change nothing that is likely to be measured, in words.
+    fn unneeded(&self, _: &Scene, _: &Model) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Warnings about a scene without mistakes.
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;
 
@@ -190,6 +195,9 @@ pub(crate) trait Physics {
 
     /// Refuses a start that integers or forces cannot hold.
     fn check_start(&self, _: &Scene, _: &Model, _: &State, _: &mut Problems) {}
+
+    /// Refuses what integers or kernels cannot hold, which would go wrong without a sign of it.
+    fn check_capacity(&self, _: &Scene, _: &Model, _: &mut Problems) {}
 
     /// Refuses a time step that is certainly unstable.
     fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}

@@ -221,6 +221,12 @@ impl Model {
         self.physics().picture()
     }
 
+    /// Choices of its scene that take time and change nothing that is likely to be measured, in words.
+    #[must_use]
+    pub fn unneeded(&self, scene: &Scene) -> Vec<String> {
+        self.physics().unneeded(scene, self)
+    }
+
     /// Warnings about its scene.
     #[must_use]
     pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {

@@ -172,7 +172,8 @@ pub(crate) fn parse_with(
     parse_checked(name, text, overrides, steps, step, Source::File(files))
 }
 
-/// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known.
+/// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known. Nor is the time step
+/// refused: whoever let the run begin has decided that.
 ///
 /// # Errors
 /// As [`parse`].
@@ -182,7 +183,7 @@ pub(crate) fn parse_kept(
     overrides: &[String],
     start: Option<Arc<FileStart>>,
 ) -> Result<Scene, SceneError> {
-    Ok(parse_checked(name, text, overrides, None, StepCheck::Refuse, Source::Kept(start))?.0)
+    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow, Source::Kept(start))?.0)
 }
 
 /// Where what a scene keeps of the file of its state comes from.
@@ -320,7 +321,7 @@ pub(crate) fn with_overrides(
     Ok(text + "\n")
 }
 
-/// A scene that has been changed, checked like one that is read.
+/// A scene that has been changed, checked like one that is kept.
 ///
 /// # Errors
 /// As [`parse`]; mistakes are said to be in `name`.

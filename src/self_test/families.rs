@@ -2,6 +2,7 @@
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
+use crate::families::reference::Stepper;
 use crate::families::{self, Model};
 use crate::gpu::Gpu;
 use crate::plan::{Hardware, Options};
@@ -188,11 +189,18 @@ impl Case {
 
 /// The state after one step of the reference.
 fn reference_step(model: &Model, start: &State) -> Result<State, String> {
-    let words = |error: crate::families::reference::Unstable| format!("the reference: {error}");
-    let missing = || "the reference does not support this scene".to_owned();
-    let mut reference = model.physics().reference(model, start).ok_or_else(missing)?;
-    reference.step().map_err(words)?;
+    let mut reference = reference_of(model, start)?;
+    advance(&mut *reference, 1)?;
     Ok(reference.state().clone())
+}
+
+fn reference_of(model: &Model, start: &State) -> Result<Box<dyn Stepper>, String> {
+    let missing = || "the reference does not support this scene".to_owned();
+    model.physics().reference(model, start).ok_or_else(missing)
+}
+
+fn advance(reference: &mut dyn Stepper, steps: u64) -> Result<(), String> {
+    (0..steps).try_for_each(|_| reference.step()).map_err(|error| format!("the reference: {error}"))
 }
 
 /// What a step changes of a state.
@@ -249,19 +257,25 @@ fn deviation(start: &State, found: &State, expected: &State) -> (f64, Quantity) 
     worst
 }
 
-/// How far the state after one step of a scene is from that of the float64 reference: the largest difference, as a part of the largest
-/// change of the step.
+/// How far a scene is from its float64 reference after one step, and after so many: the largest difference, as a part of the largest change
+/// since the start.
 ///
 /// # Errors
-/// Why there is no such step, in words.
-pub(crate) fn distance_from_reference(gpu: &Gpu, scene: &Scene) -> Result<f64, String> {
+/// Why there are no such steps, in words.
+pub(crate) fn distances_from_reference(gpu: &Gpu, scene: &Scene, steps: u64) -> Result<[f64; 2], String> {
     let model = Model::new(scene);
     let start = families::initial_state(scene, &model);
     let words = |error: EngineError| error.to_string();
     let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::from(gpu), Options::default());
     let mut device = Engine::new(gpu, plan.without_reports(), &start).map_err(words)?;
-    device.advance(1, 1).map_err(words)?;
-    Ok(deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?).0)
+    let mut reference = reference_of(&model, &start)?;
+    let mut distance_after = |steps: u64| {
+        device.advance(steps, steps.max(1)).map_err(words)?;
+        advance(&mut *reference, steps)?;
+        Ok::<_, String>(deviation(&start, &device.state().map_err(words)?, reference.state()).0)
+    };
+    let first = distance_after(1)?;
+    Ok([first, if steps > 1 { distance_after(steps - 1)? } else { first }])
 }
 
 /// What may never change in a scene, by name.

@@ -46,6 +46,8 @@ pub struct Variant {
     pub scene: Scene,
     /// What was shortened in it to suit the number of steps.
     pub notices: Vec<Warning>,
+    /// Why a run of it alone would be refused: its time step is beyond what any scheme is stable with. Only where that is allowed.
+    pub(crate) refusal: Option<String>,
     /// Number of the value of each variation; empty for a variant that is none of the combinations.
     pub(crate) places: Vec<usize>,
 }
@@ -77,10 +79,11 @@ impl Sweep {
         also: &[String],
     ) -> Result<Self, StudyError> {
         let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
-        Self::of_text(&name, &text, (set, steps), vary, also, StateFiles::of(&name))
+        Self::of_text(&name, &text, (set, steps), vary, also, StateFiles::of(&name), StepCheck::Refuse)
     }
 
-    /// Varies a scene that was read already; `name` is what messages call it, `files` are those that its scenes start from.
+    /// Varies a scene that was read already; `name` is what messages call it, `files` are those that its scenes start from, `step` is
+    /// whether a variant may have a time step that cannot be stable.
     pub(crate) fn of_text(
         name: &str,
         text: &str,
@@ -88,6 +91,7 @@ impl Sweep {
         vary: &[String],
         also: &[String],
         mut files: StateFiles,
+        step: StepCheck,
     ) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
         let mut read = Vec::new();
@@ -129,7 +133,7 @@ impl Sweep {
             // The reader of scenes says what is wrong in better words.
             return Err(scene::parse(name, text, set).err().map_or_else(unreadable, StudyError::Scene));
         };
-        let variants = expand(name, text, (set, steps), &read, &further, &mut files)?;
+        let variants = expand(name, text, (set, steps), &read, &further, &mut files, step)?;
         Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, files, variants })
     }
 
@@ -142,7 +146,7 @@ impl Sweep {
         also: Vec<Vec<Setting>>,
         mut files: StateFiles,
     ) -> Result<Self, StudyError> {
-        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also, &mut files)?;
+        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also, &mut files, StepCheck::Refuse)?;
         Ok(Self { scene, base, set, steps, vary, also, files, variants })
     }
 
@@ -197,6 +201,7 @@ fn expand(
     vary: &[Variation],
     also: &[Vec<Setting>],
     files: &mut StateFiles,
+    step: StepCheck,
 ) -> Result<Vec<Variant>, StudyError> {
     let counts: Vec<usize> = vary.iter().map(|variation| variation.values.len()).collect();
     let combined = combinations(&counts).into_iter().map(|places| {
@@ -216,7 +221,14 @@ fn expand(
         let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
         let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
         let steps = steps.filter(|_| !sets_steps);
-        match scene::parse_with(files, name, text, &overrides, steps, StepCheck::Refuse) {
+        let read = |step| scene::parse_with(files, name, text, &overrides, steps, step);
+        let (found, refusal) = match (read(StepCheck::Refuse), step) {
+            (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
+                (read(StepCheck::Allow), problems.first().map(ToString::to_string))
+            }
+            (found, _) => (found, None),
+        };
+        match found {
             Ok((scene, notices)) => {
                 files.note(&scene);
                 // Values of one key differ, but a further variant may be one of the combinations.
@@ -227,7 +239,7 @@ fn expand(
                     continue;
                 }
                 let label = short.label(&settings);
-                variants.push(Variant { name: variant, label, settings, scene, notices, places });
+                variants.push(Variant { name: variant, label, settings, scene, notices, refusal, places });
             }
             Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => {
                 return Err(StudyError::Scene(error));

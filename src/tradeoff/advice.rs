@@ -2,7 +2,7 @@
 
 use super::deviation::Deviation;
 use super::reference::Source;
-use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{short, with_error};
 use crate::study::{Setting, in_hours};
@@ -39,7 +39,9 @@ pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> St
         Source::Finer(_) => {
             let step = summary.finer.first().map_or(0.0, |run| run.time_step);
             let step = if step > 0.0 { format!(" of step {}", short(step)) } else { String::new() };
-            format!("compared with {value} of a finer run{step}")
+            let settings =
+                summary.arguments.finer.as_deref().map(|finer| format!(" with `{finer}`")).unwrap_or_default();
+            format!("compared with {value} of a finer run{step}{settings}, uncertain by what twice its step changes")
         }
     }
 }
@@ -98,6 +100,7 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     targets(&mut text, summary);
     table(&mut text, summary);
     costs(&mut text, summary);
+    conserved(&mut text, summary);
     for measure in &summary.measures {
         section(&mut text, summary, measure);
     }
@@ -129,7 +132,18 @@ pub(super) fn notes(summary: &TradeoffSummary) -> Vec<String> {
         }
     }
     notes.extend(same_runs(summary));
+    notes.extend(refused_steps(summary));
     notes
+}
+
+/// Choices that came to their end though a run of their scene alone is refused.
+fn refused_steps(summary: &TradeoffSummary) -> Vec<String> {
+    let finished = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Finished);
+    let note = |choice: &Choice| {
+        let refusal = choice.refusal.as_ref()?;
+        Some(format!("{} is never chosen, for `mesoscope run` refuses its scene: {refusal}.", choice.label))
+    };
+    finished.filter_map(note).collect()
 }
 
 /// Choices whose runs measure the same to the last digit: what tells them apart makes no difference to them.
@@ -202,7 +216,13 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
         }
         return;
     }
-    let _ = write!(text, "{bold}No choice meets the targets.{bold} ");
+    // One that `run` refuses may.
+    let whose = if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Meets)) {
+        "No choice that `mesoscope run` takes"
+    } else {
+        "No choice"
+    };
+    let _ = write!(text, "{bold}{whose} meets the targets.{bold} ");
     let of_nothing = parts_of_nothing(summary);
     if !of_nothing.is_empty() {
         for reason in of_nothing {
@@ -211,7 +231,8 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
         text.push_str("\n\n");
         return;
     }
-    if let Some((choice, target, factor)) = nearest(summary) {
+    let nearest = nearest(summary);
+    if let Some((choice, target, factor)) = nearest {
         let error = choice.error(&target.measure).map_or_else(String::new, error_in_words);
         let _ = write!(
             text,
@@ -224,7 +245,32 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
     if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open)) {
         text.push_str("Of some it is open: a smaller --error or a larger --budget decides it. ");
     }
+    let further = nearest.and_then(|(choice, target, _)| what_to_vary(summary, choice, target));
+    text.push_str(&further.unwrap_or_default());
     text.push_str("Vary other keys, or a smaller time step.\n\n");
+}
+
+/// Which of the keys that were varied matters most to what keeps the nearest choice from its target, judged by the choices that differ from it in
+/// this key alone.
+fn what_to_vary(summary: &TradeoffSummary, nearest: &Choice, target: &Target) -> Option<String> {
+    let own = nearest.error(&target.measure)?;
+    let others = summary.choices.iter().filter_map(|other| {
+        let mut differ = nearest.settings.iter().zip(&other.settings).filter(|(one, other)| one != other);
+        let ((_, setting), error) = (differ.next()?, other.error(&target.measure)?);
+        let alone = differ.next().is_none() && nearest.settings.len() == other.settings.len();
+        (alone && nearest.settings.iter().any(|one| one.key == setting.key)).then_some((setting, error))
+    });
+    let (setting, error) = others.max_by(|(_, a), (_, b)| a.size().total_cmp(&b.size()))?;
+    let is_seen =
+        error.size() > own.size() + 2.0 * error.uncertainty.unwrap_or(0.0).hypot(own.uncertainty.unwrap_or(0.0));
+    is_seen.then(|| {
+        format!(
+            "Of what was varied `{}` matters most: with {} it is off by {}; values beyond that of the nearest may be better. ",
+            setting.key,
+            setting.value,
+            error_in_words(error)
+        )
+    })
 }
 
 /// The choice whose worst error, as a multiple of its target, is least; with that target and the multiple.
@@ -277,6 +323,11 @@ fn table(text: &mut String, summary: &TradeoffSummary) {
             with_error(largest, None)
         );
     }
+    let stretches = summary.choices.iter().filter_map(|choice| choice.float64_stretch);
+    let farthest = stretches.filter(|stretch| stretch.steps > 1).max_by(|a, b| a.distance.total_cmp(&b.distance));
+    if let Some(Float64Stretch { steps, distance }) = farthest {
+        let _ = write!(text, " After {steps} steps it is {} of what they change.", with_error(distance, None));
+    }
     text.push_str("\n\n");
 }
 
@@ -297,6 +348,27 @@ fn costs(text: &mut String, summary: &TradeoffSummary) {
             with_error(cost.particle_steps_per_second, None),
             cost.bytes_per_particle
         );
+    }
+    text.push('\n');
+}
+
+/// What the runs have conserved, and how exactly.
+fn conserved(text: &mut String, summary: &TradeoffSummary) {
+    let finished: Vec<&Choice> =
+        summary.choices.iter().filter(|choice| choice.state == ChoiceState::Finished).collect();
+    let mut kinds: Vec<&[String]> = finished.iter().map(|choice| choice.conserved_exactly.as_slice()).collect();
+    kinds.sort();
+    kinds.dedup();
+    if finished.is_empty() {
+        return;
+    }
+    text.push_str("## What is conserved\n\n");
+    for kind in &kinds {
+        let own = finished.iter().filter(|choice| choice.conserved_exactly == *kind);
+        let labels: Vec<&str> = own.map(|choice| choice.label.as_str()).collect();
+        let whose = if kinds.len() == 1 { "all choices".to_owned() } else { labels.join("; ") };
+        let what = if kind.is_empty() { "nothing".to_owned() } else { kind.join("; ") };
+        let _ = writeln!(text, "- {whose}: {what}");
     }
     text.push('\n');
 }
@@ -385,6 +457,7 @@ fn unstable(text: &mut String, summary: &TradeoffSummary) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::made_up;
     use super::*;
 
     #[test]
@@ -410,5 +483,53 @@ mod tests {
     #[test]
     fn durations_are_in_units_of_their_size() {
         assert_eq!([7.0, 600.0, 10_000.0, 864_000.0].map(duration), ["7 s", "10 minutes", "3 hours", "10 days"]);
+    }
+
+    #[test]
+    fn the_choice_is_the_cheapest_that_meets_the_target_and_cheaper_ones_may_be_open() {
+        let steps = ["time.step=0.01,0.02,0.04"];
+        let choices = [(4.0, 20.01, 0.01), (2.0, 20.1, 0.01), (1.0, 20.2, 0.1)].map(Some);
+        let (_, summary) = made_up::summary(&steps, "1%", &choices);
+        let text = summary.advice();
+        assert!(text.starts_with("Choose step = 0.02, at 2 s a unit of simulated time"), "{text}");
+        assert!(text.contains("  time.step: 0.02\n") && text.contains("  time.steps: "), "{text}");
+        assert!(text.contains("Of what costs less it is open: step = 0.04."), "{text}");
+    }
+
+    #[test]
+    fn where_no_choice_meets_the_target_the_nearest_is_named_and_what_to_vary() {
+        let keys = ["time.step=0.02,0.04", "integrator.type=splitting,groot-warren"];
+        let choices = [(4.0, 20.6, 0.02), (3.0, 20.7, 0.02), (2.0, 22.0, 0.02), (1.0, 23.0, 0.02)].map(Some);
+        let (_, summary) = made_up::summary(&keys, "1%", &choices);
+        let text = summary.advice();
+        let nearest =
+            "No choice meets the targets. step = 0.02, type = splitting comes nearest: its pressure is off by ";
+        assert!(text.starts_with(nearest) && text.contains("3.2 times as much as it may be"), "{text}");
+        let most = "Of what was varied `time.step` matters most: with 0.04 it is off by 10.00 ± 0.10 %";
+        assert!(text.contains(most) && !text.contains("it is open"), "{text}");
+        // Where all are off alike nothing is said of what matters.
+        let alike = [(4.0, 20.6, 0.02), (3.0, 20.6, 0.02), (2.0, 20.6, 0.02), (1.0, 20.6, 0.02)].map(Some);
+        let text = made_up::summary(&keys, "1%", &alike).1.advice();
+        assert!(text.starts_with("No choice meets") && !text.contains("matters most"), "{text}");
+        // Nothing is near where all became unstable.
+        let text = made_up::summary(&keys, "1%", &[None; 4]).1.advice();
+        assert!(text.starts_with("No choice meets the targets. Vary other keys"), "{text}");
+    }
+
+    #[test]
+    fn the_page_says_what_is_conserved_and_by_which_choice() {
+        let (_, mut summary) =
+            made_up::summary(&["time.step=0.01,0.02"], "1%", &[Some((2.0, 20.0, 0.1)), Some((1.0, 20.0, 0.1))]);
+        for choice in &mut summary.choices {
+            choice.conserved_exactly = vec!["total mass".to_owned(), "total momentum, to the last bit".to_owned()];
+        }
+        let page_of = |summary: &TradeoffSummary| page(summary, "fluid");
+        assert!(page_of(&summary).contains("- all choices: total mass; total momentum, to the last bit\n"));
+        summary.choices[1].conserved_exactly.pop();
+        let text = page_of(&summary);
+        assert!(
+            text.contains("- step = 0.02: total mass\n") && text.contains("- step = 0.01: total mass; total"),
+            "{text}"
+        );
     }
 }

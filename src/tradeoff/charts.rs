@@ -130,3 +130,42 @@ impl<'a> Groups<'a> {
         names
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::made_up;
+    use super::*;
+    use crate::plot::{Scale, SeriesStyle};
+
+    #[test]
+    fn a_picture_has_the_front_the_rest_in_grey_the_target_and_error_bars() {
+        // Errors of 1, 2, 5 and 10 %: the third costs more than the second.
+        let made_up = [(8.0, 20.2, 0.02), (4.0, 19.6, 0.02), (5.0, 21.0, 0.04), (1.0, 22.0, 0.02)].map(Some);
+        let (request, summary) =
+            made_up::summary(&["time.step=0.01,0.02", "integrator.type=splitting,groot-warren"], "3%", &made_up);
+        let chart = chart(&summary, &request, made_up::MEASURE).unwrap();
+        let [panel] = &chart.panels[..] else { panic!("{chart:?}") };
+        assert_eq!((panel.x.scale, panel.y.scale), (Scale::Log, Scale::Log));
+        assert!(panel.y.label == "error of pressure (%)" && panel.x.label.ends_with("(s)"), "{panel:?}");
+        let series = |name: &str| panel.series.iter().find(|series| series.name == name).unwrap();
+        let places = |found: &Series| -> Vec<[f64; 2]> {
+            found.points.iter().map(|point| point.map(|number| (1e6 * number).round() / 1e6)).collect()
+        };
+        assert_eq!(places(series("Pareto front")), [[1.0, 10.0], [4.0, 2.0], [8.0, 1.0]]);
+        let grey = series("dominated");
+        assert_eq!((places(grey), grey.ink), (vec![[5.0, 5.0]], SeriesInk::Faint));
+        assert_eq!(grey.labels, ["splitting, step 0.02"]);
+        // What is on the front is in the colour of its integrator, with the step beside it.
+        assert_eq!(
+            (places(series("splitting")), &series("splitting").labels[..]),
+            (vec![[8.0, 1.0]], &["step 0.01".to_owned()][..])
+        );
+        assert_eq!(places(series("groot-warren")), [[4.0, 2.0], [1.0, 10.0]]);
+        let bars = grey.errors.as_ref().unwrap();
+        assert!((bars[0] - 0.2).abs() < 1e-12 && grey.style == SeriesStyle::Markers, "{grey:?}");
+        let [target] = &panel.references[..] else { panic!("{panel:?}") };
+        assert!(target.label == "target" && (target.value - 3.0).abs() < 1e-12, "{target:?}");
+        assert!(chart.subtitle.ends_with("which was given, bars: standard errors"), "{}", chart.subtitle);
+    }
+}

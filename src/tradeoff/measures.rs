@@ -27,7 +27,8 @@ const FEW_SAMPLES: f64 = 3.0;
 const FACES_A_CELL: f64 = 3.0;
 
 /// Columns that are assessed where nobody says which, if a run has them.
-const USUAL: [&str; 4] = ["temperature", "configurational_temperature", "pressure", "potential_energy"];
+const USUAL: [&str; 5] =
+    ["temperature", "configurational_temperature", "internal_temperature", "pressure", "potential_energy"];
 
 /// A number that was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -40,6 +40,8 @@ mod deviation;
 mod fields;
 pub mod files;
 mod length;
+#[cfg(test)]
+mod made_up;
 mod measures;
 mod pareto;
 mod reference;
@@ -62,5 +64,5 @@ pub use reference::{Reference, References, Source};
 pub use request::Request;
 pub use run::{Phase, TradeoffOutcome, TradeoffRun};
 pub(crate) use stretch::Stretch;
-pub use summary::{Choice, ChoiceState, TradeoffSummary, Wanted};
+pub use summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 pub use target::{Amount, Target, Verdict};

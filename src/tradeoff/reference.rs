@@ -181,6 +181,30 @@ mod tests {
     }
 
     #[test]
+    fn still_water_has_the_temperature_of_its_bath_and_a_flow_has_none_of_its_own() {
+        let load = |name: &str, set: &[&str]| {
+            scene::load(name, &set.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
+        };
+        let still = load("shallow-water-equilibrium", &[]);
+        let value = |measure: &str, scene: &Scene| predicted(measure, scene).map(|found| found.value);
+        assert_eq!(value("temperature", &still), Some(0.04));
+        // kT λ/c₀² with λ = π²/4 and c₀ = 2π: ε = 1 makes λ (c₀/4)² here.
+        let square = value("bath_square", &still).unwrap();
+        assert!((square / 0.0025 - 1.0).abs() < 1e-12, "{square}");
+        assert_eq!(value(ENERGY_DRIFT, &still), Some(0.0));
+        let white = load("shallow-water-equilibrium", &[r#"interactions.0.bath={"type":"white"}"#]);
+        assert_eq!((value("temperature", &white), value("bath_square", &white)), (Some(0.04), None));
+        for scene in [
+            load("shallow-water-memory", &[]),
+            load("shallow-water-equilibrium", &["particles.0.velocities.type=rest"]),
+            load("shallow-water-equilibrium", &["interactions.0.bath=null"]),
+            load("shallow-water-equilibrium", &["temperature=0"]),
+        ] {
+            assert_eq!((value("temperature", &scene), value("bath_square", &scene)), (None, None), "{}", scene.title);
+        }
+    }
+
+    #[test]
     fn momentum_is_predicted_where_it_is_kept() {
         let fluid = |set: &str| scene::load("dpd-fluid", &[set.to_owned()]).unwrap();
         for measure in ["momentum_x", "momentum_y", "momentum_z"] {

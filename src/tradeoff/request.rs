@@ -53,14 +53,14 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// The scene with these overrides.
-    fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
-        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Refuse)?.0)
+    /// The scene with these overrides; its step may be too large, for what becomes of it is a result.
+    pub(super) fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
+        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Allow)?.0)
     }
 }
 
 impl Request {
-    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does.
+    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be stable: they are run, too.
     ///
     /// # Errors
     /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
@@ -98,7 +98,7 @@ impl Request {
             return Err(StudyError::Arguments { mistakes });
         }
         let files = arguments.state_files.clone();
-        let sweep = Sweep::of_text(scene, text, (set, None), vary, also, files)?;
+        let sweep = Sweep::of_text(scene, text, (set, None), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
                 "`{FINER}` is the name of the run that references are taken from"

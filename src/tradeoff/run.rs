@@ -5,7 +5,7 @@ use super::length::{self, Extension, Worst};
 use super::measures;
 use super::request::{COARSER, FINER};
 use super::stretch::Stretch;
-use super::summary::{Choice, ChoiceState, TradeoffSummary, Wanted};
+use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 use super::target::Verdict;
 use super::{advice, charts, fields, files, table};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
@@ -20,8 +20,10 @@ use std::time::Instant;
 
 /// What of a budget the first runs may take: they say how long the others have to be.
 const PILOT_SHARE: f64 = 0.2;
-/// Particles up to which a step is compared with the float64 reference: it takes a processor seconds.
+/// Particles up to which a step is compared with the float64 reference: it takes a processor seconds. Of fewer particles as many more steps are,
+/// up to [`MOST_STEPS_COMPARED`].
 const MOST_COMPARED: usize = 50_000;
+const MOST_STEPS_COMPARED: usize = 16;
 /// Rows of the table of energies that a pilot has at least.
 const FEWEST_ROWS: f64 = 32.0;
 /// By what the runs are made longer where a verdict is open: it halves every uncertainty.
@@ -147,7 +149,7 @@ impl StudyRun<TradeoffSummary> {
         observer(StudyEvent::Phase { phase: &Phase::Timing, runs: 0 });
         self.time(&runs, adapter)?;
         self.summary.assess(&self.request)?;
-        self.choose();
+        self.summary.choose();
         observer(StudyEvent::Finishing);
         self.finish(&place, &gpu)
     }
@@ -292,9 +294,11 @@ impl StudyRun<TradeoffSummary> {
                 let spoilt = summary.unequilibrated.iter().flat_map(|found| &found.means);
                 entry.unequilibrated = spoilt.map(|mean| mean.quantity.clone()).collect();
                 (entry.state, entry.steps) = (ChoiceState::Finished, summary.steps);
+                entry.conserved_exactly = summary.conserved_exactly;
             }
             Err(error) if cost::is_unstable(&error) => {
                 (entry.measured, entry.unequilibrated) = (Vec::new(), Vec::new());
+                entry.conserved_exactly.clear();
                 entry.state = ChoiceState::Unstable;
                 entry.failure = error.to_string().lines().next().map(str::to_owned);
             }
@@ -404,22 +408,13 @@ impl StudyRun<TradeoffSummary> {
             if state.len() <= MOST_COMPARED && choice.float64_distance.is_none() {
                 let (name, scene) = &runs[index];
                 let gpu = run::adapter_for(scene, adapter).map_err(|error| StudyError::of_run(name, error))?;
-                choice.float64_distance = self_test::distance_from_reference(&gpu, scene).ok();
+                let steps = (MOST_COMPARED / state.len().max(1)).clamp(1, MOST_STEPS_COMPARED) as u64;
+                let found = self_test::distances_from_reference(&gpu, scene, steps).ok();
+                choice.float64_distance = found.map(|[of_step, _]| of_step);
+                choice.float64_stretch = found.map(|[_, distance]| Float64Stretch { steps, distance });
             }
         }
         Ok(())
-    }
-
-    /// The cheapest choice that meets all targets.
-    fn choose(&mut self) {
-        let cost = |choice: &&Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
-        let meets = self
-            .summary
-            .choices
-            .iter()
-            .filter(|choice| choice.verdict == Some(Verdict::Meets) && choice.cost.is_some());
-        let chosen = meets.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        self.summary.chosen = chosen.map(|choice| choice.name.clone());
     }
 
     fn finish(self, place: &RunDirectory, gpu: &Gpu) -> Result<TradeoffOutcome, StudyError> {

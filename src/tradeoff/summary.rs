@@ -93,6 +93,9 @@ pub struct Choice {
     pub state: ChoiceState,
     /// Why it ended early.
     pub failure: Option<String>,
+    /// Why a run of it alone is refused, where it is: its time step is beyond what any scheme is stable with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<String>,
     /// Its time step.
     pub time_step: f64,
     /// The steps that it has run.
@@ -101,15 +104,30 @@ pub struct Choice {
     pub cost: Option<Cost>,
     /// How far one step of the device is from one of the float64 reference, as a part of what the step changes; none for large systems.
     pub float64_distance: Option<f64>,
+    /// The same of some steps, as a part of what all of them change.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub float64_stretch: Option<Float64Stretch>,
     /// What was measured.
     pub measured: Vec<Measured>,
     /// Columns of the table of energies whose means include the way to equilibrium.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unequilibrated: Vec<String>,
+    /// What its run has conserved, and how exactly.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub conserved_exactly: Vec<String>,
     /// How far that is off.
     pub errors: Vec<Deviation>,
     /// Whether it meets the targets, if there are any.
     pub verdict: Option<Verdict>,
+}
+
+/// How far the device is from the float64 reference after some steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Float64Stretch {
+    /// The number of steps.
+    pub steps: u64,
+    /// The largest difference, as a part of the largest change since the start.
+    pub distance: f64,
 }
 
 /// How far a choice is.
@@ -133,12 +151,15 @@ impl Choice {
             run_id: None,
             state: ChoiceState::Waiting,
             failure: None,
+            refusal: None,
             time_step,
             steps: 0,
             cost: None,
             float64_distance: None,
+            float64_stretch: None,
             measured: Vec::new(),
             unequilibrated: Vec::new(),
+            conserved_exactly: Vec::new(),
             errors: Vec::new(),
             verdict: None,
         }
@@ -224,7 +245,7 @@ impl TradeoffSummary {
     /// What a choice changes in the scene, with the numbers of steps that cover the simulated time of the scene where the step differs.
     pub(super) fn lines_of(&self, choice: &Choice) -> Vec<Setting> {
         let mut settings = choice.settings.clone();
-        let parsed = |overrides: &[String]| scene::parse(&self.arguments.scene, &self.arguments.text, overrides).ok();
+        let parsed = |overrides: &[String]| self.arguments.scene(overrides).ok();
         let (_, _, overrides) = self.scene_of(choice);
         let Some((base, chosen)) = parsed(&self.arguments.set).zip(parsed(&overrides)) else { return settings };
         if base.time.step != chosen.time.step {
@@ -275,8 +296,10 @@ impl Record for TradeoffSummary {
 
     fn before(request: &Request) -> Self {
         let variants = request.sweep.variants();
-        let choice =
-            |variant: &Variant| Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step);
+        let choice = |variant: &Variant| Choice {
+            refusal: variant.refusal.clone(),
+            ..Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step)
+        };
         let reference = |name: &str| Choice::new(name, name, &[], 0.0);
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),

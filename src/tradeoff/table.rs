@@ -23,6 +23,8 @@ fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
             "particle_steps_per_second",
             "bytes_per_particle",
             "float64_distance",
+            "float64_steps",
+            "float64_distance_after",
         ]
         .map(str::to_owned),
     );
@@ -65,6 +67,8 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String>
     });
     cells.extend((0..5).map(|index| number(cost.map(|cost| cost[index]))));
     cells.push(number(choice.float64_distance));
+    cells.push(choice.float64_stretch.map_or_else(String::new, |stretch| stretch.steps.to_string()));
+    cells.push(number(choice.float64_stretch.map(|stretch| stretch.distance)));
     for measure in &summary.measures {
         let (value, error) = (choice.value(measure), choice.error(measure));
         cells.push(number(value.map(|value| value.value)));

@@ -37,6 +37,61 @@ fn borrowed(arguments: &[String]) -> Vec<&str> {
     arguments.iter().map(String::as_str).collect()
 }
 
+/// Water on a mesh is stable while no wave turns by more than its limit in a step, p = 1; well below the energy is kept, and beyond twice that
+/// no run lasts.
+#[test]
+fn water_is_stable_up_to_its_stiffest_wave() {
+    let place = Place::of(json!({
+        "title": "waves",
+        "space": {"box": [6.25, 6.25]},
+        "time": {"step": 0.02, "steps": 200},
+        "temperature": 0,
+        "particles": [{"species": "water", "count": 1024, "placement": {"type": "lattice"},
+            "velocities": {"type": "geostrophic"}}],
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": 6.25, "rotation": 6.25,
+            "smoothing": {"length": 0.8}, "surface": [{"type": "wave", "periods": [1, 1], "amplitude": 0.05}]}],
+        "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}},
+    }));
+    let further = ["--vary", "time.step=0.02..1.28/4", "--bisections", "1"];
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("p = 1, water spread evenly at"), "{said}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    assert_eq!(summary.measures, ["energy_drift"]);
+    let row = &summary.rows[0];
+    let limit = row.bounds.iter().chain(&row.outside).find(|bound| bound.law.starts_with("p = 1")).unwrap().at;
+    for cell in &row.cells {
+        let (right, lost) = (cell.value < 0.25 * limit, cell.value > 2.0 * limit);
+        assert!(!right || cell.verdict == Verdict::Right, "{limit}: {cell:?}");
+        assert!(!lost || cell.verdict >= Verdict::Unstable, "{limit}: {cell:?}");
+    }
+    assert!(row.cells.iter().any(|cell| cell.value < 0.25 * limit), "{row:?}");
+    assert!(row.cells.iter().any(|cell| cell.value > 2.0 * limit), "{row:?}");
+}
+
+/// Cells whose friction is solved for keep their temperature at steps at which the explicit scheme is far too hot, or ends.
+#[test]
+fn cells_are_right_with_steps_that_are_too_long_for_the_explicit_scheme() {
+    let place = Place::of(json!({
+        "title": "cells",
+        "space": {"box": [8, 8]},
+        "time": {"step": 0.05, "steps": 1200, "equilibration": 200},
+        "temperature": 1,
+        "particles": [{"species": "fluid", "count": 64, "mass": 5, "placement": {"type": "lattice", "jitter": 0.3},
+            "velocities": {"type": "thermal"}}],
+        "interactions": [{"type": "voronoi", "form": "gradient", "viscosity": 1, "molecular_mass": 0.02}],
+        "output": {"energies": {"every": 5}, "plot": {"width": 640, "height": 480}},
+    }));
+    let further = ["--vary", "integrator.type=splitting,euler", "--vary", "time.step=0.02,0.05", "--bisections", "0"];
+    let further = [&further[..], &["--tolerance", "20%", "--measure", "temperature"]].concat();
+    let said = succeeds(&borrowed(&arguments(&place, &further)));
+    assert!(said.contains("dt η/M = 1/20"), "{said}");
+    let summary = StabilitySummary::load(&place.path("out")).unwrap();
+    let verdicts = |row: usize| -> Vec<Verdict> { summary.rows[row].cells.iter().map(|cell| cell.verdict).collect() };
+    // Of 64 cells a row scatters by 1/8; of 50 units of time the mean by 3 %, judging from friction that forgets in ten.
+    assert_eq!(verdicts(0), [Verdict::Right, Verdict::Right], "{:?}", summary.rows[0]);
+    assert!(verdicts(1)[1] >= Verdict::Biased, "{:?}", summary.rows[1]);
+}
+
 /// With λₑ = αγ the mean square of q is (kT/K)(4 - B)/(4 - B - W): an excess of W/(4 - B - W), and no scheme is stable beyond B + W = 4,
 /// which is at dt = .4714 here.
 #[test]

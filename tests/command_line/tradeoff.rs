@@ -45,7 +45,7 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     let new = place.argument("new.json");
     let further = [
         "--vary",
-        "time.step=0.02,0.04,0.16",
+        "time.step=0.02,0.04,0.2",
         "--also",
         "integrator.type=groot-warren",
         "--measure",
@@ -64,10 +64,10 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     let out = place.path("out");
     let summary = TradeoffSummary::load(&out).unwrap();
     let labels: Vec<&str> = summary.choices.iter().map(|choice| choice.label.as_str()).collect();
-    assert_eq!(labels, ["step = 0.02", "step = 0.04", "step = 0.16", "type = groot-warren"]);
+    assert_eq!(labels, ["step = 0.02", "step = 0.04", "step = 0.2", "type = groot-warren"]);
     assert_eq!(summary.measures, ["temperature", "pressure"]);
     for choice in &summary.choices {
-        if choice.time_step == 0.16 {
+        if choice.time_step == 0.2 {
             assert_eq!(
                 (choice.state, choice.verdict, choice.cost),
                 (ChoiceState::Unstable, Some(Verdict::Misses), None)
@@ -81,6 +81,11 @@ fn choices_have_costs_and_errors_over_the_same_time() {
         assert!(cost.particle_steps_per_second > 0.0 && cost.bytes_per_particle > 64.0);
         // As the self-test of adapters demands.
         assert!(choice.float64_distance.is_some_and(|distance| distance > 0.0 && distance < 1e-4), "{choice:?}");
+        // Differences of steps add up, and what they change does, too; chance trades neighbours no faster than some steps.
+        let stretch = choice.float64_stretch.unwrap();
+        assert!(stretch.steps == 16 && stretch.distance > 0.0 && stretch.distance < 1e-3, "{choice:?}");
+        let exact = choice.conserved_exactly.iter().any(|what| what == "total momentum, to the last bit");
+        assert!(exact, "{:?}", choice.conserved_exactly);
         let table = read_table(&out.join(&choice.name).join(run_files::ENERGIES)).unwrap();
         assert_eq!(table.column("time").unwrap()[1], 0.16, "{}", choice.label);
         // The error is that of the mean in the run's own summary against what was given.
@@ -140,6 +145,37 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     let said = succeeds(&["tradeoff", "--resume", &place.argument("out")]);
     assert!(said.contains("small fluid: 0 runs") && !said.contains(", about"), "{said}");
     assert_eq!(fs::read(out.join("step=0.02").join(run_files::CHECKPOINT)).unwrap(), before);
+}
+
+/// A run refuses friction that relaxes a velocity more than twenty times in a step, though two stages stand twice that: such a choice is
+/// run like all others, with its errors and cost, and never chosen.
+#[test]
+fn a_step_that_a_run_refuses_is_a_choice_that_is_never_chosen() {
+    let place = place().with("/integrator", json!({"type": "splitting", "relaxation": "two-stages"}));
+    let strong = "interactions.0.friction=1500";
+    fails(&["run", &place.scene(), "--set", strong], 2, &["time.step", "friction"]);
+    let target = ["--vary", strong, "--measure", "temperature", "--target", "temperature=60%"];
+    let new = place.argument("new.json");
+    let written = [&target[..], &["--write", &new]].concat();
+    let said = fails(&borrowed(&arguments(&place, &written)), 2, &["no choice meets the targets, so"]);
+    assert!(!place.path("new.json").exists(), "{said}");
+    let summary = TradeoffSummary::load(&place.path("out")).unwrap();
+    let [choice] = &summary.choices[..] else { panic!("{:?}", summary.choices) };
+    // Of 192 particles one row has 6 %, and the mean of 40 no more.
+    assert_eq!((choice.state, choice.verdict), (ChoiceState::Finished, Some(Verdict::Meets)), "{choice:?}");
+    assert!(choice.cost.is_some() && choice.refusal.as_ref().is_some_and(|refusal| refusal.contains("time.step")));
+    let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
+    assert!(page.contains("No choice that `mesoscope run` takes meets the targets."), "{page}");
+    assert!(
+        page.contains("friction = 1500 is never chosen, for `mesoscope run` refuses its scene: time.step"),
+        "{page}"
+    );
+    // Beside one that a run takes; and what was begun goes on with it.
+    let both = ["--vary", "interactions.0.friction=4.5,1500", "--force"];
+    let said = succeeds(&borrowed(&arguments(&place, &[&both[..], &target[2..]].concat())));
+    assert!(said.contains("Choose friction = 4.5"), "{said}");
+    let said = succeeds(&["tradeoff", "--resume", &place.argument("out")]);
+    assert!(said.contains(": 0 runs"), "{said}");
 }
 
 /// The depth of a wave on 16² nodes after a short time: its distance from that of half the step shrinks with the step, and the
@@ -229,7 +265,7 @@ fn an_interrupted_tradeoff_goes_on() {
 /// What the run of the small fluid has to become longer for: the mean of 40 rows, each of which scatters by 6 %, errs by .95 % at least, and
 /// by more where rows depend on each other.
 fn longer(place: &Place) -> Request {
-    let vary = ["time.step=0.04,0.16".to_owned()];
+    let vary = ["time.step=0.04,0.2".to_owned()];
     let request = Request::load(&place.scene(), &[], &vary, &[]).unwrap();
     let length = Length { error: Some(ERROR), budget: None };
     request.with_length(length).with_measures(&["temperature".to_owned()]).unwrap()

@@ -31,6 +31,7 @@ fn water(mesh: [u32; 2], cells: f64, power: u32, solver: SmoothingSolver) -> Sha
         rotation: 0.0,
         smoothing: Smoothing { length: cells * LENGTHS[0] / f64::from(mesh[0]), power, solver },
         surface: Vec::new(),
+        starts_still: true,
         bath: None,
         mass_unit: 2_f64.powi(-24),
         carriers: 1,

@@ -14,14 +14,28 @@ const MUCH: f64 = 0.2;
 const FORGOTTEN: f64 = 1e-3;
 
 /// Rows of the overview.
-pub fn rows(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Vec<(&'static str, String)> {
+pub fn rows(
+    source: &str,
+    (scene, model): (&Scene, &Model),
+    plan: &Plan,
+    hardware: Hardware,
+) -> Vec<(&'static str, String)> {
     let steps = families::largest_steps(scene);
     let largest = |beyond: Beyond| steps.iter().find(|largest| largest.beyond == beyond);
     let words = |largest: &LargestStep| format!("up to a step of {} ({})", three_digits(largest.step), largest.law);
     let mut rows = Vec::new();
     rows.extend(largest(Beyond::Unstable).map(|largest| ("stable", format!("by theory {}", words(largest)))));
     rows.extend(largest(Beyond::Biased).map(|largest| ("reliable", format!("by experience {}", words(largest)))));
-    rows.extend(calibration::expected(scene).map(|expected| ("accuracy", expected.to_string())));
+    if !steps.is_empty() && scene.time.steps > 0 {
+        rows.push(("measure", format!("`mesoscope stability {source}` runs it with longer and longer steps")));
+    }
+    let (step, half) = (three_digits(scene.time.step), three_digits(0.5 * scene.time.step));
+    let unknown = || {
+        format!(
+            "not measured of a scene like this; `mesoscope tradeoff {source} --vary time.step={half},{step}` measures it"
+        )
+    };
+    rows.push(("accuracy", calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())));
     rows.extend(unneeded(scene, model, plan, hardware).into_iter().map(|what| ("pays for", what)));
     rows
 }
@@ -62,6 +76,7 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
             ));
         }
     }
+    found.extend(model.unneeded(scene));
     let idle: Vec<&str> =
         model.species.iter().filter(|species| species.count == 0).map(|species| species.name.as_str()).collect();
     if !idle.is_empty() {

@@ -14,6 +14,7 @@ pub(crate) mod plan;
 pub mod reference;
 pub(crate) mod stability;
 mod start;
+mod unneeded;
 mod warnings;
 
 pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
@@ -281,14 +282,11 @@ impl Physics for Particles {
         checks::walls::check_bonds(self, model, state, problems);
     }
 
-    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.are_coupled || self.are_sprung() {
-            stability::check(scene, model, problems);
-        }
-        if !self.are_coupled {
-            stability::check_friction(scene, model, problems);
-        }
-        stability::check_repulsion(scene, model, problems);
+    fn unneeded(&self, scene: &Scene, model: &Model) -> Vec<String> {
+        unneeded::unneeded(self, scene, model)
+    }
+
+    fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
         if let Some(shear) = &self.shear {
             checks::shear::check_step(scene, model, shear, problems);
         }
@@ -298,6 +296,16 @@ impl Physics for Particles {
         if let Some(forces) = &self.body_forces {
             checks::body_force::check_impulses(scene, model, forces, problems);
         }
+    }
+
+    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
+        if self.are_coupled || self.are_sprung() {
+            stability::check(scene, model, problems);
+        }
+        if !self.are_coupled {
+            stability::check_friction(scene, model, problems);
+        }
+        stability::check_repulsion(scene, model, problems);
     }
 
     fn unshared(&self, model: &Model) -> Vec<String> {

@@ -22,10 +22,10 @@ pub use plan::smoothing;
 use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
-    Beyond, Column, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables, Physics, PictureKind,
-    ShallowWater, Species, conservation,
+    BathStep, Beyond, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables, Physics,
+    PictureKind, ShallowWater, Species, column, conservation,
 };
-use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Velocities, Warning, brief};
+use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Velocities, Warning, brief};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::shaders::Constant;
@@ -77,6 +77,23 @@ impl Physics for ShallowWater {
         self.bath.is_none()
     }
 
+    /// A flow that a bath slows down is far from its temperature for as long as it flows.
+    fn has_thermostat(&self, model: &Model) -> bool {
+        self.starts_still && self.is_heated(model)
+    }
+
+    /// ⟨s²⟩ = kT λ/c₀² of the continuous motion of baths that remember and forget.
+    fn exact_means(&self, model: &Model) -> Vec<ExactMean> {
+        let forgets = |bath: &BathStep| bath.remembers() && bath.persistence < 1.0;
+        let bath = self.bath.filter(|bath| forgets(bath) && self.has_thermostat(model));
+        let mean = |bath: BathStep| ExactMean {
+            column: column::BATH_SQUARE.name,
+            continuous: model.temperature * bath.continuous_coupling / self.wave_speed.powi(2),
+            discrete: None,
+        };
+        bath.map(mean).into_iter().collect()
+    }
+
     fn is_resolved_by_particles(&self) -> bool {
         true
     }
@@ -104,6 +121,15 @@ impl Physics for ShallowWater {
             Limit { law: "p = 1, water spread evenly", share, beyond: Beyond::Unstable },
             Limit { law: "p at random places", share: share / self.clean_share(), beyond: Beyond::Unstable },
         ]
+    }
+
+    fn unneeded(&self, _: &Scene, _: &Model) -> Vec<String> {
+        let iterates = matches!(self.smoothing.solver, SmoothingSolver::Chebyshev { .. });
+        let transformable = self.mesh.iter().all(|nodes| nodes.is_power_of_two());
+        let [x, y] = self.mesh;
+        let found =
+            format!("the smoothing solver `chebyshev`: on {x} × {y} nodes `fft` is exact and cheaper at any tolerance");
+        (iterates && transformable).then_some(found).into_iter().collect()
     }
 
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {

@@ -2,7 +2,7 @@
 
 use super::layout::LARGEST_MASS;
 use crate::document::{
-    BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature,
+    BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature, Velocities,
 };
 use crate::families::BathStep;
 use crate::families::shallow_water::surface::Surface;
@@ -28,6 +28,8 @@ pub struct ShallowWater {
     pub smoothing: Smoothing,
     /// Features of the smoothed surface at the start.
     pub surface: Vec<SurfaceFeature>,
+    /// Whether it starts still: an even surface, and particles with thermal velocities.
+    pub starts_still: bool,
     /// Bath step on every node, coupled to its depth; the bath variable and its noise are scaled by 1/c₀.
     pub bath: Option<BathStep>,
     /// Value of one unit of integer mass; a power of two.
@@ -64,6 +66,9 @@ impl ShallowWater {
             groups.map(|group| group.resolved_count(&scene.space))
         };
         let carriers: u64 = count(false).sum();
+        let mut waters = scene.particles.iter().filter(|group| !group.tracer);
+        let starts_still =
+            interaction.surface.is_empty() && waters.all(|group| matches!(group.velocities, Velocities::Thermal));
         let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));
         let nodes = f64::from(interaction.mesh[0]) * f64::from(interaction.mesh[1]);
         let heaviest = LARGEST_DEPTH * nodes / carriers.max(1) as f64;
@@ -75,6 +80,7 @@ impl ShallowWater {
             rotation: interaction.rotation,
             smoothing: interaction.smoothing.clone(),
             surface: interaction.surface.clone(),
+            starts_still,
             bath: interaction.bath.as_ref().map(|bath| bath_step(bath, interaction, scene.time.step)),
             mass_unit,
             carriers,
@@ -304,6 +310,7 @@ mod tests {
             rotation: 0.0,
             smoothing: Smoothing::default(),
             surface: Vec::new(),
+            starts_still: true,
             bath: None,
             mass_unit: 1.0,
             carriers: 65_536,

@@ -90,11 +90,12 @@ impl Physics for Voronoi {
     }
 
     fn may_refuse_starts(&self) -> bool {
-        self.initial_masses != InitialMasses::Equal
+        self.initial_masses != InitialMasses::Equal || self.keeps_energy()
     }
 
     fn check_start(&self, scene: &Scene, _: &Model, state: &State, problems: &mut Problems) {
         start::check_masses(scene, self, &state.masses, problems);
+        start::check_places(self, state, problems);
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {

@@ -126,3 +126,16 @@ pub(super) fn check_masses(scene: &Scene, cells: &Voronoi, masses: &[u32], probl
     let path = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
     problems.push(Problem::new(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted));
 }
+
+/// Refuses cells with energy that start in one place: what passes between them has no bound, however short the step.
+pub(super) fn check_places(cells: &Voronoi, state: &State, problems: &mut Problems) {
+    if !cells.keeps_energy() {
+        return;
+    }
+    let mut places: Vec<(&[u32; 3], usize)> = state.positions.iter().zip(0..).collect();
+    places.sort_unstable();
+    let Some(pair) = places.windows(2).find(|pair| pair[0].0 == pair[1].0) else { return };
+    let found = format!("found cells {} and {} in one place", pair[0].1, pair[1].1);
+    let accepted = "cells some distance apart: the heat and work that pass between two in one place have no bound";
+    problems.push(Problem::new("particles", found, accepted));
+}

@@ -15,6 +15,7 @@ use crate::document::{
     LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
 use crate::families::{Bonds, Particles};
+use crate::numbers::grouped;
 
 /// Checks one interaction by itself.
 pub(crate) fn check_interaction(
@@ -297,9 +298,17 @@ fn check_integrator(scene: &Scene, problems: &mut Problems) {
     }
 }
 
-/// Where the velocities along bonds relax one after the other, a particle has few enough of them.
+/// Where the velocities along bonds relax one after the other, there are few enough of them, and a particle has few enough.
 pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
-    let Some((particle, bonds)) = particles.bonds.as_ref().and_then(Bonds::most_crowded) else { return };
+    let Some(bonds) = &particles.bonds else { return };
+    let rubbing = bonds.rubbing_count();
+    if rubbing > Bonds::MOST_IN_ROUNDS {
+        let found = format!("found `splitting` and {} bonds with friction", grouped(rubbing));
+        let accepted = format!("at most {}; or `cotter-reich`", grouped(Bonds::MOST_IN_ROUNDS));
+        problems.push(Problem::new("integrator.type", found, accepted));
+        return;
+    }
+    let Some((particle, bonds)) = bonds.most_crowded() else { return };
     let found = format!("found `splitting` and {bonds} bonds with friction at particle {particle}");
     let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_RUBBING);
     problems.push(Problem::new("integrator.type", found, accepted));

@@ -33,8 +33,9 @@ impl FixedImpulse {
     /// Whole units of a step: n steps add up to n times the impulse, less than a unit off.
     #[must_use]
     pub fn in_step(self, step: u64) -> i64 {
-        let until = |steps: u64| (i128::from(self.0) * i128::from(steps)) >> 32;
-        (until(step + 1) - until(step)) as i64
+        // Beyond the last number of a step there is one more.
+        let until = |steps: i128| (i128::from(self.0) * steps) >> 32;
+        (until(i128::from(step) + 1) - until(i128::from(step))) as i64
     }
 }
 

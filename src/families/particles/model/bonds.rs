@@ -3,7 +3,6 @@
 use super::topology::{Alike, Runs};
 use crate::document::{BondPotential, BondsInteraction, Scene};
 use crate::families::BathStep;
-use std::collections::HashMap;
 
 /// All bonds of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -107,15 +106,15 @@ impl Bonds {
     pub(crate) fn rounds(&self) -> Vec<Vec<(u32, Bond)>> {
         let mut rounds: Vec<Vec<(u32, Bond)>> = Vec::new();
         // A bit of each round that a particle has a bond in.
-        let mut taken: HashMap<u32, u64> = HashMap::new();
+        let mut taken = vec![0_u64; self.rubbed()];
         for (place, bond) in self.rubbing() {
-            let both = bond.ends.iter().fold(0, |both, end| both | taken.get(end).copied().unwrap_or(0));
+            let both = bond.ends.iter().fold(0, |both, end| both | taken[*end as usize]);
             let round = both.trailing_ones();
             if round >= Self::MOST_ROUNDS {
                 continue;
             }
             for end in bond.ends {
-                *taken.entry(end).or_default() |= 1 << round;
+                taken[end as usize] |= 1 << round;
             }
             if rounds.len() <= round as usize {
                 rounds.push(Vec::new());
@@ -132,14 +131,22 @@ impl Bonds {
     /// that from one round less than twice as many.
     pub(crate) const MOST_RUBBING: u32 = Self::MOST_ROUNDS / 2;
 
+    /// The most bonds with friction that are put into rounds: a list of them takes two gigabytes then.
+    pub(crate) const MOST_IN_ROUNDS: u64 = 1 << 27;
+
     /// A particle with more bonds with friction than that, and how many.
     pub(crate) fn most_crowded(&self) -> Option<(u32, u32)> {
-        let mut bonds: HashMap<u32, u32> = HashMap::new();
+        let mut bonds = vec![0_u32; self.rubbed()];
         for end in self.rubbing().flat_map(|(_, bond)| bond.ends) {
-            *bonds.entry(end).or_default() += 1;
+            bonds[end as usize] += 1;
         }
-        let most = bonds.into_iter().max_by_key(|(particle, bonds)| (*bonds, std::cmp::Reverse(*particle)));
+        let most = (0..).zip(bonds).max_by_key(|(particle, bonds)| (*bonds, std::cmp::Reverse(*particle)));
         most.filter(|(_, bonds)| *bonds > Self::MOST_RUBBING)
+    }
+
+    /// One more than the last particle with friction along a bond.
+    fn rubbed(&self) -> usize {
+        self.rubbing().flat_map(|(_, bond)| bond.ends).max().map_or(0, |last| last as usize + 1)
     }
 
     /// The bonds with friction, with their places among all.

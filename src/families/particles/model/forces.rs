@@ -24,7 +24,10 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
             let energy = force.repulsion(a, b).abs() * force.cutoff_between(a, b) + force.many_body_energy();
             moved([mass(a), mass(b)]) * energy
         });
-        squares.fold(0.0, f64::max).sqrt()
+        let of_pairs = squares.fold(0.0, f64::max).sqrt();
+        let density = species.iter().map(|species| species.count).sum::<u64>() as f64 / scene.space.volume();
+        // Of a crowd all forces of half a step have to fit, though most of them cancel.
+        of_pairs.max(force.many_body.map_or(0.0, |force| 0.5 * scene.time.step * force.strain(density)))
     });
     for interaction in &scene.interactions {
         most = most.max(match interaction {

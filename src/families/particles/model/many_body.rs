@@ -47,6 +47,11 @@ impl ManyBodyForce {
         0.25 * self.repulsion * self.cutoff * density * density / self.contact_density()
     }
 
+    /// The sum of the magnitudes of its forces on a particle among evenly spread ones of a density, 2Bρ²∫(1 - r/rd) dV.
+    pub(crate) fn strain(&self, density: f64) -> f64 {
+        2.0 * self.repulsion * density * density * self.sphere() / (self.dimension as f64 + 1.0)
+    }
+
     /// Volume of the sphere (disc) within its range.
     pub(crate) fn sphere(&self) -> f64 {
         match self.dimension {

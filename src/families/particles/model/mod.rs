@@ -29,7 +29,7 @@ pub use position::PositionBath;
 pub use pulse::{HalfPulse, Pulse, half_pulses};
 pub use shear::ShearedBox;
 pub use thermal_start::thermal_start;
-pub(crate) use time_scales::FREQUENCY_LIMIT;
+pub(crate) use time_scales::{FREQUENCY_LIMIT, FRICTION_LIMIT};
 pub(crate) use topology::Alike;
 pub use topology::ChainGroup;
 pub use walls::PlaneWalls;

@@ -4,7 +4,7 @@ use super::PairForce;
 use crate::families::{Model, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
-const FRICTION_LIMIT: f64 = 0.25;
+pub(crate) const FRICTION_LIMIT: f64 = 0.25;
 
 /// The same of friction that relaxes in two stages: temperatures are right beyond it too, but here particles diffuse a tenth too
 /// fast, and with more friction they diffuse as if it were less.

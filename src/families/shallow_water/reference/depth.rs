@@ -121,6 +121,7 @@ mod tests {
             rotation: 0.0,
             smoothing: crate::scene::Smoothing { length: 0.7, power, solver },
             surface: Vec::new(),
+            starts_still: true,
             bath: None,
             mass_unit: 1.0,
             carriers: 0,
