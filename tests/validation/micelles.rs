@@ -15,17 +15,19 @@ const TOUCH: f64 = 0.8;
 /// Molecules from which on a cluster is a micelle and no chance meeting.
 const FEWEST: usize = 5;
 
+/// The molecule by which the cluster of another one is known.
+fn root(parents: &mut [usize], mut molecule: usize) -> usize {
+    while parents[molecule] != molecule {
+        parents[molecule] = parents[parents[molecule]];
+        molecule = parents[molecule];
+    }
+    molecule
+}
+
 /// The numbers of molecules in clusters, whose tails touch, largest first.
 fn clusters(state: &State, model: &Model) -> Vec<usize> {
     let molecules = model.particles().bonds.as_ref().unwrap().count() as usize / (BEADS - 1);
     let mut parents: Vec<usize> = (0..molecules).collect();
-    fn root(parents: &mut [usize], mut molecule: usize) -> usize {
-        while parents[molecule] != molecule {
-            parents[molecule] = parents[parents[molecule]];
-            molecule = parents[molecule];
-        }
-        molecule
-    }
     let tails = |molecule: usize| BEADS * molecule + 1..BEADS * (molecule + 1);
     for first in 0..molecules {
         for second in 0..first {
